@@ -82,15 +82,6 @@ struct Lengths {
   }
 };
 
-// An edge between two nodes that may be in several pieces.
-struct KeyedEdge {
-  NodeKey p, q;  // p < q
-  double length, distance, middle[3];
-
-  bool operator<(const KeyedEdge &other) const { return std::tie(p, q) < std::tie(other.p, other.q); }
-  bool operator==(const KeyedEdge &other) const { return p == other.p && q == other.q; }
-};
-
 KeyedEdge edge_between(NodeKey p, NodeKey q, double length) {
   if (q < p) std::swap(p, q);
   return {p, q, length, 0, {0, 0, 0}};
@@ -216,6 +207,165 @@ void PieceOutput::finish() {
   ranks::agree();
 }
 
+// ---- Parts of a marking ----
+
+MeshFile read_piece(const MarkOptions &options, const MeshPieces &pieces, std::int64_t piece, Seconds &seconds) {
+  const Stage stage("reading " + view(pieces.files())[piece], options.quiet);
+  MeshFile file = pieces.read(piece);
+  seconds.read += stage.seconds();
+  return file;
+}
+
+std::vector<SharedNode> shared_nodes_of(std::int64_t piece, const PieceNodes &nodes,
+                                        const std::vector<std::int64_t> &regions) {
+  std::vector<SharedNode> shared;
+  std::int64_t n_shared = 0;
+  for (std::int64_t i = 0; i < nodes.n(); ++i) n_shared += nodes.is_shared(i);
+  shared.reserve(static_cast<std::size_t>(n_shared));
+  for (std::int64_t i = 0; i < nodes.n(); ++i) {
+    const std::int64_t region = regions.empty() ? -1 : view(regions)[i];
+    if (nodes.is_shared(i))
+      shared.push_back({nodes.key(i), static_cast<std::int32_t>(region), static_cast<std::int32_t>(piece)});
+  }
+  return shared;
+}
+
+Situation situation_in_pieces(const MarkOptions &options, const riis_surface_info &surface, std::int64_t n_nodes,
+                              std::int64_t n_marked, const MeshCounts &counts) {
+  Situation situation{
+      options, n_nodes, n_marked, counts.box, {}, counts.median_edge(), surface.area, surface.half_thickness};
+  std::copy_n(surface.lower, 3, situation.surface.lower);
+  std::copy_n(surface.upper, 3, situation.surface.upper);
+  return situation;
+}
+
+PieceLeaks::PieceLeaks(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface,
+                       const riis_valve *valve, std::string name)
+    : options_(options), pieces_(pieces), surface_(surface), valve_(valve), name_(std::move(name)) {
+  check(riis_surface_get_info(surface, &info_, sizeof info_));
+  resize(boxes_, view(pieces.files()).size());
+  std::fill(boxes_.begin(), boxes_.end(), empty_box());
+}
+
+void PieceLeaks::add(std::int64_t piece, const PieceNodes &nodes, const riis_vtk_mesh *file, riis_mesh *mesh,
+                     riis_marks *marks) {
+  view(boxes_)[piece] = box_of(nodes);
+  if (!meets(view(boxes_)[piece], info_)) return;
+  riis_mark_stats stats{};
+  check(riis_marks_get_stats(marks, &stats, sizeof stats));
+  const double longer_than = longest_closed_edge(options_, info_.half_thickness, stats.complete != 0);
+  const Leaks leaks =
+      leaks_of({surface_, valve_, file, mesh, marks, name_}, options_.mark_options, longer_than, nullptr);
+  add_leaks(list_of(leaks.get()), nodes, found_);
+}
+
+void PieceLeaks::judge(Report &report) {
+  report.leaks.found = summary_of(gathered(found_));
+  found_ = {};
+  judge_leaks(
+      options_, valve_, name_,
+      [&](double wanted) {
+        const riis_leak_list left = leaks_with(wanted);
+        return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
+      },
+      report);
+}
+
+// Marks the pieces near the surface again with another half thickness, and returns the leaks of the new marking.
+riis_leak_list PieceLeaks::leaks_with(double half_thickness) const {
+  const Surface surface = with_half_thickness(options_, valve_, half_thickness);
+  riis_surface_info info;
+  check(riis_surface_get_info(surface.get(), &info, sizeof info));
+  riis_mark_options how = options_.mark_options;
+  how.search = RIIS_SEARCH_AUTO;
+  how.distance_limit = RIIS_AUTO;
+  std::vector<KeyedEdge> found;
+  for_own_pieces(pieces_, [&](std::int64_t piece) {
+    if (!meets(view(boxes_)[piece], info)) return;
+    const MeshFile file = pieces_.read(piece);
+    const PieceNodes nodes(file.get(), view(pieces_.files())[piece]);
+    const Mesh mesh = borrow_nodes(file.get(), view(pieces_.files())[piece]);
+    const Marks marks = new_result();
+    check(riis_mark_nodes(surface.get(), mesh.get(), &how, marks.get()));
+    const Leaks leaks = leaks_of({surface.get(), valve_, file.get(), mesh.get(), marks.get()}, how,
+                                 longest_closed_edge(options_, half_thickness, true), nullptr);
+    add_leaks(list_of(leaks.get()), nodes, found);
+  });
+  return summary_of(gathered(found));
+}
+
+void PassageCheck::add(std::int64_t piece, const PieceNodes &nodes, const NodeEdges &edges) {
+  for (int end = 0; options_.check_leaks && end < 2; ++end) note(piece, nodes, edges, end);
+}
+
+void PassageCheck::note(std::int64_t piece, const PieceNodes &nodes, const NodeEdges &edges, int end) {
+  const double *asked = end == 0 ? options_.check_leaks->from : options_.check_leaks->to;
+  const auto longest_edge = [&](std::int64_t node) {
+    double longest = 0;
+    edges.for_each_neighbor(node, [&](std::int64_t other) {
+      longest = std::max(longest, distance_between(nodes.point(node), nodes.point(other)));
+    });
+    return longest;
+  };
+  std::int64_t found = -1;
+  double least = 0;
+  for (std::int64_t i = 0; i < nodes.n(); ++i) {
+    const double away = distance_between(nodes.point(i), asked);
+    if (nodes.is_ghost(i) || (found >= 0 && !(away < least)) || longest_edge(i) == 0) continue;
+    found = i;
+    least = away;
+  }
+  if (found < 0) return;
+  PieceEnd made{nodes.key(found), {0, 0, 0}, least, longest_edge(found), piece, found, nodes.id(found)};
+  std::copy_n(nodes.point(found), 3, made.point);
+  ends_[end].push_back(made);
+}
+
+// Returns the node nearest to an end among those of all pieces. Its longest edge may be in another piece.
+std::optional<PieceEnd> PassageCheck::nearest(int end, bool has_ids) const {
+  std::optional<PieceEnd> best;
+  const std::vector<PieceEnd> all = ranks::gather(ends_[end]);
+  const auto order = [&](const PieceEnd &node) {
+    return std::tuple(node.distance, has_ids ? node.id : 0, node.piece, node.id);
+  };
+  for (const PieceEnd &node : all)
+    if (!best || order(node) < order(*best)) best = node;
+  for (const PieceEnd &node : all)
+    if (best->key == node.key) best->longest_edge = std::max(best->longest_edge, node.longest_edge);
+  return best;
+}
+
+void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, const std::string &name,
+                         const MeshCounts &counts, Report &report) const {
+  if (!options_.check_leaks) return;
+  const Stage stage("looking for a passage", options_.quiet);
+  PieceEnd ends[2];
+  for (int end = 0; end < 2; ++end) {
+    const std::optional<PieceEnd> found = nearest(end, counts.n_with_ids > 0);
+    std::optional<NearestNode> node;
+    if (found) {
+      node = {found->distance, found->longest_edge, std::to_string(found->id)};
+      if (counts.n_with_ids == 0) node->name += " of " + view(pieces_.files())[found->piece];
+    }
+    check_end(options_, end == 0 ? "FROM" : "TO", end == 0 ? options_.check_leaks->from : options_.check_leaks->to,
+              node, counts.box.lower, counts.box.upper, why_unknown(report.leaks, options_.mesh));
+    ends[end] = *found;
+  }
+  const PiecePassage found = find_passage(options_, pieces_, surface, ends);
+  PassageReport passage;
+  passage.found = found.found;
+  passage.is_end = found.is_end;
+  judge_passage(
+      options_, valve, name, passage, counts.median_edge(),
+      [&](double wanted) {
+        const Surface thicker = with_half_thickness(options_, valve, wanted);
+        const riis_passage left = find_passage(options_, pieces_, thicker.get(), ends).found;
+        return left.state == RIIS_PASSAGE_CLOSED ? std::nullopt : std::optional(left.distance);
+      },
+      report);
+  report.seconds.leaks += stage.seconds();
+}
+
 // ---- Marking ----
 
 namespace {
@@ -228,27 +378,30 @@ class PieceMarking {
       : options_(options),
         pieces_(pieces),
         surface_(surface),
-        valve_(valve),
         names_(names),
         report_(report),
         wants_edges_(options.measures || !options.stats.empty() || options.check_leaks),
-        output_(options.output, view(pieces.files()).size()) {
-    resize(boxes_, view(pieces.files()).size());
-    std::fill(boxes_.begin(), boxes_.end(), empty_box());
-  }
+        output_(options.output, view(pieces.files()).size()),
+        leaks_(options, pieces, surface, valve, "the surface"),
+        passage_(options, pieces),
+        valve_(valve) {}
 
   void run() {
-    for_own_pieces(pieces_, [&](std::int64_t piece) { mark(piece); });
+    for_own_pieces(pieces_, [&](std::int64_t piece) {
+      mark(piece);
+      pieces_.finished(piece);
+    });
     const MeshCounts counts = sum_of(counts_, pieces_);
     const MatchedNodes matched = match_nodes(std::move(shared_), counts.n_with_ids > 0, pieces_.files());
-    set_marks(counts, matched);
+    fill_report(counts, matched);
     warn_of_apart(counts, matched, pieces_);
-    const Situation situation = situation_of(counts);
     if (!report_.marks.complete) warn_of_incomplete_marks();
+    const Situation situation =
+        situation_in_pieces(options_, report_.surface, report_.marks.n_nodes, report_.marks.n_marked, counts);
     if (const auto warning = warning_of(situation)) warn({*warning});
-    find_leaks(counts);
+    leaks_.judge(report_);
     if (wants_edges_) measure(matched);
-    if (options_.check_leaks) check_passage(counts);
+    passage_.judge(surface_, valve_, "the surface", counts, report_);
     const Stage stage("writing", options_.quiet);
     output_.finish();
     if (output_.is_wanted()) report_.written.push_back(options_.output);
@@ -258,90 +411,55 @@ class PieceMarking {
  private:
   // Numbers that ranks add up or combine.
   struct Sums {
-    std::int64_t n_marked = 0, n_within_limit = 0, n_unreached = 0, n_regions = 0;
+    std::int64_t n_unreached = 0, n_regions = 0;
     std::int32_t search = -1, n_threads = 0, complete = 1, reserved = 0;
     Lengths lengths;  // of edges that no other piece has
   };
+  enum Kind { marked, within_limit, n_kinds };
 
   void mark(std::int64_t piece) {
-    const MeshFile file = read(piece);
-    PieceNodes nodes(file.get(), view(pieces_.files())[piece]);
+    const MeshFile file = read_piece(options_, pieces_, piece, report_.seconds);
+    const PieceNodes nodes(file.get(), view(pieces_.files())[piece]);
     counts_.add(file.get(), nodes);
-    if (nodes.n() == 0) return write(piece, file.get());
-    check_new_arrays(options_, names_, file.get());
-    {
-      MarkedFile marked = mark_file(options_, surface_, file.get(), report_.seconds);
-      note(piece, file.get(), nodes, marked);
+    if (nodes.n() > 0) {
+      check_new_arrays(options_, names_, file.get());
+      MarkedFile marks = mark_file(options_, surface_, file.get(), report_.seconds);
+      note(piece, file.get(), nodes, marks);
     }
-    write(piece, file.get());
-  }
-
-  MeshFile read(std::int64_t piece) const {
-    const Stage stage("reading " + view(pieces_.files())[piece], options_.quiet);
-    MeshFile file = pieces_.read(piece);
-    report_.seconds.read += stage.seconds();
-    return file;
-  }
-
-  void write(std::int64_t piece, const riis_vtk_mesh *file) {
     const Stage stage("writing", options_.quiet);
-    output_.write(piece, file);
+    output_.write(piece, file.get());
     report_.seconds.write += stage.seconds();
   }
 
   // Keeps what other pieces and the report need of a piece.
-  void note(std::int64_t piece, const riis_vtk_mesh *file, const PieceNodes &nodes, MarkedFile &marked) {
+  void note(std::int64_t piece, const riis_vtk_mesh *file, const PieceNodes &nodes, MarkedFile &marks) {
     const Stage stage("looking for leaks", options_.quiet);
-    view(boxes_)[piece] = box_of(nodes);
-    const double longer_than =
-        longest_closed_edge(options_, report_.surface.half_thickness, marked.stats.complete != 0);
-    if (meets(view(boxes_)[piece], report_.surface)) {
-      const Leaks leaks = leaks_of({surface_, valve_, file, marked.mesh.get(), marked.marks.get()},
-                                   options_.mark_options, longer_than, nullptr);
-      add_leaks(list_of(leaks.get()), nodes, leaking_);
-    }
-    std::vector<std::uint32_t> flags(static_cast<std::size_t>(nodes.n()));
-    const auto set_flag = [&](std::int32_t list, std::uint32_t flag) {
-      const riis_mark_list found = list_of(marked.marks.get(), list);
-      for (std::int64_t i = 0; i < found.n_nodes; ++i) view(flags)[found.node_id[i]] |= flag;
-    };
-    set_flag(RIIS_LIST_MARKED, SharedNode::marked);
-    set_flag(RIIS_LIST_WITHIN_LIMIT, SharedNode::within_limit);
+    leaks_.add(piece, nodes, file, marks.mesh.get(), marks.marks.get());
+    node_counts_.add(nodes, list_of(marks.marks.get(), RIIS_LIST_MARKED), marked);
+    node_counts_.add(nodes, list_of(marks.marks.get(), RIIS_LIST_WITHIN_LIMIT), within_limit);
     std::vector<std::int64_t> regions;
     if (wants_edges_) {
       const NodeEdges edges(file, options_.mark_options.n_threads);
-      add_lengths(nodes, edges, flags);
-      regions = regions_of(nodes, edges, marked);
-      for (int end = 0; options_.check_leaks && end < 2; ++end) note_end(piece, nodes, edges, end);
+      add_lengths(nodes, edges, list_of(marks.marks.get(), RIIS_LIST_MARKED));
+      regions = regions_of(nodes, edges, marks);
+      passage_.add(piece, nodes, edges);
     }
-    sums_.n_unreached += marked.stats.n_unreached;
-    sums_.complete = sums_.complete && marked.stats.complete;
-    sums_.n_threads = std::max(sums_.n_threads, marked.stats.n_threads);
-    if (sums_.search < 0) sums_.search = marked.stats.search;
-    std::vector<SharedNode> shared;
-    std::int64_t n_shared = 0;
-    for (std::int64_t i = 0; i < nodes.n(); ++i) n_shared += nodes.is_shared(i);
-    shared.reserve(static_cast<std::size_t>(n_shared));
-    for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      const std::uint32_t flag = view(flags)[i];
-      if (nodes.is_inside(i)) {
-        sums_.n_marked += (flag & SharedNode::marked) != 0;
-        sums_.n_within_limit += (flag & SharedNode::within_limit) != 0;
-      }
-      if (!nodes.is_shared(i)) continue;
-      const std::int64_t region = regions.empty() ? -1 : view(regions)[i];
-      shared.push_back({nodes.key(i), static_cast<std::int32_t>(region), static_cast<std::uint32_t>(piece) | flag});
-    }
-    shared_.push_back(std::move(shared));
+    sums_.n_unreached += marks.stats.n_unreached;
+    sums_.complete = sums_.complete && marks.stats.complete;
+    sums_.n_threads = std::max(sums_.n_threads, marks.stats.n_threads);
+    if (sums_.search < 0) sums_.search = marks.stats.search;
+    shared_.push_back(shared_nodes_of(piece, nodes, regions));
     report_.seconds.leaks += stage.seconds();
   }
 
   // Adds the lengths of the edges with a marked node. An edge between two shared nodes may be in several pieces.
-  void add_lengths(const PieceNodes &nodes, const NodeEdges &edges, const std::vector<std::uint32_t> &flags) {
+  void add_lengths(const PieceNodes &nodes, const NodeEdges &edges, const riis_mark_list &list) {
+    std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(nodes.n()));
+    for (std::int64_t i = 0; i < list.n_nodes; ++i) view(is_marked)[list.node_id[i]] = 1;
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
       if (nodes.is_ghost(i)) continue;
       edges.for_each_neighbor(i, [&](std::int64_t j) {
-        if (j < i || nodes.is_ghost(j) || !((view(flags)[i] | view(flags)[j]) & SharedNode::marked)) return;
+        if (j < i || nodes.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
         const double *p = nodes.point(i), *q = nodes.point(j);
         const double length =
             std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));
@@ -354,63 +472,38 @@ class PieceMarking {
     }
   }
 
-  std::vector<std::int64_t> regions_of(const PieceNodes &nodes, const NodeEdges &edges, MarkedFile &marked) {
-    riis_mesh *const mesh = marked.mesh.get();
+  std::vector<std::int64_t> regions_of(const PieceNodes &nodes, const NodeEdges &edges, MarkedFile &marks) {
+    riis_mesh *const mesh = marks.mesh.get();
     check(riis_mesh_set_adjacency(mesh, edges.rows()));
     std::vector<std::int64_t> regions(static_cast<std::size_t>(nodes.n()));
     riis_mark_options how = options_.mark_options;
     how.node_mask = nodes.mask();
     std::int64_t n_regions = 0;
     const riis_status status =
-        riis_label_open_regions(mesh, marked.marks.get(), &how, nodes.n(), regions.data(), &n_regions);
+        riis_label_open_regions(mesh, marks.marks.get(), &how, nodes.n(), regions.data(), &n_regions);
     check(riis_mesh_set_adjacency(mesh, nullptr));  // this call changes no error message
     check(status);
     sums_.n_regions += n_regions;
     return regions;
   }
 
-  // Keeps the node of the piece that is nearest to an end of the passage.
-  void note_end(std::int64_t piece, const PieceNodes &nodes, const NodeEdges &edges, int end) {
-    const double *asked = end == 0 ? options_.check_leaks->from : options_.check_leaks->to;
-    const auto longest_edge = [&](std::int64_t node) {
-      double longest = 0;
-      edges.for_each_neighbor(node, [&](std::int64_t other) {
-        longest = std::max(longest, distance_between(nodes.point(node), nodes.point(other)));
-      });
-      return longest;
-    };
-    std::int64_t found = -1;
-    double least = 0;
-    for (std::int64_t i = 0; i < nodes.n(); ++i) {
-      const double away = distance_between(nodes.point(i), asked);
-      if (nodes.is_ghost(i) || (found >= 0 && !(away < least)) || longest_edge(i) == 0) continue;
-      found = i;
-      least = away;
-    }
-    if (found < 0) return;
-    PieceEnd made{nodes.key(found), {0, 0, 0}, least, longest_edge(found), piece, found, nodes.id(found)};
-    std::copy_n(nodes.point(found), 3, made.point);
-    ends_[end].push_back(made);
-  }
-
-  void set_marks(const MeshCounts &counts, const MatchedNodes &matched) {
-    riis_mark_stats &marks = report_.marks;
-    marks = {};
-    marks.complete = 1;
-    marks.search = -1;
+  void fill_report(const MeshCounts &counts, const MatchedNodes &matched) {
+    riis_mark_stats &stats = report_.marks;
+    stats = {};
+    stats.complete = 1;
+    stats.search = -1;
     for (const Sums &sums : ranks::gather(std::vector<Sums>{sums_})) {
-      marks.n_marked += sums.n_marked;
-      marks.n_within_limit += sums.n_within_limit;
-      marks.n_unreached += sums.n_unreached;
+      stats.n_unreached += sums.n_unreached;
       n_regions_ += sums.n_regions;
-      marks.complete = marks.complete && sums.complete;
-      marks.n_threads = std::max(marks.n_threads, sums.n_threads);
-      if (marks.search < 0) marks.search = sums.search;
+      stats.complete = stats.complete && sums.complete;
+      stats.n_threads = std::max(stats.n_threads, sums.n_threads);
+      if (stats.search < 0) stats.search = sums.search;
       all_lengths_.add(sums.lengths);
     }
-    marks.n_nodes = counts.n_nodes + matched.n_nodes;
-    marks.n_marked += matched.n_marked;
-    marks.n_within_limit += matched.n_within_limit;
+    const std::vector<std::int64_t> of_kind = node_counts_.sums();
+    stats.n_nodes = counts.n_nodes + matched.n_nodes;
+    stats.n_marked = of_kind[marked];
+    stats.n_within_limit = of_kind[within_limit];
     report_.n_cells = counts.n_cells;
     const double limit = options_.mark_options.distance_limit;
     report_.distance_limit = limit > 0 ? limit : report_.surface.half_thickness;
@@ -418,49 +511,6 @@ class PieceMarking {
     report_.mesh_name = options_.mesh;
     report_.leaks.n_volume_cells = counts.n_volume_cells;
     report_.leaks.n_cells_left_out = counts.n_cells_left_out;
-  }
-
-  Situation situation_of(const MeshCounts &counts) const {
-    Situation situation{options_, report_.marks.n_nodes, report_.marks.n_marked, counts.box,
-                        {},       counts.median_edge(),  report_.surface.area,   report_.surface.half_thickness};
-    std::copy_n(report_.surface.lower, 3, situation.surface.lower);
-    std::copy_n(report_.surface.upper, 3, situation.surface.upper);
-    return situation;
-  }
-
-  void find_leaks(const MeshCounts &) {
-    report_.leaks.found = summary_of(gathered(leaking_));
-    leaking_ = {};
-    judge_leaks(
-        options_, valve_, "the surface",
-        [&](double wanted) {
-          const riis_leak_list left = leaks_with(wanted);
-          return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
-        },
-        report_);
-  }
-
-  // Marks the pieces near the surface again with another half thickness, and returns the leaks of the new marking.
-  riis_leak_list leaks_with(double half_thickness) const {
-    const Surface surface = with_half_thickness(options_, valve_, half_thickness);
-    riis_surface_info info;
-    check(riis_surface_get_info(surface.get(), &info, sizeof info));
-    riis_mark_options how = options_.mark_options;
-    how.search = RIIS_SEARCH_AUTO;
-    how.distance_limit = RIIS_AUTO;
-    std::vector<KeyedEdge> found;
-    for_own_pieces(pieces_, [&](std::int64_t piece) {
-      if (!meets(view(boxes_)[piece], info)) return;
-      const MeshFile file = read(piece);
-      const PieceNodes nodes(file.get(), view(pieces_.files())[piece]);
-      const Mesh mesh = borrow_nodes(file.get(), view(pieces_.files())[piece]);
-      const Marks marks = new_result();
-      check(riis_mark_nodes(surface.get(), mesh.get(), &how, marks.get()));
-      const Leaks leaks = leaks_of({surface.get(), valve_, file.get(), mesh.get(), marks.get()}, how,
-                                   longest_closed_edge(options_, half_thickness, true), nullptr);
-      add_leaks(list_of(leaks.get()), nodes, found);
-    });
-    return summary_of(gathered(found));
   }
 
   void measure(const MatchedNodes &matched) {
@@ -497,66 +547,23 @@ class PieceMarking {
     return n;
   }
 
-  // Returns the node nearest to an end among those of all pieces. Its longest edge may be in another piece.
-  std::optional<PieceEnd> nearest(int end) const {
-    std::optional<PieceEnd> best;
-    const std::vector<PieceEnd> all = ranks::gather(ends_[end]);
-    const bool has_ids = counts_.n_with_ids > 0;
-    const auto order = [&](const PieceEnd &node) {
-      return std::tuple(node.distance, has_ids ? node.id : 0, node.piece, node.id);
-    };
-    for (const PieceEnd &node : all)
-      if (!best || order(node) < order(*best)) best = node;
-    for (const PieceEnd &node : all)
-      if (best->key == node.key) best->longest_edge = std::max(best->longest_edge, node.longest_edge);
-    return best;
-  }
-
-  void check_passage(const MeshCounts &counts) {
-    const Stage stage("looking for a passage", options_.quiet);
-    PieceEnd ends[2];
-    for (int end = 0; end < 2; ++end) {
-      const std::optional<PieceEnd> found = nearest(end);
-      std::optional<NearestNode> node;
-      if (found) {
-        node = {found->distance, found->longest_edge, std::to_string(found->id)};
-        if (counts.n_with_ids == 0) node->name += " of " + view(pieces_.files())[found->piece];
-      }
-      check_end(options_, end == 0 ? "FROM" : "TO", end == 0 ? options_.check_leaks->from : options_.check_leaks->to,
-                node, counts.box.lower, counts.box.upper, why_unknown(report_.leaks, options_.mesh));
-      ends[end] = *found;
-    }
-    const PiecePassage found = find_passage(options_, pieces_, surface_, ends);
-    PassageReport passage;
-    passage.found = found.found;
-    passage.is_end = found.is_end;
-    judge_passage(
-        options_, valve_, "the surface", passage, counts.median_edge(),
-        [&](double wanted) {
-          const Surface surface = with_half_thickness(options_, valve_, wanted);
-          const riis_passage left = find_passage(options_, pieces_, surface.get(), ends).found;
-          return left.state == RIIS_PASSAGE_CLOSED ? std::nullopt : std::optional(left.distance);
-        },
-        report_);
-    report_.seconds.leaks += stage.seconds();
-  }
-
   const MarkOptions &options_;
   const MeshPieces &pieces_;
   const riis_surface *surface_;
-  const riis_valve *valve_;
   const std::vector<std::string> &names_;
   Report &report_;
   bool wants_edges_;
   PieceOutput output_;
   MeshCounts counts_;
+  NodeCounts node_counts_{n_kinds};
   Sums sums_;
   Lengths all_lengths_;
   std::int64_t n_regions_ = 0;
-  std::vector<Box> boxes_;  // by piece, empty for the pieces of other ranks
   std::vector<std::vector<SharedNode>> shared_;
-  std::vector<KeyedEdge> leaking_, lengths_;
-  std::vector<PieceEnd> ends_[2];  // the nearest node of each piece
+  std::vector<KeyedEdge> lengths_;
+  PieceLeaks leaks_;
+  PassageCheck passage_;
+  const riis_valve *valve_;
 };
 
 }  // namespace

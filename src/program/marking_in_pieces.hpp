@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "program/leaks.hpp"
+#include "program/mesh_marking.hpp"
 #include "program/mesh_pieces.hpp"
 #include "program/options.hpp"
 #include "program/report.hpp"
@@ -57,9 +58,46 @@ class PieceOutput {
   bool has_arrays_ = false;
 };
 
-// Marks all pieces and writes them. Fills the report, except for the surface.
-void mark_pieces(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface,
-                 const riis_valve *valve, const std::vector<std::string> &names_of_arrays, Report &report);
+// Reads a piece, and adds to the seconds.
+MeshFile read_piece(const MarkOptions &options, const MeshPieces &pieces, std::int64_t piece, Seconds &seconds);
+// Returns the shared nodes of a piece. `regions` has the open region of each node, or is empty.
+std::vector<SharedNode> shared_nodes_of(std::int64_t piece, const PieceNodes &nodes,
+                                        const std::vector<std::int64_t> &regions);
+Situation situation_in_pieces(const MarkOptions &options, const riis_surface_info &surface, std::int64_t n_nodes,
+                              std::int64_t n_marked, const MeshCounts &counts);
+
+// An edge between two nodes that may be in several pieces.
+struct KeyedEdge {
+  NodeKey p, q;  // p < q
+  double length, distance, middle[3];
+
+  bool operator<(const KeyedEdge &other) const { return std::tie(p, q) < std::tie(other.p, other.q); }
+  bool operator==(const KeyedEdge &other) const { return p == other.p && q == other.q; }
+};
+
+// The leaks of one surface in all pieces. The surface must not move until judge was called.
+class PieceLeaks {
+ public:
+  // `name` is the surface's name in the warning.
+  PieceLeaks(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface, const riis_valve *valve,
+             std::string name);
+  // Adds the leaks of a piece that was marked with this surface.
+  void add(std::int64_t piece, const PieceNodes &nodes, const riis_vtk_mesh *file, riis_mesh *mesh, riis_marks *marks);
+  // Puts the leaks of all ranks into report.leaks, and warns. The report has the surface and the numbers of volume cells.
+  void judge(Report &report);
+
+ private:
+  riis_leak_list leaks_with(double half_thickness) const;
+
+  const MarkOptions &options_;
+  const MeshPieces &pieces_;
+  const riis_surface *surface_;
+  const riis_valve *valve_;
+  std::string name_;
+  riis_surface_info info_{};
+  std::vector<Box> boxes_;  // by piece, empty for the pieces of other ranks
+  std::vector<KeyedEdge> found_;
+};
 
 // The end of a passage in a mesh in pieces.
 struct PieceEnd {
@@ -67,6 +105,30 @@ struct PieceEnd {
   double point[3], distance, longest_edge;  // the node's distance to the point that the user gave
   std::int64_t piece, node, id;
 };
+
+// Whether unmarked nodes of all pieces join the two points of options.check_leaks.
+class PassageCheck {
+ public:
+  PassageCheck(const MarkOptions &options, const MeshPieces &pieces) : options_(options), pieces_(pieces) {}
+  // Notes the nodes of the piece that are nearest to the points.
+  void add(std::int64_t piece, const PieceNodes &nodes, const NodeEdges &edges);
+  // As program::check_passage. The report has the surface and the numbers of volume cells.
+  void judge(const riis_surface *surface, const riis_valve *valve, const std::string &name, const MeshCounts &counts,
+             Report &report) const;
+
+ private:
+  void note(std::int64_t piece, const PieceNodes &nodes, const NodeEdges &edges, int end);
+  std::optional<PieceEnd> nearest(int end, bool has_ids) const;
+
+  const MarkOptions &options_;
+  const MeshPieces &pieces_;
+  std::vector<PieceEnd> ends_[2];  // the nearest node of each piece
+};
+
+// Marks all pieces and writes them. Fills the report, except for the surface.
+void mark_pieces(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface,
+                 const riis_valve *valve, const std::vector<std::string> &names_of_arrays, Report &report);
+
 struct PiecePassage {
   riis_passage found;
   bool is_end;  // whether the node is one of the ends

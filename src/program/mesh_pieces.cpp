@@ -33,6 +33,8 @@ MeshFile MeshPieces::read(std::int64_t piece) const {
   return MeshFile(mesh);
 }
 
+void MeshPieces::finished(std::int64_t) const {}
+
 bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
 
 // ---- Nodes ----
@@ -114,7 +116,7 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
     return static_cast<std::size_t>(mixed(node.key.a) % n_ranks);
   });
   std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
-    return std::tie(p.key.a, p.key.b, p.piece_and_flags) < std::tie(q.key.a, q.key.b, q.piece_and_flags);
+    return std::tie(p.key, p.piece) < std::tie(q.key, q.piece);
   });
   MatchedNodes own;
   std::size_t n_kept = few;
@@ -123,19 +125,17 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
     bool in_several = false;
     for (end = begin + 1; end < nodes.size() && nodes[end].key == first.key; ++end) {
       const SharedNode &before = nodes[end - 1], &node = nodes[end];
-      in_several |= node.piece() != before.piece();
+      in_several |= node.piece != before.piece;
       if (node.region < 0 || before.region < 0) continue;
-      const PieceRegion p{before.piece(), before.region}, q{node.piece(), node.region};
+      const PieceRegion p{before.piece, before.region}, q{node.piece, node.region};
       if (!(p == q) && (own.joined.empty() || own.joined.back() != std::pair(p, q))) own.joined.emplace_back(p, q);
     }
     if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
       throw Refusal{exit_bad_data, "the node with the global id " +
                                        std::to_string(static_cast<std::int64_t>(first.key.a)) + " is at one place in " +
-                                       view(files)[first.piece()] + " and at another in " +
-                                       view(files)[nodes[end].piece()]};
+                                       view(files)[first.piece] + " and at another in " +
+                                       view(files)[nodes[end].piece]};
     ++own.n_nodes;
-    own.n_marked += (first.piece_and_flags & SharedNode::marked) != 0;
-    own.n_within_limit += (first.piece_and_flags & SharedNode::within_limit) != 0;
     own.n_in_several += in_several;
     if (own.joined.size() > 2 * n_kept) {
       sort_unique(own.joined);
@@ -144,11 +144,9 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
   }
   sort_unique(own.joined);
   MatchedNodes all;
-  for (const auto &[n_nodes, n_marked, n_within, n_in_several] : ranks::gather(std::vector<std::array<std::int64_t, 4>>{
-           {own.n_nodes, own.n_marked, own.n_within_limit, own.n_in_several}})) {
+  const std::vector<std::array<std::int64_t, 2>> counts{{own.n_nodes, own.n_in_several}};
+  for (const auto &[n_nodes, n_in_several] : ranks::gather(counts)) {
     all.n_nodes += n_nodes;
-    all.n_marked += n_marked;
-    all.n_within_limit += n_within;
     all.n_in_several += n_in_several;
   }
   struct Pair {
@@ -159,6 +157,26 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
   for (const Pair &pair : ranks::gather(pairs)) all.joined.emplace_back(pair.p, pair.q);
   sort_unique(all.joined);
   return all;
+}
+
+void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind) {
+  for (std::int64_t i = 0; i < list.n_nodes; ++i) {
+    const std::int64_t node = list.node_id[i];
+    n_inside_.at(kind) += nodes.is_inside(node);
+    if (nodes.is_shared(node)) shared_.push_back({nodes.key(node), kind});
+  }
+}
+
+std::vector<std::int64_t> NodeCounts::sums() const {
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  std::vector<SharedKind> shared = ranks::exchange(
+      shared_, [&](const SharedKind &node) { return static_cast<std::size_t>(mixed(node.key.a) % n_ranks); });
+  sort_unique(shared);
+  std::vector<std::int64_t> own = n_inside_, sums(n_inside_.size());
+  for (const SharedKind &node : shared) ++own.at(node.kind);
+  const std::vector<std::int64_t> all = ranks::gather(own);
+  for (std::size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
+  return sums;
 }
 
 }  // namespace riis::program

@@ -33,6 +33,8 @@ class MeshPieces {
   // Returns the numbers of this rank's pieces, ascending.
   std::vector<std::int64_t> own() const;
   virtual MeshFile read(std::int64_t piece) const;
+  // Called when a piece is marked and written.
+  virtual void finished(std::int64_t piece) const;
 
  protected:
   MeshPieces(std::string path, std::vector<std::string> files) : path_(std::move(path)), files_(std::move(files)) {}
@@ -107,13 +109,9 @@ class DisjointSets {
 
 // A node that several pieces may have, in one of them.
 struct SharedNode {
-  enum Flag : std::uint32_t { marked = 1u << 24, within_limit = 1u << 25 };
-
   NodeKey key;
-  std::int32_t region;            // its open region, numbered within the piece; -1 if it is in none
-  std::uint32_t piece_and_flags;  // the number of the piece, plus flags
-
-  std::int32_t piece() const { return static_cast<std::int32_t>(piece_and_flags & (marked - 1)); }
+  std::int32_t region;  // its open region, numbered within the piece; -1 if it is in none
+  std::int32_t piece;
 };
 
 // An open region of a piece.
@@ -127,8 +125,7 @@ struct PieceRegion {
 
 // The shared nodes of all pieces, each counted once.
 struct MatchedNodes {
-  std::int64_t n_nodes = 0, n_marked = 0, n_within_limit = 0;
-  std::int64_t n_in_several = 0;                            // nodes that more than one piece has
+  std::int64_t n_nodes = 0, n_in_several = 0;               // all nodes, and those that more than one piece has
   std::vector<std::pair<PieceRegion, PieceRegion>> joined;  // regions of different pieces with a common node
 };
 
@@ -136,5 +133,24 @@ struct MatchedNodes {
 // the pieces.
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files);
+
+// Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted at once.
+class NodeCounts {
+ public:
+  explicit NodeCounts(std::size_t n_kinds) : n_inside_(n_kinds) {}
+  void add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind);
+  // Returns the number of nodes of each kind in all pieces of all ranks. A node counts once for each kind.
+  std::vector<std::int64_t> sums() const;
+
+ private:
+  struct SharedKind {
+    NodeKey key;
+    std::uint64_t kind;
+    bool operator<(const SharedKind &other) const { return std::tie(kind, key) < std::tie(other.kind, other.key); }
+    bool operator==(const SharedKind &other) const { return kind == other.kind && key == other.key; }
+  };
+  std::vector<std::int64_t> n_inside_;
+  std::vector<SharedKind> shared_;
+};
 
 }  // namespace riis::program

@@ -109,12 +109,8 @@ class PieceWays {
     }
   }
 
-  std::vector<SharedNode> shared() const {
-    std::vector<SharedNode> made;
-    for (std::int64_t i = 0; i < nodes_.n(); ++i)
-      if (nodes_.is_shared(i)) made.push_back({nodes_.key(i), view(region_)[i], static_cast<std::uint32_t>(piece_)});
-    return made;
-  }
+  // Returns the region beyond the limit of each node, or -1.
+  std::vector<std::int64_t> regions() const { return {region_.begin(), region_.end()}; }
 
  private:
   bool is_far(std::int64_t node) const { return std::isinf(view(distance_)[node]); }
@@ -219,7 +215,7 @@ std::optional<PiecePassage> passage_within(const MarkOptions &options, const Mes
       ways.add_terminal(ends[i].node);
       own_ends.push_back({i, ways.place_of(ends[i].node), ways.passage_node(ends[i].node)});
     }
-    shared.push_back(ways.shared());
+    shared.push_back(shared_nodes_of(piece, nodes, ways.regions()));
     ways.add_links(within, own_links);
   });
   std::vector<PlacedEnd> placed = ranks::gather(own_ends);
