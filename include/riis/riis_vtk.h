@@ -138,6 +138,9 @@ RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pi
  *   files    (n_files), the paths of the pieces, which need not exist yet */
 RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n_files, const char *const *files,
                                             riis_vtk_pieces **pieces);
+/* Replaces the files of the list, and keeps its arrays.
+ *   n_files, files  as in riis_vtk_pieces_create */
+RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t n_files, const char *const *files);
 /* Destroys the list. */
 RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces);
 /* Gives the files of the pieces.

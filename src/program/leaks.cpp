@@ -377,13 +377,9 @@ void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report 
   report.seconds.leaks += stage.seconds();
 }
 
-void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
-                      const riis_vtk_mesh *file, Report &report) {
-  if (!all.options.check_leaks) return;
+Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
+  if (!all.options.check_leaks || valves.size() == 1) return nullptr;
   const MovingValve &first = valves[0];
-  if (valves.size() == 1)
-    return check_passage(first.options(),
-                         {first.surface(), first.source().valve.get(), file, mesh, nullptr, "the surface"}, report);
   riis_surface_options together;
   check(riis_surface_options_init(&together, sizeof together));
   for (const MovingValve &valve : valves) {
@@ -396,7 +392,17 @@ void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, r
                         first.options().prefix + " is " + shown(together.half_thickness) + ", that of " +
                         valve.options().prefix + " " + shown(info.half_thickness)};
   }
-  const Surface joined = joined_surface(valves, &together);
+  return joined_surface(valves, &together);
+}
+
+void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
+                      const riis_vtk_mesh *file, Report &report) {
+  if (!all.options.check_leaks) return;
+  const MovingValve &first = valves[0];
+  if (valves.size() == 1)
+    return check_passage(first.options(),
+                         {first.surface(), first.source().valve.get(), file, mesh, nullptr, "the surface"}, report);
+  const Surface joined = joined_for_passage(all, valves);
   check_passage(all.options, {joined.get(), nullptr, file, mesh, nullptr, "the surface of all valves"}, report);
 }
 

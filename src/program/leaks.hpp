@@ -79,6 +79,9 @@ LeakCheck leak_check_between(const std::vector<std::string> &points);
 // Both functions write report.leaks.passage, and warn on stderr if the points are joined. They do nothing if the options have no
 // points. They remove the mesh's adjacency.
 void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report &report);
+// Returns the surface of all valves at their present positions, or null for one valve or if the options have no points. Refuses
+// valves of different half thicknesses.
+Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves);
 // Checks all valves together at their present positions. They must have the same half thickness.
 void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                       const riis_vtk_mesh *file, Report &report);

@@ -17,6 +17,18 @@
 
 namespace riis::program {
 
+void check_options_of_pieces(const MarkOptions &options) {
+  const auto refuse = [&](const std::string &option, const std::string &why) {
+    throw Refusal{exit_wrong_usage, option + ": " + why + ", and " + options.mesh + " is read in pieces"};
+  };
+  if (!options.pictures.empty()) refuse("--picture", "a picture needs the whole mesh");
+  if (!options.series.movie.empty()) refuse("--movie", "a movie needs the whole mesh");
+  if (options.n_steps > 0) refuse("--steps", "steps are timed in the whole mesh");
+  if (options.mark_options.search == RIIS_SEARCH_PAPER)
+    refuse("--search paper", "this search walks through the whole mesh");
+  if (options.first_passage) refuse("--first-passage", "the opening is searched in the whole mesh");
+}
+
 void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work) {
   try {
     for (const std::int64_t piece : pieces.own()) work(piece);

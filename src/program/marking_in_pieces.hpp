@@ -17,6 +17,8 @@
 
 namespace riis::program {
 
+// Refuses options that need the whole mesh at once.
+void check_options_of_pieces(const MarkOptions &options);
 // Calls `work` with each of this rank's pieces. A failure ends all ranks.
 void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work);
 

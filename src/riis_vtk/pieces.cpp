@@ -142,6 +142,7 @@ void check_declared(const std::string &path, const std::vector<Declared> &arrays
 
 void set_files(riis_vtk_pieces &pieces, std::vector<std::string> files) {
   pieces.files = std::move(files);
+  pieces.paths.clear();
   for (const std::string &file : pieces.files) pieces.paths.push_back(file.c_str());
 }
 
@@ -385,6 +386,16 @@ void copy_ids(vtkDataArray *from, std::int64_t *to) {
   }
 }
 
+std::vector<std::string> checked_files(std::int64_t n_files, const char *const *files) {
+  if (n_files < 1 || n_files > most_pieces)
+    refuse_argument("n_files is ", n_files, "; it must be from 1 to ", most_pieces);
+  require(files, "files");
+  std::vector<std::string> names;
+  for (std::int64_t i = 0; i < n_files; ++i)
+    names.emplace_back(require(files[i], ("files[" + std::to_string(i) + "]").c_str()));
+  return names;
+}
+
 // ---- Writing ----
 
 // Returns the text of an attribute.
@@ -450,13 +461,8 @@ RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n
                                             riis_vtk_pieces **pieces) {
   return guarded([&](const CaughtOutput &) {
     vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
-    if (n_files < 1 || n_files > most_pieces)
-      refuse_argument("n_files is ", n_files, "; it must be from 1 to ", most_pieces);
-    require(files, "files");
+    std::vector<std::string> names = checked_files(n_files, files);
     require(pieces, "pieces");
-    std::vector<std::string> names;
-    for (std::int64_t i = 0; i < n_files; ++i)
-      names.emplace_back(require(files[i], ("files[" + std::to_string(i) + "]").c_str()));
     auto made = std::make_unique<riis_vtk_pieces>();
     set_files(*made, std::move(names));
     made->point_arrays = arrays_of(grid->GetPointData());
@@ -465,6 +471,13 @@ RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n
     if (ids && ids->GetName()) made->global_ids = ids->GetName();
     made->has_ghosts = grid->GetCellData()->HasArray(vtkDataSetAttributes::GhostArrayName()) != 0;
     *pieces = made.release();
+  });
+}
+
+RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t n_files, const char *const *files) {
+  return guarded([&](const CaughtOutput &) {
+    require(pieces, "pieces");
+    set_files(*pieces, checked_files(n_files, files));
   });
 }
 

@@ -802,6 +802,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_pieces_read, int32_t, (const char *, riis_vtk_pieces **));
   SIGNATURE(riis_vtk_pieces_create, int32_t,
             (const riis_vtk_mesh *, int64_t, const char *const *, riis_vtk_pieces **));
+  SIGNATURE(riis_vtk_pieces_set_files, int32_t, (riis_vtk_pieces *, int64_t, const char *const *));
   SIGNATURE(riis_vtk_pieces_destroy, void, (riis_vtk_pieces **));
   SIGNATURE(riis_vtk_pieces_get_files, int32_t, (const riis_vtk_pieces *, int64_t *, const char *const **));
   SIGNATURE(riis_vtk_pieces_read_mesh, int32_t, (const riis_vtk_pieces *, int64_t, riis_vtk_mesh **));
