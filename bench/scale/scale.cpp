@@ -40,6 +40,16 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1000 * 1.024;
 }
 
+// The time that processors worked for this process. On a busy machine the wall time is longer.
+double processor_seconds() {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval &time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 // The numbers of pieces along x, y and z.
 std::array<std::int64_t, 3> shape_of(std::int64_t n_pieces) {
   std::array<std::int64_t, 3> best = {n_pieces, 1, 1};
@@ -103,15 +113,19 @@ class GridPieces : public MeshPieces {
   std::int64_t n_cells() const { return shape_[0] * shape_[1] * shape_[2] * (side_ - 1) * (side_ - 1) * (side_ - 1); }
   const std::array<std::int64_t, 3> &shape() const { return shape_; }
   double spacing() const { return spacing_; }
+  // Returns z of a plane of nodes, counted from the lowest.
+  double z_of(std::int64_t plane) const { return coordinate(2, plane); }
 
   MeshFile read(std::int64_t piece) const override {
     const std::string &path = files()[static_cast<std::size_t>(piece)];
     const auto begin = Clock::now();
     make(piece, path);
-    seconds_making += seconds_since(begin);
+    const double making = seconds_since(begin);
     riis_vtk_mesh *mesh = nullptr;
     check(riis_vtk_mesh_read(path.c_str(), &mesh));
     std::filesystem::remove(path);
+    seconds_making += making;
+    seconds_reading += seconds_since(begin) - making;
     return MeshFile(mesh);
   }
 
@@ -127,7 +141,7 @@ class GridPieces : public MeshPieces {
     seconds_checking += seconds_since(begin);
   }
 
-  mutable double seconds_making = 0, seconds_checking = 0;
+  mutable double seconds_making = 0, seconds_reading = 0, seconds_checking = 0;
   mutable std::int64_t n_marked = 0, n_wrong = 0;
   double half_thickness = 0;
 
@@ -136,6 +150,11 @@ class GridPieces : public MeshPieces {
     std::vector<std::string> files;
     for (std::int64_t i = 0; i < n; ++i) files.push_back(folder + "/piece_" + std::to_string(i) + ".vtu");
     return files;
+  }
+
+  double coordinate(int axis, std::int64_t plane) const {
+    const std::int64_t all = shape_[static_cast<std::size_t>(axis)] * (side_ - 1);
+    return (static_cast<double>(plane) - 0.5 * static_cast<double>(all)) * spacing_ - (axis == 2 ? 0.4 : 0);
   }
 
   std::array<std::int64_t, 3> place_of(std::int64_t piece) const {
@@ -166,9 +185,7 @@ class GridPieces : public MeshPieces {
     for (std::int64_t i = 0; i < n_nodes; ++i) {
       const std::int64_t at[3] = {i % n, i / n % n, i / plane};
       for (int k = 0; k < 3; ++k) {
-        const std::int64_t all = shape_[static_cast<std::size_t>(k)] * m;
-        const std::int64_t index = place[static_cast<std::size_t>(k)] * m + at[k];
-        xyz.push_back((static_cast<double>(index) - 0.5 * static_cast<double>(all)) * spacing_ - (k == 2 ? 0.4 : 0));
+        xyz.push_back(coordinate(k, place[static_cast<std::size_t>(k)] * m + at[k]));
       }
       if (static_cast<std::int64_t>(xyz.size()) == 3 * n || i + 1 == n_nodes) {
         file.write_all(xyz);
@@ -254,7 +271,6 @@ int run(int argc, char **argv) {
   options.quiet = true;
   if (with_leaks) {
     options.measures = true;
-    options.check_leaks = LeakCheck{{0, 0, -1.2}, {0, 0, 1.2}, "--between", exit_wrong_usage};
   } else {
     options.output = folder + "/marked.pvtu";
   }
@@ -265,6 +281,14 @@ int run(int argc, char **argv) {
   const riis::Surface surface(made);
   check(riis_surface_get_info(made, &report.surface, sizeof report.surface));
   pieces.half_thickness = report.surface.half_thickness;
+  if (with_leaks) {
+    // Two points on the axis, below and above the valve, in the box.
+    const double low = pieces.z_of(0), high = pieces.z_of(pieces.shape()[2] * (side - 1));
+    options.check_leaks = LeakCheck{{0, 0, std::max(report.surface.lower[2] - 0.3, low)},
+                                    {0, 0, std::min(report.surface.upper[2] + 0.3, high)},
+                                    "--between",
+                                    exit_wrong_usage};
+  }
   mark_pieces(options, pieces, made, valve.get(), {}, report);
   const double seconds = seconds_since(begin);
   std::filesystem::remove_all(folder);
@@ -279,9 +303,10 @@ int run(int argc, char **argv) {
     std::printf("%sregions   %lld\n", line_of_passage(report.leaks).c_str(),
                 static_cast<long long>(*report.flow.n_open_regions));
   std::printf(
-      "seconds   %.1f: making %.1f, reading %.1f, marking %.1f, leaks and shared nodes %.1f, writing %.1f, checking "
+      "seconds   %.1f, of which processors worked %.1f: making %.1f, reading %.1f, marking %.1f, leaks and shared "
+      "nodes %.1f, writing %.1f, checking "
       "%.1f\n",
-      seconds, pieces.seconds_making, report.seconds.read - pieces.seconds_making,
+      seconds, processor_seconds(), pieces.seconds_making, pieces.seconds_reading,
       report.seconds.mesh + report.seconds.search, report.seconds.leaks, report.seconds.write, pieces.seconds_checking);
   std::printf("memory    %.0f MB at most\n", peak_megabytes());
   if (report.marks.n_nodes != pieces.n_nodes() || report.n_cells != pieces.n_cells())
