@@ -160,7 +160,8 @@ RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const 
 enum {
   RIIS_VTK_NODE_INSIDE = 0, /* no other piece has the node, except as a ghost */
   RIIS_VTK_NODE_SHARED = 1, /* other pieces may have it: it is on a face of one cell only, or on no volume cell */
-  RIIS_VTK_NODE_GHOST = 2   /* it belongs only to ghost cells, which are copies of another piece's cells */
+  RIIS_VTK_NODE_GHOST = 2,  /* it belongs only to ghost cells, which are copies of another piece's cells */
+  RIIS_VTK_NODE_LOOSE = 3   /* it belongs to no cell of the piece */
 };
 /* The cells of a piece that are not ghosts. Ghosts have bit 1 in the cell array vtkGhostType. */
 typedef struct riis_vtk_sharing {

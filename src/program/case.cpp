@@ -147,6 +147,7 @@ ExitCode run_one_time_in_pieces(Case &all, const MeshPieces &pieces) {
                        "the surface" + (part.empty() ? "" : " of " + part));
   }
   MeshCounts own;
+  LooseNodes loose;
   NodeCounts marked(valves.size());
   std::vector<std::vector<SharedNode>> shared;
   std::vector<std::int32_t> complete(valves.size(), 1);
@@ -155,6 +156,7 @@ ExitCode run_one_time_in_pieces(Case &all, const MeshPieces &pieces) {
     const MeshFile file = read_piece(options, pieces, piece, report.seconds);
     const PieceNodes nodes(file.get(), path);
     own.add(file.get(), nodes);
+    loose.add(nodes);
     if (nodes.n() > 0) {
       check_new_arrays(options, names, file.get());
       const Mesh mesh = borrow_nodes(file.get(), path);
@@ -176,6 +178,7 @@ ExitCode run_one_time_in_pieces(Case &all, const MeshPieces &pieces) {
   });
   const MeshCounts counts = sum_of(own, pieces);
   const MatchedNodes matched = match_nodes(std::move(shared), counts.n_with_ids > 0, pieces.files());
+  loose.check(pieces);
   const std::vector<int64_t> n_marked = marked.sums();
   const int64_t n_nodes = counts.n_nodes + matched.n_nodes;
   warn_of_apart(counts, matched, pieces);

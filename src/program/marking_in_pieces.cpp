@@ -29,14 +29,6 @@ void check_options_of_pieces(const MarkOptions &options) {
   if (options.first_passage) refuse("--first-passage", "the opening is searched in the whole mesh");
 }
 
-void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work) {
-  try {
-    for (const std::int64_t piece : pieces.own()) work(piece);
-  } catch (const Refusal &refusal) {
-    ranks::agree(&refusal);
-  }
-}
-
 // ---- Counts ----
 
 Box empty_box() {
@@ -405,6 +397,7 @@ class PieceMarking {
     });
     const MeshCounts counts = sum_of(counts_, pieces_);
     const MatchedNodes matched = match_nodes(std::move(shared_), counts.n_with_ids > 0, pieces_.files());
+    loose_.check(pieces_);
     fill_report(counts, matched);
     warn_of_apart(counts, matched, pieces_);
     if (!report_.marks.complete) warn_of_incomplete_marks();
@@ -433,6 +426,7 @@ class PieceMarking {
     const MeshFile file = read_piece(options_, pieces_, piece, report_.seconds);
     const PieceNodes nodes(file.get(), view(pieces_.files())[piece]);
     counts_.add(file.get(), nodes);
+    loose_.add(nodes);
     if (nodes.n() > 0) {
       check_new_arrays(options_, names_, file.get());
       MarkedFile marks = mark_file(options_, surface_, file.get(), report_.seconds);
@@ -567,6 +561,7 @@ class PieceMarking {
   bool wants_edges_;
   PieceOutput output_;
   MeshCounts counts_;
+  LooseNodes loose_;
   NodeCounts node_counts_{n_kinds};
   Sums sums_;
   Lengths all_lengths_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a mesh in pieces, and a surface. Out: marked pieces in files, and a report as for the joined mesh. Each rank reads, marks and
-// writes its pieces one by one, and keeps only their shared nodes, leaks and counts. Then the ranks exchange these.
+// In: a mesh in pieces, and a surface. Out: marked pieces in files, and a report as for the joined mesh. Each rank reads, marks
+// and writes its pieces one by one, and keeps only their shared nodes, leaks and counts. Then the ranks exchange these.
 #pragma once
 
 #include <functional>
@@ -19,8 +19,6 @@ namespace riis::program {
 
 // Refuses options that need the whole mesh at once.
 void check_options_of_pieces(const MarkOptions &options);
-// Calls `work` with each of this rank's pieces. A failure ends all ranks.
-void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work);
 
 // A Box that contains nothing.
 Box empty_box();

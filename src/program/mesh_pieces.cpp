@@ -5,6 +5,10 @@
 #include <array>
 #include <cstring>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "common/array_view.hpp"
 #include "program/outputs.hpp"
 #include "program/ranks.hpp"
@@ -31,6 +35,17 @@ MeshFile MeshPieces::read(std::int64_t piece) const {
   riis_vtk_mesh *mesh = nullptr;
   check(riis_vtk_pieces_read_mesh(list_.get(), piece, &mesh));
   return MeshFile(mesh);
+}
+
+void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work) {
+  try {
+    for (const std::int64_t piece : pieces.own()) {
+      work(piece);
+      release_free_memory();
+    }
+  } catch (const Refusal &refusal) {
+    ranks::agree(&refusal);
+  }
 }
 
 void MeshPieces::finished(std::int64_t) const {}
@@ -95,6 +110,7 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   for (auto &nodes : by_piece) {
     all.insert(all.end(), nodes.begin(), nodes.end());
     nodes = {};
+    release_free_memory();
   }
   return all;
 }
@@ -157,6 +173,36 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
   for (const Pair &pair : ranks::gather(pairs)) all.joined.emplace_back(pair.p, pair.q);
   sort_unique(all.joined);
   return all;
+}
+
+void LooseNodes::add(const PieceNodes &nodes) {
+  for (std::int64_t i = 0; i < nodes.n(); ++i)
+    if (nodes.is_loose(i)) keys_.push_back(nodes.key(i));
+}
+
+void LooseNodes::check(const MeshPieces &pieces) const {
+  std::vector<NodeKey> keys = ranks::gather(keys_);
+  sort_unique(keys);
+  if (keys.empty()) return;
+  std::int64_t n = 0;
+  for_own_pieces(pieces, [&](std::int64_t piece) {
+    const MeshFile file = pieces.read(piece);
+    const PieceNodes nodes(file.get(), view(pieces.files())[piece]);
+    for (std::int64_t i = 0; i < nodes.n(); ++i)
+      n += nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), nodes.key(i));
+  });
+  std::int64_t sum = 0;
+  for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
+  if (sum > 0)
+    throw Refusal{exit_bad_data, pieces.path() + ": " + std::to_string(sum) +
+                                     " points are inside one piece, and in another piece without a cell; write each "
+                                     "piece with only the points of its own cells"};
+}
+
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -45,6 +46,9 @@ class MeshPieces {
   std::vector<std::string> files_;
 };
 
+// Calls `work` with each of this rank's pieces. A failure ends all ranks.
+void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work);
+
 // Returns whether the path is that of a mesh in pieces.
 bool is_in_pieces(const std::string &mesh);
 
@@ -63,7 +67,8 @@ class PieceNodes {
   std::int64_t n() const { return n_; }
   const double *point(std::int64_t node) const { return xyz_ + 3 * node; }
   NodeKey key(std::int64_t node) const;
-  bool is_shared(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_SHARED; }
+  bool is_shared(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_SHARED || is_loose(node); }
+  bool is_loose(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_LOOSE; }
   bool is_inside(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_INSIDE; }
   bool is_ghost(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_GHOST; }
   // Returns (n) with 0 for ghosts, or NULL if there are no ghosts.
@@ -129,10 +134,26 @@ struct MatchedNodes {
   std::vector<std::pair<PieceRegion, PieceRegion>> joined;  // regions of different pieces with a common node
 };
 
-// Matches the nodes of all ranks. `has_ids` says whether keys have global ids; then one id at two places is refused. `files` names
-// the pieces.
+// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. Then one id at two places is refused. `files`
+// names the pieces.
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files);
+
+// The nodes that no cell of their piece uses. They count if no other piece has them inside.
+class LooseNodes {
+ public:
+  void add(const PieceNodes &nodes);
+  // Refuses a mesh in which a loose node is inside another piece, because it would count twice. Reads the pieces again if there
+  // are loose nodes.
+  void check(const MeshPieces &pieces) const;
+
+ private:
+  std::vector<NodeKey> keys_;
+};
+
+// Returns memory that is free in this process to the system. Without this call, the memory of large pieces would stay between
+// the shared nodes.
+void release_free_memory();
 
 // Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted at once.
 class NodeCounts {

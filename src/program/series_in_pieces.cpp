@@ -71,6 +71,7 @@ class SeriesInPieces {
     const MeshCounts counts = sum_of(counts_, pieces_);
     const MatchedNodes matched = match_nodes(std::move(shared_), counts.n_with_ids > 0, pieces_.files());
     const std::int64_t n_nodes = counts.n_nodes + matched.n_nodes;
+    if (!is_stopped) loose_.check(pieces_);
     if (!is_stopped) judge(n_marked, n_nodes, counts, matched, report);
     write_lists(n_marked, is_stopped);
     if (is_stopped) {
@@ -91,6 +92,7 @@ class SeriesInPieces {
     MeshFile file = read_piece(options(), pieces_, piece, seconds);
     const PieceNodes nodes(file.get(), view(pieces_.files())[piece]);
     counts_.add(file.get(), nodes);
+    loose_.add(nodes);
     if (nodes.n() == 0) return;
     check_new_arrays(options(), names_, file.get());
     Sweep sweep;
@@ -234,6 +236,7 @@ class SeriesInPieces {
   SeriesTable table_;
   std::vector<std::string> names_;
   MeshCounts counts_;
+  LooseNodes loose_;
   NodeCounts node_counts_;                  // a kind for each valve at each time
   std::vector<std::int32_t> are_complete_;  // by valve
   std::vector<double> seconds_;             // by step

@@ -60,8 +60,8 @@ constexpr std::int64_t most_pieces = 1'000'000;
 
 // ---- The list ----
 
-// Collects the pieces and the declared arrays of a .pvtu file. It builds no tree, because a hostile file could nest so deeply that
-// destroying the tree would overflow the stack.
+// Collects the pieces and the declared arrays of a .pvtu file. It builds no tree, because a hostile file could nest so deeply
+// that destroying the tree would overflow the stack.
 class PiecesParser : public vtkXMLParser {
  public:
   static PiecesParser *New();
@@ -303,7 +303,7 @@ class NodeRoles {
       return view(faces_at_)[node] == 0 && !(use & in_unknown) ? RIIS_VTK_NODE_INSIDE : RIIS_VTK_NODE_SHARED;
     if (use & in_other) return RIIS_VTK_NODE_SHARED;
     const bool is_copy = point_ghosts_ && (point_ghosts_->GetValue(node) & vtkDataSetAttributes::DUPLICATEPOINT) != 0;
-    return (use & in_ghost) || is_copy ? RIIS_VTK_NODE_GHOST : RIIS_VTK_NODE_SHARED;
+    return (use & in_ghost) || is_copy ? RIIS_VTK_NODE_GHOST : RIIS_VTK_NODE_LOOSE;
   }
 
   std::int64_t n_cells() const { return n_cells_; }

@@ -627,6 +627,7 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_VTK_NODE_INSIDE, 0);
   assert_int_equal(RIIS_VTK_NODE_SHARED, 1);
   assert_int_equal(RIIS_VTK_NODE_GHOST, 2);
+  assert_int_equal(RIIS_VTK_NODE_LOOSE, 3);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
   assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
   assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
@@ -800,8 +801,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_get_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
   SIGNATURE(riis_vtk_pieces_read, int32_t, (const char *, riis_vtk_pieces **));
-  SIGNATURE(riis_vtk_pieces_create, int32_t,
-            (const riis_vtk_mesh *, int64_t, const char *const *, riis_vtk_pieces **));
+  SIGNATURE(riis_vtk_pieces_create, int32_t, (const riis_vtk_mesh *, int64_t, const char *const *, riis_vtk_pieces **));
   SIGNATURE(riis_vtk_pieces_set_files, int32_t, (riis_vtk_pieces *, int64_t, const char *const *));
   SIGNATURE(riis_vtk_pieces_destroy, void, (riis_vtk_pieces **));
   SIGNATURE(riis_vtk_pieces_get_files, int32_t, (const riis_vtk_pieces *, int64_t *, const char *const **));

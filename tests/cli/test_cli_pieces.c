@@ -7,6 +7,7 @@
 #include <math.h>
 #include <riis/riis_vtk.h>
 
+#include "plain_mesh.h"
 #include "program.h"
 #include "scratch.h"
 #include "test_support.h"
@@ -587,6 +588,51 @@ static void cases_are_those_of_the_joined_mesh(void **state) {
   forget_whole();
 }
 
+/* VTK's parallel writer and reader agree with riis: the pieces that VTK writes are those of the whole, and VTK reads the marked
+ * pieces. */
+static void vtk_reads_and_writes_pieces(void **state) {
+  (void)state;
+  rng = random_start("vtk_reads_and_writes_pieces");
+  make_random_mesh(1);
+  assert_int_equal(shim_write_pieces(scratch_path("mesh.pvtu"), scratch_path("by_vtk.pvtu"), n_pieces), 1);
+  run_program("mark", scratch_path("joined.vtu"), "--half-thickness", "0.3", "--stats", scratch_path("joined.json"),
+              "--quiet", NULL);
+  const int code = program_exit_code;
+  run_program("mark", scratch_path("by_vtk.pvtu"), "--half-thickness", "0.3", "--stats", scratch_path("pieces.json"),
+              "--output", scratch_path("by_riis.pvtu"), "--quiet", NULL);
+  if (program_exit_code != code) fail_msg("%s", program_err);
+  char *const joined = read_text("joined.json"), *const pieces = read_text("pieces.json");
+  expect_same_numbers(joined, pieces);
+  double sum = 0, all = 0;
+  int64_t n_cells = 0, n_points = 0;
+  for (int piece = 0; piece < n_pieces; ++piece) {
+    char path[64], type[32];
+    static double marked[12 * 12 * 12];
+    int64_t n_components = 0, n = 0;
+    if (n_nodes_of[piece] == 0) continue;
+    snprintf(path, sizeof path, "by_riis/by_riis_%04d.vtu", piece);
+    assert_int_equal(shim_read_array(scratch_path(path), 'p', "riis_marked", type, &n_components, &n, marked), 1);
+    for (int64_t i = 0; i < n; ++i) all += marked[i];
+    n_points += n;
+  }
+  assert_int_equal(shim_read_pieces(scratch_path("by_riis.pvtu"), "riis_marked", &sum, &n_cells), n_points);
+  assert_true(n_cells >= whole.n_cells);
+  assert_true(sum > 4 && sum == all);
+  free(joined);
+  free(pieces);
+  forget_whole();
+  /* Each of these pieces has the points of all, which would count several times. */
+  plain_mesh box = plain_hexahedra(5, (double[3]){-1.7, -1.6, -1.3}, (double[3]){1.5, 1.6, 0.5});
+  plain_write("parts.vtu", &box, PLAIN_CELLS, 2);
+  assert_int_equal(shim_write_pieces(scratch_path("parts.vtu"), scratch_path("full.pvtu"), 2), 1);
+  run_program("mark", scratch_path("full.pvtu"), "--half-thickness", "0.8", "--quiet", "--output",
+              scratch_path("full_out.pvtu"), NULL);
+  assert_int_equal(program_exit_code, 1);
+  assert_non_null(strstr(program_err, "points are inside one piece, and in another piece without a cell"));
+  assert_false(scratch_exists("full_out.pvtu"));
+  plain_free(&box);
+}
+
 /* ---- Refusals ---- */
 
 static const char *const good_arrays =
@@ -700,9 +746,8 @@ static void broken_pieces_are_refused(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(marks_are_those_of_the_joined_mesh),
-      cmocka_unit_test(series_are_those_of_the_joined_mesh),
-      cmocka_unit_test(cases_are_those_of_the_joined_mesh),
+      cmocka_unit_test(marks_are_those_of_the_joined_mesh), cmocka_unit_test(series_are_those_of_the_joined_mesh),
+      cmocka_unit_test(cases_are_those_of_the_joined_mesh), cmocka_unit_test(vtk_reads_and_writes_pieces),
       cmocka_unit_test(broken_pieces_are_refused),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
