@@ -14,6 +14,7 @@
 #include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/series_files.hpp"
+#include "program/valve_source.hpp"
 
 namespace riis::program {
 
@@ -26,7 +27,6 @@ void check_options_of_pieces(const MarkOptions &options) {
   if (options.n_steps > 0) refuse("--steps", "steps are timed in the whole mesh");
   if (options.mark_options.search == RIIS_SEARCH_PAPER)
     refuse("--search paper", "this search walks through the whole mesh");
-  if (options.first_passage) refuse("--first-passage", "the opening is searched in the whole mesh");
 }
 
 // ---- Counts ----
@@ -339,6 +339,68 @@ std::optional<PieceEnd> PassageCheck::nearest(int end, bool has_ids) const {
   return best;
 }
 
+namespace {
+
+// Finds the first opening with a passage, as riis_find_first_passage does in a joined mesh. Each opening reads all pieces.
+class FirstPassage {
+ public:
+  FirstPassage(const MarkOptions &options, const MeshPieces &pieces, const riis_valve *valve, const PieceEnd (&ends)[2])
+      : options_(options), pieces_(pieces), valve_(copy_of(valve)), ends_(ends) {}
+
+  riis_first_passage find() {
+    constexpr int n_coarse = 8;
+    riis_first_passage_options how;
+    check(riis_first_passage_options_init(&how, sizeof how));
+    riis_passage passage = at(0);
+    if (passage.state == RIIS_PASSAGE_NONE) return made(0, 0, passage, RIIS_FIRST_PASSAGE_NONE);
+    if (passage.state == RIIS_PASSAGE_OPEN) return made(0, 0, passage, RIIS_FIRST_PASSAGE_ALWAYS);
+    double closed = 0, open = 0;
+    for (int i = 1; i <= n_coarse && passage.state != RIIS_PASSAGE_OPEN; ++i) {
+      closed = open;
+      open = static_cast<double>(i) / n_coarse;
+      passage = at(open);
+    }
+    if (passage.state != RIIS_PASSAGE_OPEN) return made(1, 1, passage, RIIS_FIRST_PASSAGE_NEVER);
+    while (open - closed > how.tolerance) {
+      const double middle = 0.5 * (closed + open);
+      const riis_passage tried = at(middle);
+      (tried.state == RIIS_PASSAGE_OPEN ? open : closed) = middle;
+      if (tried.state == RIIS_PASSAGE_OPEN) passage = tried;
+    }
+    return made(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
+  }
+
+ private:
+  riis_passage at(double opening) {
+    ++n_openings_;
+    check(riis_valve_set_scalar(valve_.get(), "opening", opening), "--first-passage");
+    riis_surface *made = nullptr;
+    check(riis_surface_create(valve_.get(), &options_.surface_options, &made), "--first-passage");
+    const Surface surface(made);
+    return find_passage(options_, pieces_, made, ends_).found;
+  }
+
+  riis_first_passage made(double opening, double closed, const riis_passage &passage, std::int32_t state) const {
+    riis_first_passage first{};
+    first.opening = opening;
+    first.closed_opening = closed;
+    first.node_id = passage.node_id;
+    first.distance = passage.distance;
+    std::copy_n(passage.point, 3, first.point);
+    first.n_openings = n_openings_;
+    first.state = state;
+    return first;
+  }
+
+  const MarkOptions &options_;
+  const MeshPieces &pieces_;
+  Valve valve_;
+  const PieceEnd (&ends_)[2];
+  std::int32_t n_openings_ = 0;
+};
+
+}  // namespace
+
 void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, const std::string &name,
                          const MeshCounts &counts, Report &report) const {
   if (!options_.check_leaks) return;
@@ -367,6 +429,10 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
         return left.state == RIIS_PASSAGE_CLOSED ? std::nullopt : std::optional(left.distance);
       },
       report);
+  if (options_.first_passage && !valve)
+    throw Refusal{exit_wrong_usage, "--first-passage needs a valve; a surface from a file does not open"};
+  if (options_.first_passage && report.leaks.has_all_edges())
+    report.flow.first = FirstPassage(options_, pieces_, valve, ends).find();
   report.seconds.leaks += stage.seconds();
 }
 
