@@ -383,15 +383,15 @@ static void vtk_reads_and_writes_pieces(void **state) {
     char path[64], type[32];
     static double marked[12 * 12 * 12];
     int64_t n_components = 0, n = 0;
-    if (n_nodes_of[piece] == 0) continue;
     snprintf(path, sizeof path, "by_riis/by_riis_%04d.vtu", piece);
+    if (!scratch_exists(path)) continue; /* VTK leaves out empty pieces */
     assert_int_equal(shim_read_array(scratch_path(path), 'p', "riis_marked", type, &n_components, &n, marked), 1);
     for (int64_t i = 0; i < n; ++i) all += marked[i];
     n_points += n;
   }
   assert_int_equal(shim_read_pieces(scratch_path("by_riis.pvtu"), "riis_marked", &sum, &n_cells), n_points);
-  assert_true(n_cells >= whole.n_cells);
-  assert_true(sum > 4 && sum == all);
+  if (n_cells < whole.n_cells) fail_msg("VTK reads %d of %d cells", (int)n_cells, whole.n_cells);
+  if (!(sum > 4 && sum == all)) fail_msg("VTK reads %g marks, and the pieces have %g", sum, all);
   free(joined);
   free(pieces);
   forget_whole();
