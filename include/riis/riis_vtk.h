@@ -123,6 +123,64 @@ RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int6
  *   path  ends in .vtu */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
+/* ---- Meshes in pieces ---------------------------------------------------------------------------------- */
+
+/* A list of .vtu files, the pieces of one mesh, as in a .pvtu file. The pieces are read one by one, so a mesh may be
+ * larger than the memory. */
+typedef struct riis_vtk_pieces riis_vtk_pieces;
+/* Reads the list, not the pieces.
+ *   path  ends in .pvtu. Names of pieces are absolute or relative to its folder
+ * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, listed twice or
+ * no .vtu file, and as in riis_vtk_mesh_read. */
+RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
+/* Makes a list of pieces that have the same arrays as a mesh, for riis_vtk_pieces_write. It borrows nothing.
+ *   n_files  1 to 1,000,000
+ *   files    (n_files), the paths of the pieces, which need not exist yet */
+RIIS_API riis_status riis_vtk_pieces_create(const riis_vtk_mesh *mesh, int64_t n_files, const char *const *files,
+                                            riis_vtk_pieces **pieces);
+/* Replaces the files of the list, and keeps its arrays.
+ *   n_files, files  as in riis_vtk_pieces_create */
+RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t n_files, const char *const *files);
+/* Destroys the list. */
+RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces);
+/* Gives the files of the pieces.
+ *   paths  (n_files), valid until the list is destroyed. A relative name is preceded by the folder of the .pvtu */
+RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, int64_t *n_files,
+                                               const char *const **paths);
+/* Reads a piece, which may have no points.
+ *   piece  0 to n_files - 1
+ * Errors: as in riis_vtk_mesh_read; RIIS_FILE_ERROR also for a piece with other point or cell arrays than the .pvtu
+ * declares. The array vtkGhostType need not be declared. */
+RIIS_API riis_status riis_vtk_pieces_read_mesh(const riis_vtk_pieces *pieces, int64_t piece, riis_vtk_mesh **mesh);
+/* Writes the list to a file. Names of pieces become relative to the file's folder, unless they are absolute.
+ *   path  ends in .pvtu */
+RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const char *path);
+
+/* How a node of a piece belongs to the whole mesh. */
+enum {
+  RIIS_VTK_NODE_INSIDE = 0, /* no other piece has the node, except as a ghost */
+  RIIS_VTK_NODE_SHARED = 1, /* other pieces may have it: it is on a face of one cell only, or on no volume cell */
+  RIIS_VTK_NODE_GHOST = 2,  /* it belongs only to ghost cells, which are copies of another piece's cells */
+  RIIS_VTK_NODE_LOOSE = 3   /* it belongs to no cell of the piece */
+};
+/* The cells of a piece that are not ghosts. Ghosts have bit 1 in the cell array vtkGhostType. */
+typedef struct riis_vtk_sharing {
+  int64_t n_cells;          /* cells that are not ghosts */
+  int64_t n_volume_cells;   /* the volume cells among these */
+  int64_t n_cells_left_out; /* the volume cells among these whose edges are not known, as in
+                               riis_vtk_mesh_get_volume_cells */
+  int32_t has_global_ids;   /* 1 if the mesh has global ids */
+  int32_t reserved;         /* 0 */
+} riis_vtk_sharing;
+/* Tells which nodes of a piece other pieces may share. Global ids are the point array with VTK's attribute GlobalIds,
+ * else the array vtkGlobalIds, GlobalNodeId or GlobalPointIds.
+ *   n_nodes    the mesh's number of nodes
+ *   role       (n_nodes), RIIS_VTK_NODE_*
+ *   global_id  (n_nodes), set if the mesh has global ids; NULL if not wanted
+ * Errors: RIIS_FILE_ERROR for global ids that are not whole numbers, and for a vtkGhostType that is not UInt8. */
+RIIS_API riis_status riis_vtk_mesh_get_sharing(const riis_vtk_mesh *mesh, int64_t n_nodes, uint8_t *role,
+                                               int64_t *global_id, riis_vtk_sharing *sharing, int64_t struct_size);
+
 /* ---- Surfaces ------------------------------------------------------------------------------------------ */
 
 /* Triangles or quads read from a file. */

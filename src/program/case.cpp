@@ -5,15 +5,19 @@
 #include <optional>
 #include <utility>
 
+#include "common/array_view.hpp"
 #include "program/leaks.hpp"
+#include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
 #include "program/moving_valve.hpp"
 #include "program/opening_law.hpp"
 #include "program/outputs.hpp"
 #include "program/pictures.hpp"
 #include "program/progress.hpp"
+#include "program/ranks.hpp"
 #include "program/series.hpp"
 #include "program/series_files.hpp"
+#include "program/series_in_pieces.hpp"
 #include "program/valve_source.hpp"
 #include "program/warnings.hpp"
 
@@ -48,6 +52,15 @@ std::vector<std::string> names_of_case(const Case &all) {
   return names;
 }
 
+void write_case_surface(const MarkOptions &options, const std::vector<MovingValve> &valves, Report &report) {
+  if (options.surface_output.empty()) return;
+  const UnbrokenWrite unbroken;
+  const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
+  if (ranks::is_first())
+    check(riis_vtk_surface_write(joined ? joined.get() : valves[0].surface(), options.surface_output.c_str()));
+  report.written.push_back(options.surface_output);
+}
+
 void write_case_files(const MarkOptions &options, const std::vector<MovingValve> &valves, const riis_vtk_mesh *file,
                       Report &report) {
   const Stage stage("writing", options.quiet);
@@ -56,21 +69,19 @@ void write_case_files(const MarkOptions &options, const std::vector<MovingValve>
     check(riis_vtk_mesh_write(file, options.output.c_str()));
     report.written.push_back(options.output);
   }
-  if (!options.surface_output.empty()) {
-    const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
-    check(riis_vtk_surface_write(joined ? joined.get() : valves[0].surface(), options.surface_output.c_str()));
-    report.written.push_back(options.surface_output);
-  }
+  write_case_surface(options, valves, report);
 }
 
 // Prints a line for each valve and for each written file.
-void print_case(const Case &all, const std::vector<MovingValve> &valves, const Report &report) {
+void print_case(const Case &all, const std::vector<MovingValve> &valves, int64_t n_nodes,
+                const std::vector<int64_t> &n_marked, const Report &report) {
   if (all.options.quiet) return;
-  std::string text = "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";
-  for (const MovingValve &valve : valves) {
+  std::string text = "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") + "\n";
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    const MovingValve &valve = valves[i];
     text += "valve     " + valve.options().prefix + ": " +
-            (valve.source().valve ? "opening " + shown(valve.opening()) + ", " : "") +
-            counted(valve.stats().n_marked, "node") + " marked\n";
+            (valve.source().valve ? "opening " + shown(valve.opening()) + ", " : "") + counted(n_marked[i], "node") +
+            " marked\n";
   }
   text += line_of_passage(report.leaks);
   for (const std::string &path : report.written) text += "written   " + path + "\n";
@@ -115,8 +126,91 @@ ExitCode run_one_time(Case &all) {
   }
   write_case_files(options, valves, file.get(), report);
   if (!options.pictures.empty()) SeriesPictures(all, std::move(file), {}).draw(0, valves, report);
-  print_case(all, valves, report);
+  std::vector<int64_t> n_marked;
+  for (const MovingValve &valve : valves) n_marked.push_back(valve.stats().n_marked);
+  print_case(all, valves, valves[0].stats().n_nodes, n_marked, report);
   return most_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
+}
+
+// As run_one_time, for a mesh in pieces.
+ExitCode run_one_time_in_pieces(Case &all, const MeshPieces &pieces) {
+  const MarkOptions &options = all.options;
+  std::vector<MovingValve> valves = moving_valves(all);
+  const std::vector<std::string> names = names_of_case(all);
+  Report report;
+  PieceOutput output(options.output, view(pieces.files()).size());
+  PassageCheck passage(valves.size() == 1 ? valves[0].options() : options, pieces);
+  std::vector<PieceLeaks> leaks;
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    const std::string part = all.part_of(i);
+    leaks.emplace_back(valves[i].options(), pieces, valves[i].surface(), valves[i].source().valve.get(),
+                       "the surface" + (part.empty() ? "" : " of " + part));
+  }
+  MeshCounts own;
+  LooseNodes loose;
+  NodeCounts marked(valves.size());
+  std::vector<std::vector<SharedNode>> shared;
+  std::vector<std::int32_t> complete(valves.size(), 1);
+  for_own_pieces(pieces, [&](std::int64_t piece) {
+    const std::string &path = view(pieces.files())[piece];
+    const MeshFile file = read_piece(options, pieces, piece, report.seconds);
+    const PieceNodes nodes(file.get(), path);
+    own.add(file.get(), nodes);
+    loose.add(nodes);
+    if (nodes.n() > 0) {
+      check_new_arrays(options, names, file.get());
+      const Mesh mesh = borrow_nodes(file.get(), path);
+      ResistanceSum resistance(nodes.n(), ResistanceSum::WithVelocity::no);
+      for (std::size_t i = 0; i < valves.size(); ++i) {
+        valves[i].mark(mesh.get(), 0);
+        set_marks(valves[i].options(), valves[i].result(), 0, file.get());
+        resistance.add(valves[i].options(), valves[i].result());
+        marked.add(nodes, list_of(valves[i].result(), RIIS_LIST_MARKED), i);
+        leaks[i].add(piece, nodes, file.get(), mesh.get(), valves[i].result());
+        complete[i] = complete[i] && valves[i].stats().complete;
+      }
+      resistance.set_arrays(options.prefix, file.get());
+      shared.push_back(shared_nodes_of(piece, nodes, {}));
+      if (options.check_leaks) passage.add(piece, nodes, NodeEdges(file.get(), options.mark_options.n_threads));
+    }
+    output.write(piece, file.get());
+    pieces.finished(piece);
+  });
+  const MeshCounts counts = sum_of(own, pieces);
+  const MatchedNodes matched = match_nodes(std::move(shared), counts.n_with_ids > 0, pieces.files());
+  loose.check(pieces);
+  const std::vector<int64_t> n_marked = marked.sums();
+  const int64_t n_nodes = counts.n_nodes + matched.n_nodes;
+  warn_of_apart(counts, matched, pieces);
+  std::vector<Warning> warnings;
+  report.leaks.n_volume_cells = counts.n_volume_cells;
+  report.leaks.n_cells_left_out = counts.n_cells_left_out;
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    riis_surface_info info;
+    check(riis_surface_get_info(valves[i].surface(), &info, sizeof info));
+    if (auto warning = warning_of(situation_in_pieces(valves[i].options(), info, n_nodes, n_marked[i], counts))) {
+      warning->text.insert(0, valves[i].options().prefix + ": ");
+      warnings.push_back(*warning);
+    }
+  }
+  warn(warnings);
+  const std::vector<std::int32_t> are_complete = ranks::gather(complete);
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    report.marks.complete = 1;
+    for (std::size_t k = i; k < are_complete.size(); k += valves.size())
+      report.marks.complete = report.marks.complete && are_complete[k];
+    check(riis_surface_get_info(valves[i].surface(), &report.surface, sizeof report.surface));
+    leaks[i].judge(report);
+  }
+  const Surface joined = joined_for_passage(all, valves);
+  check(riis_surface_get_info(joined ? joined.get() : valves[0].surface(), &report.surface, sizeof report.surface));
+  passage.judge(joined ? joined.get() : valves[0].surface(), joined ? nullptr : valves[0].source().valve.get(),
+                joined ? "the surface of all valves" : "the surface", counts, report);
+  output.finish();
+  if (output.is_wanted()) report.written.push_back(options.output);
+  write_case_surface(options, valves, report);
+  print_case(all, valves, n_nodes, n_marked, report);
+  return *std::max_element(n_marked.begin(), n_marked.end()) == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
 
 }  // namespace
@@ -148,7 +242,13 @@ Case case_of_command_line(const MarkOptions &options) {
 
 ExitCode run_case(Case &all) {
   if (!all.is_series()) check_one_time(all);
+  std::optional<MeshPieces> pieces;
+  if (is_in_pieces(all.options.mesh)) {
+    check_options_of_pieces(all.options);
+    all.options.pieces = pieces.emplace(all.options.mesh).files();
+  }
   const OutputLocks locks = check_outputs(all.options, all.files);
+  if (pieces) return all.is_series() ? run_series_in_pieces(all, *pieces) : run_one_time_in_pieces(all, *pieces);
   return all.is_series() ? run_series(all) : run_one_time(all);
 }
 

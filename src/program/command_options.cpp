@@ -278,7 +278,8 @@ void declare_series(Command &command, MarkOptions &options) {
 
 void declare_mark(Command command, MarkOptions &options) {
   command.group("Mesh");
-  command.text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML) or .vtk (legacy)", options.mesh);
+  command.text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML), .vtk (legacy), or .pvtu (pieces)",
+               options.mesh);
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
@@ -287,7 +288,8 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_placement(command, options);
   declare_marking(command, options);
   command.group("Output");
-  CLI::Option *const output = command.text("--output", "OUT.vtu", "Write the marked mesh", options.output);
+  CLI::Option *const output =
+      command.text("--output", "OUT.vtu|.pvtu", "Write the marked mesh; a .pvtu if MESH is one", options.output);
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);
   command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
@@ -318,7 +320,10 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   command.group("Mesh");
-  command.text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML) or .vtk (legacy)", options.mesh)->required();
+  command
+      .text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML), .vtk (legacy), or .pvtu (pieces)",
+            options.mesh)
+      ->required();
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
               [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })

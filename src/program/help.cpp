@@ -78,6 +78,15 @@ The marked mesh is a copy of the input. Its nodes keep the input's order. It has
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
 can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
 )"},
+    {"pieces", "meshes larger than memory, and MPI",
+     R"(
+A .pvtu file lists the pieces of a mesh, .vtu files. The pieces are read, marked and written one by one. Counts, leaks and
+passages are those of the whole mesh. Nodes of two pieces are the same node if their global ids are equal (the point array
+with VTK's attribute GlobalIds, vtkGlobalIds, GlobalNodeId or GlobalPointIds). Without global ids, all their coordinates must be
+equal. Ghost cells (vtkGhostType 1) do not count. --output marked.pvtu writes the pieces to the folder marked.
+A series reads each piece once. Pictures, movies, --steps and --search paper need the whole mesh.
+A program built with RIIS_PROGRAM_MPI shares out the pieces: mpirun -n 8 riis mark mesh.pvtu --threads 1 --output marked.pvtu
+)"},
     {"units", "units of lengths, and the scale",
      R"(
 Lengths are in the mesh's unit. --unit names that unit, and the program derives the scale from it. The parameters of the

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "program/handles.hpp"
+#include "program/mesh_marking.hpp"
 #include "program/moving_valve.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
@@ -15,9 +16,6 @@
 
 namespace riis::program {
 
-namespace {
-
-// Finds the leaks among the edges that may leak. `longer_than` is passed to riis_vtk_mesh_create_long_edges.
 Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, double longer_than,
                int64_t *n_cells_left_out) {
   riis_adjacency *handle = nullptr;
@@ -37,40 +35,47 @@ Leaks leaks_of(const MarkedMesh &marked, const riis_mark_options &options, doubl
   return leaks;
 }
 
-// Marks the nodes again with another half thickness, and returns the leaks of the new marking.
-Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double half_thickness) {
+double longest_closed_edge(const MarkOptions &options, double half_thickness, bool is_complete) {
+  return is_complete && options.surface_options.measure == RIIS_MEASURE_TRIANGLES ? 2 * half_thickness : 0;
+}
+
+Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
-  riis_surface *surface_handle = nullptr;
-  check(riis_surface_create(marked.valve, &surface_options, &surface_handle));
-  const Surface surface(surface_handle);
-  riis_marks *result_handle = nullptr;
-  check(riis_marks_create(&result_handle));
-  const Marks result(result_handle);
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, &surface_options, &surface));
+  return Surface(surface);
+}
+
+namespace {
+
+// Marks the nodes again with another half thickness, and returns the leaks of the new marking.
+Leaks leaks_with(const MarkOptions &options, const MarkedMesh &marked, double half_thickness) {
+  const Surface surface = with_half_thickness(options, marked.valve, half_thickness);
+  const Marks result = new_result();
   riis_mark_options mark_options = options.mark_options;
   mark_options.search = RIIS_SEARCH_AUTO;
   mark_options.distance_limit = RIIS_AUTO;
   check(riis_mark_nodes(surface.get(), marked.mesh, &mark_options, result.get()));
-  const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   return leaks_of({surface.get(), marked.valve, marked.file, marked.mesh, result.get(), ""}, mark_options,
-                  is_by_triangles ? 2 * half_thickness : 0, nullptr);
+                  longest_closed_edge(options, half_thickness, true), nullptr);
 }
 
-// Returns a half thickness that closes the leaks, or 0 if none is found. Each candidate must be tried, because a valve's
+// Returns a half thickness that closes the surface, or 0 if none is found. Each candidate must be tried, because a valve's
 // triangles depend on the half thickness. The triangles of a file do not.
-double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_leak_list &leaks) {
+double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left) {
   constexpr int n_tries = 8;
-  double wanted = rounded_up(leaks.half_thickness);
-  if (!marked.valve) return wanted;
+  double wanted = rounded_up(half_thickness);
+  if (!valve) return wanted;
   try {
     for (int i = 0; i < n_tries; ++i) {
-      const Leaks handle = leaks_with(options, marked, wanted);
-      const riis_leak_list left = list_of(handle.get());
-      if (left.n_edges == 0) return wanted;
-      wanted = rounded_up(std::max(left.half_thickness, 1.01 * wanted));
+      const std::optional<double> needed = left(wanted);
+      if (!needed) return wanted;
+      wanted = rounded_up(std::max(*needed, 1.01 * wanted));
     }
   } catch (const Refusal &) {
-    // Some half thicknesses allow no surface. The warning is valid even then, but gives no advice.
+    // The warning is valid even without advice. There is no advice, for example, if a half thickness allows no surface, or if an
+    // end of a passage lies in the thicker band.
   }
   return 0;
 }
@@ -95,6 +100,8 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
 
 }  // namespace
 
+double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
+
 double rounded_up(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
   for (int steps = 0;; ++steps) {
@@ -106,28 +113,39 @@ double rounded_up(double x) {
   }
 }
 
+void judge_leaks(const MarkOptions &options, const riis_valve *valve, const std::string &surface_name, const Left &left,
+                 Report &report) {
+  LeakReport &leaks = report.leaks;
+  if (options.check_leaks) return;
+  if (leaks.found.n_edges > 0) {
+    if (report.marks.complete)
+      leaks.closing_half_thickness = closing_half_thickness(valve, leaks.found.half_thickness, left);
+    warn_of_leaks(options, leaks, surface_name, report.surface.half_thickness);
+  }
+  if (!leaks.has_all_edges())
+    warn((leaks.found.n_edges > 0 ? "more leaks of " : "leaks of ") + surface_name +
+         " are unknown: " + why_unknown(leaks, options.mesh));
+}
+
 void look_for_leaks(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   const Stage stage("looking for leaks", options.quiet);
   LeakReport &leaks = report.leaks;
-  // Short edges cannot leak if the marks are complete and follow the distances to the triangles. Otherwise they are searched
-  // also.
-  const bool is_by_triangles = options.surface_options.measure == RIIS_MEASURE_TRIANGLES;
-  const bool only_long = report.marks.complete && is_by_triangles;
   const double half_thickness = report.surface.half_thickness;
-  const Leaks found =
-      leaks_of(marked, options.mark_options, only_long ? 2 * half_thickness : 0, &leaks.n_cells_left_out);
+  const double longer_than = longest_closed_edge(options, half_thickness, report.marks.complete != 0);
+  const Leaks found = leaks_of(marked, options.mark_options, longer_than, &leaks.n_cells_left_out);
   leaks.found = list_of(found.get());
   leaks.edges.assign(leaks.found.node_id, leaks.found.node_id + 2 * leaks.found.n_edges);
   leaks.found.node_id = nullptr;
   leaks.found.length = leaks.found.distance = nullptr;
   check(riis_vtk_mesh_get_volume_cells(marked.file, &leaks.n_volume_cells, nullptr));
-  if (leaks.found.n_edges > 0 && !options.check_leaks) {
-    if (report.marks.complete) leaks.closing_half_thickness = closing_half_thickness(options, marked, leaks.found);
-    warn_of_leaks(options, leaks, marked.surface_name, half_thickness);
-  }
-  if (!options.check_leaks && !leaks.has_all_edges())
-    warn((leaks.found.n_edges > 0 ? "more leaks of " : "leaks of ") + marked.surface_name +
-         " are unknown: " + why_unknown(leaks, options.mesh));
+  judge_leaks(
+      options, marked.valve, marked.surface_name,
+      [&](double wanted) {
+        const Leaks handle = leaks_with(options, marked, wanted);
+        const riis_leak_list left = list_of(handle.get());
+        return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
+      },
+      report);
   report.seconds.leaks = stage.seconds();
 }
 
@@ -140,31 +158,20 @@ std::string text_of(const double *point) {
   return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
 }
 
-double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
-
 // The nodes of a file, and the neighbours of each node.
 class JoinedNodes {
  public:
-  JoinedNodes(const MarkedMesh &marked, int32_t n_threads) : mesh_(marked.mesh) {
-    riis_adjacency *handle = nullptr;
+  JoinedNodes(const MarkedMesh &marked, int32_t n_threads) : mesh_(marked.mesh), edges_(marked.file, n_threads) {
     check(riis_vtk_mesh_get_nodes(marked.file, &n_, nullptr, &xyz_));
-    check(riis_vtk_mesh_create_adjacency(marked.file, n_threads, &handle));
-    adjacency_.reset(handle);
-    check(riis_adjacency_get_csr(adjacency_.get(), &rows_, sizeof rows_));
-    check(riis_mesh_set_adjacency(mesh_, &rows_));
+    check(riis_mesh_set_adjacency(mesh_, edges_.rows()));
   }
   ~JoinedNodes() { riis_mesh_set_adjacency(mesh_, nullptr); }
   JoinedNodes(const JoinedNodes &) = delete;
   JoinedNodes &operator=(const JoinedNodes &) = delete;
 
-  // Returns the nearest node that has a neighbour. `name` is FROM or TO. `why_none` is the reason to give if no node has a
-  // neighbour.
+  // Returns the nearest node that has a neighbour. `name` and `why_none` are as in check_end.
   int64_t nearest(const MarkOptions &options, const char *name, const double *point,
                   const std::string &why_none) const {
-    const LeakCheck &asked = *options.check_leaks;
-    const auto refuse = [&](const std::string &why) {
-      throw Refusal{asked.exit_code, asked.subject + ": " + name + ", " + text_of(point) + ", " + why};
-    };
     int64_t found = -1;
     double least = 0, lower[3], upper[3];
     for (int64_t i = 0; i < n_; ++i) {
@@ -177,36 +184,22 @@ class JoinedNodes {
       const double away = distance_between(p, point);
       if (found < 0 || away < least) found = i, least = away;
     }
-    if (found < 0)
-      refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
-    for (int k = 0; k < 3; ++k)
-      if (point[k] < lower[k] || point[k] > upper[k])
-        refuse("is outside the mesh, which goes from " + place_text(options, lower, longest_edge(found)) + " to " +
-               place_text(options, upper, longest_edge(found)));
-    if (least > edges_away * longest_edge(found))
-      refuse("is outside the mesh: the nearest node, " + std::to_string(found) + ", is " + shown(least) +
-             " away, its longest edge " + shown(longest_edge(found)));
+    std::optional<NearestNode> nearest;
+    if (found >= 0) nearest = {least, longest_edge(found), std::to_string(found)};
+    check_end(options, name, point, nearest, lower, upper, why_none);
     return found;
   }
 
   double longest_edge(int64_t node) const {
-    const auto *offsets = static_cast<const int64_t *>(rows_.offsets);
     double longest = 0;
-    for (int64_t k = offsets[node]; k < offsets[node + 1]; ++k) {
-      const int64_t other = rows_.column_bits == 64 ? static_cast<const int64_t *>(rows_.columns)[k]
-                                                    : static_cast<const int32_t *>(rows_.columns)[k];
-      longest = std::max(longest, distance_between(xyz_ + 3 * node, xyz_ + 3 * other));
-    }
+    edges_.for_each_neighbor(
+        node, [&](int64_t other) { longest = std::max(longest, distance_between(xyz_ + 3 * node, xyz_ + 3 * other)); });
     return longest;
   }
 
  private:
-  // A point inside a cell is at most one edge length away from one of the cell's nodes. This limit allows two.
-  static constexpr double edges_away = 2;
-
   riis_mesh *mesh_;
-  Adjacency adjacency_;
-  riis_csr rows_{};
+  NodeEdges edges_;
   int64_t n_ = 0;
   const double *xyz_ = nullptr;
 };
@@ -255,32 +248,6 @@ riis_passage passage_of(const LeakCheck &asked, const riis_surface *surface, con
   return passage;
 }
 
-// Returns a half thickness that closes the passage, or 0 if none is found. Each candidate must be tried, because a valve's
-// triangles depend on the half thickness.
-double closing_half_thickness(const MarkOptions &options, const MarkedMesh &marked, const riis_passage &passage,
-                              Ends ends) {
-  constexpr int n_tries = 8;
-  double wanted = rounded_up(passage.distance);
-  if (!marked.valve) return wanted;
-  try {
-    for (int i = 0; i < n_tries; ++i) {
-      riis_surface_options thicker = options.surface_options;
-      thicker.half_thickness = wanted;
-      riis_surface *handle = nullptr;
-      check(riis_surface_create(marked.valve, &thicker, &handle));
-      const Surface surface(handle);
-      const riis_passage left =
-          passage_of(*options.check_leaks, surface.get(), marked.mesh, options.mark_options, ends);
-      if (left.state == RIIS_PASSAGE_CLOSED) return wanted;
-      wanted = rounded_up(std::max(left.distance, 1.01 * wanted));
-    }
-  } catch (const Refusal &) {
-    // There is no advice if, for example, an end point lies in the thicker band. The report about the passage is valid all the
-    // same.
-  }
-  return 0;
-}
-
 // --quiet does not silence this warning, because the valve lets flow through.
 void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
                      const std::string &unknown) {
@@ -304,28 +271,58 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
 
 }  // namespace
 
-void measure_flow(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
-  if (!options.measures && options.stats.empty()) return;
-  const Stage stage("measuring the band", options.quiet);
+void check_end(const MarkOptions &options, const char *name, const double *point,
+               const std::optional<NearestNode> &nearest, const double *lower, const double *upper,
+               const std::string &why_none) {
+  // A point inside a cell is at most one edge length away from one of the cell's nodes. This limit allows two.
+  constexpr double edges_away = 2;
+  const LeakCheck &asked = *options.check_leaks;
+  const auto refuse = [&](const std::string &why) {
+    throw Refusal{asked.exit_code, asked.subject + ": " + name + ", " + text_of(point) + ", " + why};
+  };
+  if (!nearest) refuse("has no node near it: " + (why_none.empty() ? "no edge joins two nodes of the mesh" : why_none));
+  for (int k = 0; k < 3; ++k)
+    if (point[k] < lower[k] || point[k] > upper[k])
+      refuse("is outside the mesh, which goes from " + place_text(options, lower, nearest->longest_edge) + " to " +
+             place_text(options, upper, nearest->longest_edge));
+  if (nearest->distance > edges_away * nearest->longest_edge)
+    refuse("is outside the mesh: the nearest node, " + nearest->name + ", is " + shown(nearest->distance) +
+           " away, its longest edge " + shown(nearest->longest_edge));
+}
+
+void measure_surface(const MarkOptions &options, const riis_surface *surface, Report &report) {
   FlowReport &flow = report.flow;
   report.prints_flow = options.measures;
   riis_orifice orifice;
-  check(riis_surface_get_orifice(marked.surface, nullptr, &orifice, sizeof orifice));
+  check(riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice));
   if (orifice.outline != RIIS_OUTLINE_NONE) flow.orifice = orifice;
   if (options.resistance && *options.resistance > 0) {
     riis_resistance how;
     check(riis_resistance_init(&how, sizeof how));
     how.R = *options.resistance;
     double leak = 0;
-    check(riis_surface_get_leak(marked.surface, &how, 1, &leak), "--resistance");
+    check(riis_surface_get_leak(surface, &how, 1, &leak), "--resistance");
     flow.leak_per_drop = leak;
     flow.drop = options.drop;
   }
+}
+
+void measure_flow(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
+  if (!options.measures && options.stats.empty()) return;
+  const Stage stage("measuring the band", options.quiet);
+  measure_surface(options, marked.surface, report);
+  FlowReport &flow = report.flow;
   if (report.leaks.has_all_edges()) {
     const JoinedNodes nodes(marked, options.mark_options.n_threads);
     riis_cells_across cells;
     check(riis_marks_get_cells_across(marked.result, marked.mesh, &cells, sizeof cells));
     flow.cells = cells;
+    int64_t n_nodes = 0, n_regions = 0;
+    check(riis_vtk_mesh_get_nodes(marked.file, &n_nodes, nullptr, nullptr));
+    std::vector<int64_t> regions(static_cast<std::size_t>(n_nodes));
+    check(riis_label_open_regions(marked.mesh, marked.result, &options.mark_options, n_nodes, regions.data(),
+                                  &n_regions));
+    flow.n_open_regions = n_regions;
   }
   report.seconds.leaks += stage.seconds();
 }
@@ -340,6 +337,19 @@ LeakCheck leak_check_between(const std::vector<std::string> &points) {
   return made;
 }
 
+void judge_passage(const MarkOptions &options, const riis_valve *valve, const std::string &surface_name,
+                   PassageReport passage, double longest_edge, const Left &left, Report &report) {
+  const riis_passage &found = passage.found;
+  const std::string unknown = why_unknown(report.leaks, options.mesh);
+  // Unknown edges cannot close an open path, but they may open a path where the known edges have none.
+  passage.is_unknown = found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
+  if (found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
+    passage.closing_half_thickness = closing_half_thickness(valve, found.distance, left);
+  if (found.node_id >= 0) passage.place = place_text(options, found.point, longest_edge);
+  warn_of_passage(*options.check_leaks, passage, surface_name, unknown);
+  report.leaks.passage = passage;
+}
+
 void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report &report) {
   if (!options.check_leaks) return;
   const Stage stage("looking for a passage", options.quiet);
@@ -351,28 +361,25 @@ void check_passage(const MarkOptions &options, const MarkedMesh &marked, Report 
   const Ends ends{nodes.nearest(options, "FROM", asked.from, unknown), nodes.nearest(options, "TO", asked.to, unknown)};
   PassageReport passage;
   passage.found = passage_of(asked, marked.surface, marked.mesh, options.mark_options, ends);
-  // Unknown edges cannot close an open path, but they may open a path where the known edges have none.
-  passage.is_unknown = passage.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   passage.is_end = passage.found.node_id == ends.from || passage.found.node_id == ends.to;
-  if (passage.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
-    passage.closing_half_thickness = closing_half_thickness(options, marked, passage.found, ends);
-  if (passage.found.node_id >= 0)
-    passage.place = place_text(options, passage.found.point, nodes.longest_edge(passage.found.node_id));
-  warn_of_passage(asked, passage, marked.surface_name, unknown);
+  const double longest = passage.found.node_id >= 0 ? nodes.longest_edge(passage.found.node_id) : 0;
+  judge_passage(
+      options, marked.valve, marked.surface_name, passage, longest,
+      [&](double wanted) {
+        const Surface surface = with_half_thickness(options, marked.valve, wanted);
+        const riis_passage left = passage_of(asked, surface.get(), marked.mesh, options.mark_options, ends);
+        return left.state == RIIS_PASSAGE_CLOSED ? std::nullopt : std::optional(left.distance);
+      },
+      report);
   if (options.first_passage && !marked.valve)
     throw Refusal{exit_wrong_usage, "--first-passage needs a valve; a surface from a file does not open"};
   if (options.first_passage && unknown.empty()) report.flow.first = first_passage_of(options, marked, ends);
-  leaks.passage = passage;
   report.seconds.leaks += stage.seconds();
 }
 
-void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
-                      const riis_vtk_mesh *file, Report &report) {
-  if (!all.options.check_leaks) return;
+Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
+  if (!all.options.check_leaks || valves.size() == 1) return nullptr;
   const MovingValve &first = valves[0];
-  if (valves.size() == 1)
-    return check_passage(first.options(),
-                         {first.surface(), first.source().valve.get(), file, mesh, nullptr, "the surface"}, report);
   riis_surface_options together;
   check(riis_surface_options_init(&together, sizeof together));
   for (const MovingValve &valve : valves) {
@@ -385,7 +392,17 @@ void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, r
                         first.options().prefix + " is " + shown(together.half_thickness) + ", that of " +
                         valve.options().prefix + " " + shown(info.half_thickness)};
   }
-  const Surface joined = joined_surface(valves, &together);
+  return joined_surface(valves, &together);
+}
+
+void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
+                      const riis_vtk_mesh *file, Report &report) {
+  if (!all.options.check_leaks) return;
+  const MovingValve &first = valves[0];
+  if (valves.size() == 1)
+    return check_passage(first.options(),
+                         {first.surface(), first.source().valve.get(), file, mesh, nullptr, "the surface"}, report);
+  const Surface joined = joined_for_passage(all, valves);
   check_passage(all.options, {joined.get(), nullptr, file, mesh, nullptr, "the surface of all valves"}, report);
 }
 

@@ -11,6 +11,7 @@
 
 #include "program/command_line.hpp"
 #include "program/help.hpp"
+#include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/run.hpp"
 
@@ -34,22 +35,40 @@ void occupy_closed_streams() {
 
 }  // namespace
 
+namespace {
+
+int run_and_report(int argc, char **argv) {
+  using namespace riis::program;
+  Refusal failure{exit_fine, ""};
+  try {
+    ExitCode code = exit_fine;
+    try {
+      if (argc < 2) {
+        if (ranks::is_first()) std::cerr << short_help();
+        return exit_wrong_usage;
+      }
+      const auto request = parse_command_line(argc, argv);
+      if (request) code = run(*request);
+    } catch (const Refusal &refusal) {
+      failure = refusal;
+    } catch (const std::bad_alloc &) {
+      failure = {exit_bad_data, "out of memory"};
+    } catch (const std::exception &error) {
+      failure = {exit_bad_data, error.what()};
+    }
+    ranks::agree(failure.exit_code == exit_fine ? nullptr : &failure);
+    return code;
+  } catch (const ranks::AgreedRefusal &agreed) {
+    return ranks::is_first() ? give_up(agreed.refusal.exit_code, agreed.refusal.text) : agreed.refusal.exit_code;
+  }
+}
+
+}  // namespace
+
 int main(int argc, char **argv) {
   occupy_closed_streams();
   // Ignores SIGXFSZ. So a write beyond the limit of file sizes fails instead of ending the process.
   std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    if (argc < 2) {
-      std::cerr << riis::program::short_help();
-      return riis::program::exit_wrong_usage;
-    }
-    const auto request = riis::program::parse_command_line(argc, argv);
-    return request ? riis::program::run(*request) : riis::program::exit_fine;
-  } catch (const riis::program::Refusal &refusal) {
-    return give_up(refusal.exit_code, refusal.text);
-  } catch (const std::bad_alloc &) {
-    return give_up(riis::program::exit_bad_data, "out of memory");
-  } catch (const std::exception &error) {
-    return give_up(riis::program::exit_bad_data, error.what());
-  }
+  const riis::program::ranks::Session session(&argc, &argv);
+  return run_and_report(argc, argv);
 }

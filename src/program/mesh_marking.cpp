@@ -37,6 +37,53 @@ Marks new_result() {
   return Marks(result);
 }
 
+namespace {
+
+// Gives the mesh an adjacency. The mesh borrows it, so the caller must keep the returned object.
+Adjacency give_adjacency(const MarkOptions &options, const riis_vtk_mesh *file, riis_mesh *mesh, Seconds &seconds) {
+  const Stage stage("finding the nodes' neighbours", options.quiet);
+  riis_adjacency *handle = nullptr;
+  check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
+  Adjacency adjacency(handle);
+  riis_csr rows;
+  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
+  check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
+  seconds.adjacency += stage.seconds();
+  return adjacency;
+}
+
+}  // namespace
+
+MarkedFile mark_file(const MarkOptions &options, const riis_surface *surface, riis_vtk_mesh *file, Seconds &seconds) {
+  MarkedFile marked;
+  {
+    const Stage stage("checking the nodes", options.quiet);
+    marked.mesh = borrow_nodes(file, options.mesh);
+    seconds.mesh += stage.seconds();
+  }
+  if (needs_adjacency(options.mark_options.search))
+    marked.adjacency = give_adjacency(options, file, marked.mesh.get(), seconds);
+  marked.marks = new_result();
+  {
+    const Stage stage("marking", options.quiet);
+    check(riis_mark_nodes(surface, marked.mesh.get(), &options.mark_options, marked.marks.get()), options.mesh);
+    seconds.search += stage.seconds();
+  }
+  check(riis_marks_get_stats(marked.marks.get(), &marked.stats, sizeof marked.stats));
+  set_marks(options, marked.marks.get(), 0, file);
+  ResistanceSum resistance(marked.stats.n_nodes, ResistanceSum::WithVelocity::no);
+  resistance.add(options, marked.marks.get());
+  resistance.set_arrays(options.prefix, file);
+  return marked;
+}
+
+NodeEdges::NodeEdges(const riis_vtk_mesh *file, int32_t n_threads) {
+  riis_adjacency *handle = nullptr;
+  check(riis_vtk_mesh_create_adjacency(file, n_threads, &handle));
+  adjacency_.reset(handle);
+  check(riis_adjacency_get_csr(adjacency_.get(), &rows_, sizeof rows_));
+}
+
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {

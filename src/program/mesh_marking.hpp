@@ -19,6 +19,34 @@ MeshFile read_mesh(const MarkOptions &options, Seconds &seconds);
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
 Marks new_result();
 
+// A file whose nodes are marked. Its members are borrowed by later ones.
+struct MarkedFile {
+  Adjacency adjacency;  // null unless the search needs it
+  Mesh mesh;
+  Marks marks;
+  riis_mark_stats stats{};
+};
+// Marks the nodes of a file. Sets the arrays of the marks and of the resistance.
+MarkedFile mark_file(const MarkOptions &options, const riis_surface *surface, riis_vtk_mesh *file, Seconds &seconds);
+
+// The neighbours of each node of a file.
+class NodeEdges {
+ public:
+  NodeEdges(const riis_vtk_mesh *file, int32_t n_threads);
+  const riis_csr *rows() const { return &rows_; }
+  template <class Visit>
+  void for_each_neighbor(int64_t node, const Visit &visit) const {
+    const auto *offsets = static_cast<const int64_t *>(rows_.offsets);
+    for (int64_t k = offsets[node]; k < offsets[node + 1]; ++k)
+      visit(rows_.column_bits == 64 ? static_cast<const int64_t *>(rows_.columns)[k]
+                                    : static_cast<const int32_t *>(rows_.columns)[k]);
+  }
+
+ private:
+  Adjacency adjacency_;
+  riis_csr rows_{};
+};
+
 // Marks a single node. So the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
 bool needs_adjacency(int32_t search);

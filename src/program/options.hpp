@@ -66,7 +66,9 @@ struct LeakCheck {
 struct MarkOptions : ValveOptions {
   MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
 
-  std::string mesh;        // "" if there is none
+  std::string mesh;  // "" if there is none
+  std::vector<std::string>
+      pieces;              // the files of a mesh in pieces; empty before its list is read, and for other meshes
   bool needs_mesh = true;  // whether a case must name a mesh
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "program/pictures.hpp"
+#include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/series_files.hpp"
 #include "program/valve_file.hpp"
@@ -81,6 +82,7 @@ NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> 
     inputs.push_back(input);
   for (const std::string &path : more_inputs)
     inputs.push_back({series.case_file.empty() ? "--surface" : "--case", path});
+  for (const std::string &path : options.pieces) inputs.push_back({"MESH", path});
   return inputs;
 }
 
@@ -192,26 +194,30 @@ fs::path place_of(const std::string &path) {
 fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
 
 OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
+  // The ranks of a run share their outputs. The first one checks and locks these.
+  if (!ranks::is_first()) return OutputLocks({});
   const KnownFiles inputs = known(inputs_of(options, more_inputs));
   const NamedFiles outputs = outputs_of(options);
   const bool is_series = !options.series.times.empty();
+  const bool has_pieces = !options.pieces.empty();  // then the pieces are written to a folder, as the steps of a series
   check_distinct(inputs, outputs);
   const std::vector<NamedFile> lists = {{"--output", options.output}, {"--surface-output", options.surface_output}};
   for (const NamedFile &list : lists)
-    if (is_series && !list.path.empty())
+    if (!list.path.empty() && (is_series || (has_pieces && list.option == "--output")))
       check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
   const auto check_file = [](const std::string &path, const char *ending, const std::string &option) {
     if (path.empty()) return;
     check_ending(path, ending, option);
     check_place(path);
   };
-  check_file(options.output, is_series ? ".pvd" : ".vtu", "--output");
+  check_file(options.output, is_series ? ".pvd" : has_pieces ? ".pvtu" : ".vtu", "--output");
   check_file(options.surface_output, is_series ? ".pvd" : ".vtp", options.surface_output_option);
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
   if (!options.series.table.empty()) check_place(options.series.table);
   for (const NamedFile &list : lists)
-    if (is_series && !list.path.empty()) SeriesFiles(list.path, "", 1).check_folder();
+    if (!list.path.empty() && (is_series || (has_pieces && list.option == "--output")))
+      SeriesFiles(list.path, "", 1).check_folder();
   check_movie(options.series.movie);
   if (!options.series.movie.empty()) check_place(options.series.movie);
   if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
@@ -271,6 +277,7 @@ void check_no_output_is(const std::string &what, const std::vector<std::string> 
 bool can_be_replaced(const std::string &path) { return path != "-" && !is_special(path); }
 
 void write_text(const std::string &path, const std::string &text) {
+  if (!ranks::is_first()) return;
   if (path == "-") {
     if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};
     return;
@@ -286,12 +293,12 @@ namespace {
 
 // The lock files of this process. Only the process's first OutputLocks object has lock files. It fills this list before it sets
 // the signal handlers.
-std::vector<std::string> held;
+std::vector<std::string> held_locks;
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
 void remove_held() {
-  for (const std::string &path : held) unlink(path.c_str());
+  for (const std::string &path : held_locks) unlink(path.c_str());
 }
 
 // Removes the locks and raises the signal again. The signal is blocked until the handler returns, and then its default action
@@ -382,11 +389,11 @@ OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
     for (const std::string &path : paths) {
       const std::string lock = lock_of(path);
       // A lock may serve several outputs with long names, because only the ends of such names are used.
-      if (std::find(held.begin(), held.end(), lock) != held.end()) continue;
+      if (std::find(held_locks.begin(), held_locks.end(), lock) != held_locks.end()) continue;
       const int file = take(path, lock);
       if (file < 0) continue;
       files_.push_back(file);
-      held.push_back(lock);
+      held_locks.push_back(lock);
     }
   } catch (...) {
     release();
@@ -403,7 +410,7 @@ void OutputLocks::release() {
   set_handlers(remove_and_end, SIG_DFL);
   for (const int file : files_) close(file);
   files_.clear();
-  held.clear();
+  held_locks.clear();
 }
 
 // ---- Interruption ----

@@ -73,7 +73,7 @@ void check_no_output_is(const std::string &what, const std::vector<std::string> 
 
 // Returns whether a later text can replace an earlier one. This is impossible on stdout, in a device and in a pipe.
 bool can_be_replaced(const std::string &path);
-// Writes a file, or stdout if the path is "-". Afterwards the file is complete or, after a failure, unchanged.
+// Writes a file, or stdout if the path is "-", on the first rank. Afterwards the file is complete or, after a failure, unchanged.
 void write_text(const std::string &path, const std::string &text);
 
 }  // namespace riis::program

@@ -149,6 +149,7 @@ void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
                             {"most", flow.cells->most},
                             {"mean_edge", flow.cells->mean_edge},
                             {"n_edges", flow.cells->n_edges}};
+  if (flow.n_open_regions) json["n_open_regions"] = *flow.n_open_regions;
   if (flow.first) json["first_passage"] = json_of_first(*flow.first);
   if (flow.leak_per_drop) json["leak_per_drop"] = *flow.leak_per_drop;
   if (flow.leak_per_drop && flow.drop) json["leak"] = *flow.leak_per_drop * *flow.drop;

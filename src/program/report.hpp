@@ -55,6 +55,7 @@ struct LeakReport {
 struct FlowReport {
   std::optional<riis_orifice> orifice;        // set if the surface has an outline
   std::optional<riis_cells_across> cells;     // set if the mesh's edges are known
+  std::optional<int64_t> n_open_regions;      // set if the mesh's edges are known
   std::optional<riis_first_passage> first;    // set if the first passage was looked for
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
 };

@@ -9,12 +9,14 @@
 #include "program/crossings.hpp"
 #include "program/handles.hpp"
 #include "program/leaks.hpp"
+#include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/pictures.hpp"
 #include "program/place.hpp"
 #include "program/progress.hpp"
+#include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/report.hpp"
 #include "program/size_field.hpp"
@@ -26,27 +28,6 @@
 namespace riis::program {
 namespace {
 
-Mesh borrowed_nodes(const MarkOptions &options, const riis_vtk_mesh *file, Report &report) {
-  const Stage stage("checking the nodes", options.quiet);
-  check(riis_vtk_mesh_get_nodes(file, nullptr, &report.n_cells, nullptr));
-  Mesh mesh = borrow_nodes(file, options.mesh);
-  report.seconds.mesh = stage.seconds();
-  return mesh;
-}
-
-// Gives the mesh an adjacency. The mesh borrows it, so the caller must keep the returned object.
-Adjacency give_adjacency(const MarkOptions &options, const riis_vtk_mesh *file, riis_mesh *mesh, Report &report) {
-  const Stage stage("finding the nodes' neighbours", options.quiet);
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
-  Adjacency adjacency(handle);
-  riis_csr rows;
-  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
-  check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
-  report.seconds.adjacency = stage.seconds();
-  return adjacency;
-}
-
 std::vector<std::string> names_of_arrays(const MarkOptions &options) {
   std::vector<std::string> names = names_of_marks(options.prefix, 0);
   if (options.resistance) names.push_back(options.prefix + "_K");
@@ -56,39 +37,33 @@ std::vector<std::string> names_of_arrays(const MarkOptions &options) {
 // Marks the mesh and sets its arrays. Returns the marks, because pictures may need them under other names than in the output.
 Marks mark(const MarkOptions &options, const riis_surface *surface, const riis_valve *valve, riis_vtk_mesh *file,
            Report &report) {
-  Adjacency adjacency;  // declared first, so that it outlives the mesh that borrows it
-  const Mesh mesh = borrowed_nodes(options, file, report);
-  if (needs_adjacency(options.mark_options.search)) adjacency = give_adjacency(options, file, mesh.get(), report);
-  Marks result = new_result();
-  {
-    const Stage stage("marking", options.quiet);
-    check(riis_mark_nodes(surface, mesh.get(), &options.mark_options, result.get()), options.mesh);
-    report.seconds.search = stage.seconds();
-  }
-  check(riis_marks_get_stats(result.get(), &report.marks, sizeof report.marks));
-  set_marks(options, result.get(), 0, file);
-  ResistanceSum resistance(report.marks.n_nodes, ResistanceSum::WithVelocity::no);
-  resistance.add(options, result.get());
-  resistance.set_arrays(options.prefix, file);
+  check(riis_vtk_mesh_get_nodes(file, nullptr, &report.n_cells, nullptr));
+  MarkedFile marked = mark_file(options, surface, file, report.seconds);
+  riis_mesh *const mesh = marked.mesh.get();
+  const Marks &result = marked.marks;
+  report.marks = marked.stats;
   if (!report.marks.complete) warn_of_incomplete_marks();
   if (const auto warning = warning_of(situation_of(options, report.surface, report.marks, file))) warn({*warning});
   const double limit = options.mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.distance = options.surface_options.measure;
   report.mesh_name = options.mesh;
-  look_for_leaks(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
-  measure_flow(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
-  check_passage(options, {surface, valve, file, mesh.get(), result.get(), "the surface"}, report);
-  return result;
+  look_for_leaks(options, {surface, valve, file, mesh, result.get(), "the surface"}, report);
+  measure_flow(options, {surface, valve, file, mesh, result.get(), "the surface"}, report);
+  check_passage(options, {surface, valve, file, mesh, result.get(), "the surface"}, report);
+  return std::move(marked.marks);
+}
+
+void write_surface(const MarkOptions &options, const riis_surface *surface, Report &report) {
+  if (options.surface_output.empty()) return;
+  const UnbrokenWrite unbroken;
+  if (ranks::is_first()) check(riis_vtk_surface_write(surface, options.surface_output.c_str()));
+  report.written.push_back(options.surface_output);
 }
 
 void write_files(const MarkOptions &options, const riis_surface *surface, const riis_vtk_mesh *mesh, Report &report) {
   const Stage stage("writing", options.quiet);
-  if (!options.surface_output.empty()) {
-    const UnbrokenWrite unbroken;
-    check(riis_vtk_surface_write(surface, options.surface_output.c_str()));
-    report.written.push_back(options.surface_output);
-  }
+  write_surface(options, surface, report);
   if (!options.output.empty()) {
     const UnbrokenWrite unbroken;
     check(riis_vtk_mesh_write(mesh, options.output.c_str()));
@@ -112,7 +87,12 @@ Keyframes keyframes_of_run(const MarkOptions &options, Seconds &seconds) {
   return std::move(read.keyframes);
 }
 
-ExitCode run_single(const MarkOptions &options) {
+ExitCode run_single(MarkOptions options) {
+  std::optional<MeshPieces> pieces;
+  if (is_in_pieces(options.mesh)) {
+    check_options_of_pieces(options);
+    options.pieces = pieces.emplace(options.mesh).files();
+  }
   ValveSource source{options, options.surface.empty() ? make_valve(options) : nullptr, nullptr};
   const riis_valve *valve = source.valve.get();
   const OutputLocks locks = check_outputs(options);
@@ -135,6 +115,13 @@ ExitCode run_single(const MarkOptions &options) {
   if (options.check_crossing) look_for_crossings(options, valve, surface.get(), report);
   if (valve && !options.check_crossing) report.crossings = check_shape(options, valve, !options.params_open.empty());
   if (!options.mesh.empty()) rehearse_marking(options, surface.get());
+  if (pieces) {
+    mark_pieces(options, *pieces, surface.get(), valve, names_of_arrays(options), report);
+    write_surface(options, surface.get(), report);
+    write_stats(options, report);
+    print_table(options, report);
+    return report.marks.n_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
+  }
   const MeshFile mesh = options.mesh.empty() ? nullptr : read_mesh(options, report.seconds);
   if (mesh) check_new_arrays(options, names_of_arrays(options), mesh.get());
   const Marks result = mesh ? mark(options, surface.get(), valve, mesh.get(), report) : nullptr;
@@ -156,6 +143,10 @@ ExitCode run_single(const MarkOptions &options) {
   print_table(options, report);
   return result && report.marks.n_marked == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
+
+bool has_pieces(const ValveOptions &) { return false; }
+bool has_pieces(const SizeFieldOptions &) { return false; }
+bool has_pieces(const MarkOptions &options) { return is_in_pieces(options.mesh) || !options.series.case_file.empty(); }
 
 ExitCode run_command(const MarkOptions &options) {
   const bool has_case = !options.series.case_file.empty();
@@ -193,6 +184,8 @@ ExitCode run_command(const ParamsOptions &options) {
 
 ExitCode run(const Request &request) {
   const auto run_it = [](const auto &options) {
+    // Only a mesh in pieces gives work to more than one rank.
+    if (!ranks::is_first() && !has_pieces(options)) return exit_fine;
     const ExitCode code = run_command(options);
     return code == exit_fine && options.strict && n_warnings() > 0 ? exit_warned : code;
   };

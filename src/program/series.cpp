@@ -12,6 +12,7 @@
 
 #include "common/array_view.hpp"
 #include "program/leaks.hpp"
+#include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
 #include "program/moving_valve.hpp"
 #include "program/outputs.hpp"
@@ -32,22 +33,6 @@ int64_t n_nodes_of(const riis_vtk_mesh *file) {
   int64_t n = 0;
   check(riis_vtk_mesh_get_nodes(file, &n, nullptr, nullptr));
   return n;
-}
-
-// Returns the names of the arrays of a series. If only a part of the mesh is written, the part also has an array of its nodes'
-// ids in the whole mesh.
-std::vector<std::string> names_of_series(const Case &all) {
-  std::vector<std::string> names;
-  for (const ValveSource &valve : all.valves) {
-    const std::vector<std::string> own = names_of_marks(valve.options.prefix, series_fields);
-    names.insert(names.end(), own.begin(), own.end());
-  }
-  if (all.has_resistance()) {
-    names.push_back(all.options.prefix + "_K");
-    names.push_back(all.options.prefix + "_K_u_surface");
-  }
-  if (!all.options.series.all_cells) names.emplace_back("riis_node_id");
-  return names;
 }
 
 // Returns a text such as "12.3 MB".
@@ -115,21 +100,7 @@ class Writing {
  private:
   const std::vector<double> &times() const { return all_.options.series.times; }
 
-  // Returns the time before a step. For the first step, it is the first time minus the length of the next step.
-  double time_before(std::size_t step) const {
-    return step == 0 ? times()[0] - (times()[1] - times()[0]) : times()[step - 1];
-  }
-
-  void set_arrays(std::size_t step) {
-    ResistanceSum resistance(n_nodes_of(part_), ResistanceSum::WithVelocity::yes);
-    for (MovingValve &valve : valves_) {
-      valve.move_to(times()[step], time_before(step));
-      valve.mark(nodes_.get(), series_fields);
-      set_marks(valve.options(), valve.result(), series_fields, part_);
-      resistance.add(valve.options(), valve.result());
-    }
-    resistance.set_arrays(all_.options.prefix, part_);
-  }
+  void set_arrays(std::size_t step) { set_series_arrays(all_, valves_, nodes_.get(), part_, step); }
 
   void do_step(std::size_t step, SeriesLists &lists) {
     const Stage marking("", true);
@@ -165,30 +136,17 @@ class Writing {
   std::size_t n_done_ = 0;
 };
 
-MeshFile part_of(const riis_vtk_mesh *file, const std::vector<int64_t> &node_ids) {
-  riis_vtk_mesh *part = nullptr;
-  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
-  return MeshFile(part);
-}
-
 MeshFile copy_of(const riis_vtk_mesh *file) {
   std::vector<int64_t> all(static_cast<std::size_t>(n_nodes_of(file)));
   std::iota(all.begin(), all.end(), 0);
   return part_of(file, all);
 }
 
-// Returns the time at which the valve is least open. If there are several, returns the first.
-double time_of_least_opening(const OpeningLaw &law, const std::vector<double> &times) {
-  return *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); });
-}
-
 // Warns of leaks at the time when each valve is least open. An open valve is not meant to stop the flow.
 void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, riis_mesh *mesh,
                            const riis_vtk_mesh *file, Report &report) {
-  for (MovingValve &valve : valves) {
-    valve.move_to(time_of_least_opening(valve.source().law, all.options.series.times));
-    valve.mark(mesh, 0);
-  }
+  move_to_least_openings(all, valves);
+  for (MovingValve &valve : valves) valve.mark(mesh, 0);
   look_for_leaks_of(all, valves, mesh, file);
   check_passage_of(all, valves, mesh, file, report);
 }
@@ -208,17 +166,65 @@ void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *fil
   warn(warnings);
 }
 
-// Prints the summary at the end of a series.
-void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
+}  // namespace
+
+std::vector<std::string> names_of_series(const Case &all) {
+  std::vector<std::string> names;
+  for (const ValveSource &valve : all.valves) {
+    const std::vector<std::string> own = names_of_marks(valve.options.prefix, series_fields);
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  if (all.has_resistance()) {
+    names.push_back(all.options.prefix + "_K");
+    names.push_back(all.options.prefix + "_K_u_surface");
+  }
+  if (!all.options.series.all_cells) names.emplace_back("riis_node_id");
+  return names;
+}
+
+MeshFile part_of(const riis_vtk_mesh *file, const std::vector<int64_t> &node_ids) {
+  riis_vtk_mesh *part = nullptr;
+  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
+  return MeshFile(part);
+}
+
+double time_before(const Case &all, std::size_t step) {
+  const std::vector<double> &times = all.options.series.times;
+  return step == 0 ? times[0] - (times[1] - times[0]) : times[step - 1];
+}
+
+void move_to_least_openings(const Case &all, std::vector<MovingValve> &valves) {
+  const std::vector<double> &times = all.options.series.times;
+  for (MovingValve &valve : valves) {
+    const OpeningLaw &law = valve.source().law;
+    valve.move_to(
+        *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); }));
+  }
+}
+
+void set_series_arrays(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *nodes, riis_vtk_mesh *part,
+                       std::size_t step) {
+  ResistanceSum resistance(n_nodes_of(part), ResistanceSum::WithVelocity::yes);
+  for (MovingValve &valve : valves) {
+    valve.move_to(all.options.series.times[step], time_before(all, step));
+    valve.mark(nodes, series_fields);
+    set_marks(valve.options(), valve.result(), series_fields, part);
+    resistance.add(valve.options(), valve.result());
+  }
+  resistance.set_arrays(all.options.prefix, part);
+}
+
+void print_summary(const Case &all, const SeriesTable &table, const std::vector<const SeriesFiles *> &lists,
+                   std::int64_t n_nodes, std::optional<std::int64_t> n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
   std::string text = "times     " + counted(view(times).size(), "time") + " from " + shown(times.front()) + " to " +
                      shown(times.back()) + "\n";
   text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
-          (writing.meshes().is_wanted() ? ", " + grouped(n_written) + " written\n" : "\n");
-  text += writing.table().summary();
+          (n_written ? ", " + grouped(*n_written) + " written\n" : "\n");
+  text += table.summary();
   text += line_of_passage(report.leaks);
-  for (const SeriesFiles *files : {&writing.meshes(), &writing.surfaces()}) {
+  for (const SeriesFiles *files : lists) {
     if (!files->is_wanted()) continue;
     report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
                              files->folder());
@@ -227,8 +233,6 @@ void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int
   for (const std::string &path : report.written) text += "written   " + path + "\n";
   write_text("-", text);
 }
-
-}  // namespace
 
 ExitCode run_series(Case &all) {
   const MarkOptions &options = all.options;
@@ -264,7 +268,8 @@ ExitCode run_series(Case &all) {
   if (UnbrokenWrite::has_signal())
     std::fprintf(stderr, "riis: interrupted: %zu of %zu written\n", writing.n_done(), options.series.times.size());
   else
-    print_summary(all, writing, n_nodes, n_written, report);
+    print_summary(all, writing.table(), {&writing.meshes(), &writing.surfaces()}, n_nodes,
+                  writing.meshes().is_wanted() ? std::optional(n_written) : std::nullopt, report);
   return writing.table().most_marked() == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }
 
@@ -272,16 +277,9 @@ ExitCode run_series(Case &all) {
 
 namespace {
 
-Box empty_box() {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  return {{far, far, far}, {-far, -far, -far}};
-}
-
 void grow(Box &box, const riis_surface_info &surface) {
-  for (int k = 0; k < 3; ++k) {
-    box.lower[k] = std::min(box.lower[k], surface.lower[k]);
-    box.upper[k] = std::max(box.upper[k], surface.upper[k]);
-  }
+  grow(box, surface.lower);
+  grow(box, surface.upper);
 }
 
 void note_nodes(const riis_marks *result, std::vector<std::uint8_t> &is_near) {
@@ -302,7 +300,7 @@ void note_valve(const MovingValve &valve, std::size_t at, Sweep &sweep) {
 }  // namespace
 
 Sweep sweep_of(std::vector<MovingValve> &valves, const std::vector<double> &times, const riis_mesh *mesh,
-               std::int64_t n_nodes, bool quiet) {
+               std::int64_t n_nodes, bool quiet, const std::function<void(std::size_t, std::size_t)> &note) {
   Sweep sweep{
       {}, empty_box(), std::vector<std::int64_t>(valves.size(), -1), std::vector<riis_surface_info>(valves.size())};
   std::vector<std::uint8_t> is_near(static_cast<std::size_t>(n_nodes));
@@ -314,6 +312,7 @@ Sweep sweep_of(std::vector<MovingValve> &valves, const std::vector<double> &time
       valves[at].mark(mesh, 0);
       note_nodes(valves[at].result(), is_near);
       note_valve(valves[at], at, sweep);
+      if (note) note(step, at);
     }
   }
   for (std::int64_t node = 0; node < n_nodes; ++node)

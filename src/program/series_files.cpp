@@ -144,14 +144,20 @@ SeriesTable::SeriesTable(const Case &all) : text_("time") {
 }
 
 void SeriesTable::add(double time, const std::vector<MovingValve> &valves, double seconds) {
+  std::vector<int64_t> n_marked;
+  for (const MovingValve &valve : valves) n_marked.push_back(valve.stats().n_marked);
+  add(time, valves, n_marked, seconds);
+}
+
+void SeriesTable::add(double time, const std::vector<MovingValve> &valves, const std::vector<int64_t> &n_marked,
+                      double seconds) {
   text_ += shortest(time);
   for (std::size_t i = 0; i < valves.size(); ++i) {
     const double opening = valves[i].opening(), speed = valves[i].largest_speed();
-    const int64_t n_marked = valves[i].stats().n_marked;
-    text_ += "," + (valves[i].source().valve ? shortest(opening) : "") + "," + std::to_string(n_marked) + "," +
+    text_ += "," + (valves[i].source().valve ? shortest(opening) : "") + "," + std::to_string(n_marked[i]) + "," +
              shortest(speed);
     if (valves[i].source().valve) rows_[i].opening.add(opening);
-    rows_[i].n_marked.add(static_cast<double>(n_marked));
+    rows_[i].n_marked.add(static_cast<double>(n_marked[i]));
     rows_[i].speed.add(speed);
   }
   text_ += "," + shortest(seconds) + "\n";

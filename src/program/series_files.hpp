@@ -88,6 +88,8 @@ class SeriesTable {
  public:
   explicit SeriesTable(const Case &all);
   void add(double time, const std::vector<MovingValve> &valves, double seconds);
+  // Takes the numbers of marked nodes, by valve, from the caller.
+  void add(double time, const std::vector<MovingValve> &valves, const std::vector<int64_t> &n_marked, double seconds);
   const std::string &text() const { return text_; }
   // Returns the largest number of marked nodes of any valve at any time.
   int64_t most_marked() const;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/report.hpp"
 #include "program/valve_file.hpp"
@@ -116,7 +117,7 @@ std::optional<Warning> warning_of(const Situation &s) {
 
 void warn(const std::string &text) {
   ++n_printed;
-  std::fprintf(stderr, "riis: %s\n", text.c_str());
+  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
 }
 
 void warn(std::vector<Warning> warnings) {

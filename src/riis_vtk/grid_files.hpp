@@ -17,8 +17,10 @@ class vtkXMLDataParser;
 
 namespace riis::vtk {
 
-// Reads an unstructured grid with at least one point from a .vtu (XML) or .vtk (legacy) file.
-vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught);
+// Reads an unstructured grid from a .vtu (XML) or .vtk (legacy) file. Only a piece of a mesh may be without points.
+enum class Points { required, may_be_missing };
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
+                                               Points points = Points::required);
 
 // Reads polydata with at least one point from a .vtp (XML) file. Its cells are only polygons and strips.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);

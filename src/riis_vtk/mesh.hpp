@@ -12,18 +12,24 @@
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 
+class vtkUnsignedCharArray;
+
 struct riis_vtk_mesh {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
 };
 
 namespace riis::vtk {
 
+// Gives the grid points in double precision. A grid without points gets an empty list of them.
+void make_points_double(vtkUnstructuredGrid *grid);
+
 struct VolumeCounts {
   std::int64_t n_volumes = 0;
   std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
   std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
 };
-VolumeCounts count_volumes(vtkUnstructuredGrid *grid);
+// `ghosts`, by cell, may be NULL. Cells that it marks as copies of another piece's cells do not count.
+VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts = nullptr);
 
 struct VolumeCells {
   std::vector<std::int64_t> node_ids;

@@ -19,15 +19,16 @@
 #include "riis_vtk/mesh.hpp"
 
 namespace riis::vtk {
-namespace {
 
 void make_points_double(vtkUnstructuredGrid *grid) {
-  if (vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())) return;
+  if (grid->GetPoints() && vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())) return;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->DeepCopy(grid->GetPoints());
+  if (grid->GetPoints()) points->DeepCopy(grid->GetPoints());
   grid->SetPoints(points);
 }
+
+namespace {
 
 // Throws the core's error. Removes the name of the struct from the message, because the caller passed a plain argument.
 void check_adjacency(riis_status status, const std::string &structure) {

@@ -10,6 +10,7 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkGenericCell.h>
 #include <vtkHigherOrderHexahedron.h>
 #include <vtkHigherOrderTetra.h>
@@ -17,6 +18,7 @@
 #include <vtkIdList.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
+#include <vtkUnsignedCharArray.h>
 
 #include "common/array_view.hpp"
 #include "riis_vtk/mesh.hpp"
@@ -300,11 +302,12 @@ VolumeEdges edges_where(vtkUnstructuredGrid *grid, const IsWanted &is_wanted) {
 
 }  // namespace
 
-VolumeCounts count_volumes(vtkUnstructuredGrid *grid) {
+VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts) {
   VolumeCounts counts;
   CellEdges edges(grid);
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
-    if (!edges.is_volume(cell)) continue;
+    const bool is_ghost = ghosts && (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0;
+    if (is_ghost || !edges.is_volume(cell)) continue;
     ++counts.n_volumes;
     if (is_linear_volume(grid->GetCellType(cell)))
       ++counts.n_linear;

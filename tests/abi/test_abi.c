@@ -522,6 +522,12 @@ static void test_structs(void **state) {
   FIELD(riis_opening_angle_state, pressure_difference, 48, 8);
   FIELD(riis_opening_angle_state, flow, 56, 8);
 
+  SIZE(riis_vtk_sharing, 32);
+  FIELD(riis_vtk_sharing, n_cells, 0, 8);
+  FIELD(riis_vtk_sharing, n_volume_cells, 8, 8);
+  FIELD(riis_vtk_sharing, n_cells_left_out, 16, 8);
+  FIELD(riis_vtk_sharing, has_global_ids, 24, 4);
+  FIELD(riis_vtk_sharing, reserved, 28, 4);
   SIZE(riis_vtk_picture_options, 72);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, title, 8, 8);
@@ -618,6 +624,10 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_ALL_LEAFLETS, -1);
   assert_int_equal(RIIS_PHASE_CLOSING, 0);
   assert_int_equal(RIIS_PHASE_OPENING, 1);
+  assert_int_equal(RIIS_VTK_NODE_INSIDE, 0);
+  assert_int_equal(RIIS_VTK_NODE_SHARED, 1);
+  assert_int_equal(RIIS_VTK_NODE_GHOST, 2);
+  assert_int_equal(RIIS_VTK_NODE_LOOSE, 3);
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
   assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
   assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
@@ -790,6 +800,15 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_extract, int32_t, (const riis_vtk_mesh *, int64_t, const int64_t *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_get_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));
+  SIGNATURE(riis_vtk_pieces_read, int32_t, (const char *, riis_vtk_pieces **));
+  SIGNATURE(riis_vtk_pieces_create, int32_t, (const riis_vtk_mesh *, int64_t, const char *const *, riis_vtk_pieces **));
+  SIGNATURE(riis_vtk_pieces_set_files, int32_t, (riis_vtk_pieces *, int64_t, const char *const *));
+  SIGNATURE(riis_vtk_pieces_destroy, void, (riis_vtk_pieces **));
+  SIGNATURE(riis_vtk_pieces_get_files, int32_t, (const riis_vtk_pieces *, int64_t *, const char *const **));
+  SIGNATURE(riis_vtk_pieces_read_mesh, int32_t, (const riis_vtk_pieces *, int64_t, riis_vtk_mesh **));
+  SIGNATURE(riis_vtk_pieces_write, int32_t, (const riis_vtk_pieces *, const char *));
+  SIGNATURE(riis_vtk_mesh_get_sharing, int32_t,
+            (const riis_vtk_mesh *, int64_t, uint8_t *, int64_t *, riis_vtk_sharing *, int64_t));
   SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, const char *, riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_number_pieces, int32_t, (riis_vtk_surface *));
   SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));

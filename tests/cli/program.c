@@ -15,6 +15,7 @@
 int program_exit_code;
 char program_out[longest_output], program_err[longest_output], program_leaks[longest_output],
     program_crossings[longest_output];
+const char *program_file = NULL;
 const char *program_stdout;
 static int out, err; /* streams of the running process */
 
@@ -58,7 +59,8 @@ static void take_common_warnings(void) {
 }
 
 static pid_t start(const char *argument, va_list rest) {
-  const char *arguments[64] = {RIIS_PROGRAM};
+  const char *const file = program_file ? program_file : RIIS_PROGRAM;
+  const char *arguments[64] = {file};
   int n = 1;
   for (const char *next = argument; next; next = va_arg(rest, const char *)) arguments[n++] = next;
   out = temporary_file();
@@ -72,7 +74,7 @@ static pid_t start(const char *argument, va_list rest) {
     if (program_stdout) close(STDOUT_FILENO);
     if (program_stdout && *program_stdout)
       open(program_stdout, O_WRONLY); /* open returns the lowest free file number, which is that of the closed stdout */
-    execv(RIIS_PROGRAM, (char *const *)(uintptr_t)arguments);
+    execv(file, (char *const *)(uintptr_t)arguments);
     _exit(127);
   }
   return process;

@@ -23,6 +23,9 @@ extern char program_crossings[longest_output]; /* the warning about crossings; "
 /* The path of a file for the program's stdout, or "" for a closed stdout. NULL, the default, keeps stdout in program_out. */
 extern const char *program_stdout;
 
+/* The program to run. NULL, the default, is riis. */
+extern const char *program_file;
+
 /* Runs the program with these arguments; the last one is NULL. */
 void run_program(const char *argument, ...);
 /* Start the program and wait for it. Only one run may be in progress at a time. */

@@ -124,6 +124,18 @@ void read_motion() {
   use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
 }
 
+// Reads the list of a mesh in pieces. A piece that it names is refused, because the folder has no grid.
+void read_pieces() {
+  riis_vtk_pieces *read = nullptr;
+  if (!is_fine(riis_vtk_pieces_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {
+    EXPECT(read == nullptr, "refused pieces were written");
+    return;
+  }
+  std::int64_t n = 0;
+  EXPECT(riis_vtk_pieces_get_files(read, &n, nullptr) == RIIS_OK && n > 0, "%lld pieces", static_cast<long long>(n));
+  riis_vtk_pieces_destroy(&read);
+}
+
 // Makes the file frame.stl, which the collection may name.
 void make_frame() {
   static const fuzz::ScratchFile frame(file(), "frame.stl");
@@ -147,7 +159,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   const std::string ending = RIIS_FUZZ_ENDING;
   if (ending == "vtk" || ending == "vtu") read_mesh();
   if (ending == "pvd") read_collection();
-  if (ending == "vtk" || ending == "pvd") return 0;
+  if (ending == "pvtu") read_pieces();
+  if (ending == "vtk" || ending == "pvd" || ending == "pvtu") return 0;
   read_surface();
   read_motion();
   return 0;

@@ -196,15 +196,77 @@ static void test_floating_point_environment(void **state) {
   assert_true(flags & FE_OVERFLOW);
 }
 
+/* Refusals of a list of pieces, and the roles of the nodes of a mesh without neighbours. */
+static void test_pieces(void **state) {
+  (void)state;
+  riis_vtk_pieces *pieces = NULL;
+  riis_vtk_mesh *piece = NULL;
+  riis_vtk_sharing sharing;
+  uint8_t role[27];
+  int64_t n = 0, n_cells = 0;
+  const char *const files[2] = {"a.vtu", NULL}, *const *paths = NULL;
+  expect_refused(riis_vtk_pieces_read(NULL, &pieces), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_pieces_read(scratch_path("in.vtu"), NULL), RIIS_INVALID_ARGUMENT, "pieces is NULL");
+  expect_refused(riis_vtk_pieces_read(scratch_path("in.vtu"), &pieces), RIIS_FILE_ERROR, "must be a .pvtu file");
+  expect_refused(riis_vtk_pieces_create(NULL, 1, files, &pieces), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_pieces_create(mesh, 0, files, &pieces), RIIS_INVALID_ARGUMENT, "n_files is 0");
+  expect_refused(riis_vtk_pieces_create(mesh, 1, NULL, &pieces), RIIS_INVALID_ARGUMENT, "files is NULL");
+  expect_refused(riis_vtk_pieces_create(mesh, 2, files, &pieces), RIIS_INVALID_ARGUMENT, "files[1] is NULL");
+  expect_refused(riis_vtk_pieces_create(mesh, 1, files, NULL), RIIS_INVALID_ARGUMENT, "pieces is NULL");
+  expect_fine(riis_vtk_pieces_create(mesh, 1, files, &pieces));
+  const char *const in = scratch_path("in.vtu");
+  expect_refused(riis_vtk_pieces_set_files(NULL, 1, &in), RIIS_INVALID_ARGUMENT, "pieces is NULL");
+  expect_refused(riis_vtk_pieces_set_files(pieces, 1000001, &in), RIIS_INVALID_ARGUMENT, "n_files is 1000001");
+  expect_fine(riis_vtk_pieces_set_files(pieces, 1, &in));
+  expect_fine(riis_vtk_pieces_get_files(pieces, &n, &paths));
+  assert_int_equal(n, 1);
+  assert_string_equal(paths[0], in);
+  expect_refused(riis_vtk_pieces_get_files(NULL, &n, &paths), RIIS_INVALID_ARGUMENT, "pieces is NULL");
+  expect_refused(riis_vtk_pieces_write(NULL, scratch_path("a.pvtu")), RIIS_INVALID_ARGUMENT, "pieces is NULL");
+  expect_refused(riis_vtk_pieces_write(pieces, NULL), RIIS_INVALID_ARGUMENT, "path is NULL");
+  expect_refused(riis_vtk_pieces_write(pieces, scratch_path("a.vtu")), RIIS_FILE_ERROR, "ending must be .pvtu");
+  expect_fine(riis_vtk_pieces_write(pieces, scratch_path("a.pvtu")));
+  riis_vtk_pieces_destroy(&pieces);
+  riis_vtk_pieces_destroy(&pieces);
+  riis_vtk_pieces_destroy(NULL);
+  /* The list is read again, with the piece's arrays. */
+  expect_fine(riis_vtk_pieces_read(scratch_path("a.pvtu"), &pieces));
+  expect_refused(riis_vtk_pieces_read_mesh(NULL, 0, &piece), RIIS_INVALID_ARGUMENT, "pieces is NULL");
+  expect_refused(riis_vtk_pieces_read_mesh(pieces, 1, &piece), RIIS_INVALID_ARGUMENT, "piece is 1; there are 1 pieces");
+  expect_refused(riis_vtk_pieces_read_mesh(pieces, -1, &piece), RIIS_INVALID_ARGUMENT, "piece is -1");
+  expect_refused(riis_vtk_pieces_read_mesh(pieces, 0, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_fine(riis_vtk_pieces_read_mesh(pieces, 0, &piece));
+  riis_vtk_pieces_destroy(&pieces);
+  expect_fine(riis_vtk_mesh_get_nodes(piece, &n, &n_cells, NULL));
+  assert_int_equal(n, 27);
+  expect_refused(riis_vtk_mesh_get_sharing(NULL, n, role, NULL, &sharing, sizeof sharing), RIIS_INVALID_ARGUMENT,
+                 "mesh is NULL");
+  expect_refused(riis_vtk_mesh_get_sharing(piece, 26, role, NULL, &sharing, sizeof sharing), RIIS_INVALID_ARGUMENT,
+                 "n_nodes is 26; the mesh has 27 nodes");
+  expect_refused(riis_vtk_mesh_get_sharing(piece, n, NULL, NULL, &sharing, sizeof sharing), RIIS_INVALID_ARGUMENT,
+                 "role is NULL");
+  expect_refused(riis_vtk_mesh_get_sharing(piece, n, role, NULL, NULL, sizeof sharing), RIIS_INVALID_ARGUMENT,
+                 "sharing is NULL");
+  expect_refused(riis_vtk_mesh_get_sharing(piece, n, role, NULL, &sharing, 8), RIIS_INVALID_STRUCT_SIZE, "sharing");
+  expect_fine(riis_vtk_mesh_get_sharing(piece, n, role, NULL, &sharing, sizeof sharing));
+  assert_int_equal(sharing.n_cells, n_cells);
+  assert_int_equal(sharing.n_volume_cells, n_cells);
+  assert_int_equal(sharing.has_global_ids, 0);
+  const double *xyz = NULL;
+  expect_fine(riis_vtk_mesh_get_nodes(piece, NULL, NULL, &xyz));
+  for (int64_t i = 0; i < n; ++i) { /* only the node in the middle of the box is inside */
+    const int is_middle = xyz[3 * i] == 0.5 && xyz[3 * i + 1] == 0.5 && xyz[3 * i + 2] == 0.5;
+    assert_int_equal(role[i], is_middle ? RIIS_VTK_NODE_INSIDE : RIIS_VTK_NODE_SHARED);
+  }
+  riis_vtk_mesh_destroy(&piece);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_null),
-      cmocka_unit_test(test_struct_sizes),
-      cmocka_unit_test(test_leaking_edges),
-      cmocka_unit_test(test_many_views),
-      cmocka_unit_test(test_picture_options),
-      cmocka_unit_test(test_odd_names),
-      cmocka_unit_test(test_floating_point_environment),
+      cmocka_unit_test(test_null),         cmocka_unit_test(test_pieces),
+      cmocka_unit_test(test_struct_sizes), cmocka_unit_test(test_leaking_edges),
+      cmocka_unit_test(test_many_views),   cmocka_unit_test(test_picture_options),
+      cmocka_unit_test(test_odd_names),    cmocka_unit_test(test_floating_point_environment),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }

@@ -38,6 +38,8 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLPUnstructuredGridWriter.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -265,6 +267,37 @@ int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char
   if (point_type) std::strcpy(point_type, data->GetPoints()->GetData()->GetDataTypeAsString());
   for (vtkIdType i = 0; xyz && i < data->GetNumberOfPoints(); ++i) data->GetPoint(i, xyz + 3 * i);
   return 1;
+}
+
+int shim_write_pieces(const char *path, const char *pvtu, int n_pieces) {
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  vtkNew<vtkXMLPUnstructuredGridReader> list_reader;
+  vtkNew<vtkXMLPUnstructuredGridWriter> writer;
+  if (ends_with(path, ".pvtu")) {
+    list_reader->SetFileName(path);
+    writer->SetInputConnection(list_reader->GetOutputPort());
+  } else {
+    reader->SetFileName(path);
+    writer->SetInputConnection(reader->GetOutputPort());
+  }
+  writer->SetFileName(pvtu);
+  writer->SetNumberOfPieces(n_pieces);
+  writer->SetStartPiece(0);
+  writer->SetEndPiece(n_pieces - 1);
+  return writer->Write();
+}
+
+int64_t shim_read_pieces(const char *pvtu, const char *array, double *sum, int64_t *n_cells) {
+  vtkNew<vtkXMLPUnstructuredGridReader> reader;
+  reader->SetFileName(pvtu);
+  reader->Update();
+  vtkUnstructuredGrid *grid = reader->GetOutput();
+  vtkDataArray *values = grid->GetPointData()->GetArray(array);
+  if (!values) return -1;
+  *sum = 0;
+  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i) *sum += values->GetTuple1(i);
+  *n_cells = grid->GetNumberOfCells();
+  return grid->GetNumberOfPoints();
 }
 
 int64_t shim_read_corners(const char *path, int64_t *ids) {

@@ -36,6 +36,13 @@ int shim_write_legacy(const char *path, int binary, int version);
  * xyz is NULL. point_type gets VTK's name of the points' type. Returns 0 if VTK cannot read the file. */
 int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char point_type[32], double *xyz);
 
+/* Writes the pieces of a .vtu or .pvtu file to a .pvtu file with as many pieces, by VTK's parallel writer. Returns 1 on
+ * success. */
+int shim_write_pieces(const char *path, const char *pvtu, int n_pieces);
+/* Reads a .pvtu file by VTK's reader, as ParaView does. Adds up a point array over all points of all pieces. Returns the number
+ * of points, or -1. */
+int64_t shim_read_pieces(const char *pvtu, const char *array, double *sum, int64_t *n_cells);
+
 /* Reads the corners of all cells, one after the other. Returns their number, or -1. ids may be NULL. */
 int64_t shim_read_corners(const char *path, int64_t *ids);
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh in pieces. Out: its pieces, read one by one, and the nodes that a piece shares with others. Each node has a key, and
+// nodes of two pieces are the same node if their keys are equal.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "program/handles.hpp"
+
+namespace riis::program {
+
+using PieceList = Handle<riis_vtk_pieces, riis_vtk_pieces_destroy>;
+
+// The pieces of a mesh. Each rank takes some of them.
+class MeshPieces {
+ public:
+  // Reads the list of a .pvtu file.
+  explicit MeshPieces(const std::string &path);
+  virtual ~MeshPieces() = default;
+  MeshPieces(const MeshPieces &) = delete;
+  MeshPieces &operator=(const MeshPieces &) = delete;
+
+  const std::string &path() const { return path_; }
+  const std::vector<std::string> &files() const { return files_; }
+  // Returns the numbers of this rank's pieces, ascending.
+  std::vector<std::int64_t> own() const;
+  virtual MeshFile read(std::int64_t piece) const;
+  // Called when a piece is marked and written.
+  virtual void finished(std::int64_t piece) const;
+
+ protected:
+  MeshPieces(std::string path, std::vector<std::string> files) : path_(std::move(path)), files_(std::move(files)) {}
+
+ private:
+  std::string path_;
+  PieceList list_;
+  std::vector<std::string> files_;
+};
+
+// Calls `work` with each of this rank's pieces. A failure ends all ranks.
+void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work);
+
+// Returns whether the path is that of a mesh in pieces.
+bool is_in_pieces(const std::string &mesh);
+
+struct NodeKey {
+  std::uint64_t a, b;
+  bool operator<(const NodeKey &other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
+  bool operator==(const NodeKey &other) const { return a == other.a && b == other.b; }
+};
+
+// The nodes of one piece. With global ids, a key is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of
+// the coordinates. Among a billion nodes two different ones have equal hashes with a probability below 1e-20.
+class PieceNodes {
+ public:
+  PieceNodes(const riis_vtk_mesh *file, const std::string &path);
+
+  std::int64_t n() const { return n_; }
+  const double *point(std::int64_t node) const { return xyz_ + 3 * node; }
+  NodeKey key(std::int64_t node) const;
+  bool is_shared(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_SHARED || is_loose(node); }
+  bool is_loose(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_LOOSE; }
+  bool is_inside(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_INSIDE; }
+  bool is_ghost(std::int64_t node) const { return role(node) == RIIS_VTK_NODE_GHOST; }
+  // Returns (n) with 0 for ghosts, or NULL if there are no ghosts.
+  const std::uint8_t *mask() const { return mask_.empty() ? nullptr : mask_.data(); }
+  const riis_vtk_sharing &counts() const { return counts_; }
+  bool has_ids() const { return counts_.has_global_ids != 0; }
+  // Returns the global id, or the number in the piece if there are no global ids.
+  std::int64_t id(std::int64_t node) const { return has_ids() ? ids_[static_cast<std::size_t>(node)] : node; }
+
+ private:
+  std::uint8_t role(std::int64_t node) const { return role_[static_cast<std::size_t>(node)]; }
+
+  std::int64_t n_ = 0;
+  const double *xyz_ = nullptr;
+  std::vector<std::uint8_t> role_, mask_;
+  std::vector<std::int64_t> ids_;
+  riis_vtk_sharing counts_{};
+};
+
+// Sets of numbers from 0 to n - 1. At first each number is a set.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::int64_t n) : parent_(static_cast<std::size_t>(n)) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  std::int64_t root(std::int64_t i) {
+    while (parent(i) != i) i = parent(i) = parent(parent(i));
+    return i;
+  }
+  // Returns whether the two were in different sets.
+  bool unite(std::int64_t a, std::int64_t b) {
+    a = root(a);
+    b = root(b);
+    if (a == b) return false;
+    parent(std::max(a, b)) = std::min(a, b);
+    return true;
+  }
+
+ private:
+  std::int64_t &parent(std::int64_t i) { return parent_[static_cast<std::size_t>(i)]; }
+  std::vector<std::int64_t> parent_;
+};
+
+// A node that several pieces may have, in one of them.
+struct SharedNode {
+  NodeKey key;
+  std::int32_t region;  // its open region, numbered within the piece; -1 if it is in none
+  std::int32_t piece;
+};
+
+// An open region of a piece.
+struct PieceRegion {
+  std::int32_t piece, region;
+  bool operator<(const PieceRegion &other) const {
+    return std::tie(piece, region) < std::tie(other.piece, other.region);
+  }
+  bool operator==(const PieceRegion &other) const { return piece == other.piece && region == other.region; }
+};
+
+// The shared nodes of all pieces, each counted once.
+struct MatchedNodes {
+  std::int64_t n_nodes = 0, n_in_several = 0;               // all nodes, and those that more than one piece has
+  std::vector<std::pair<PieceRegion, PieceRegion>> joined;  // regions of different pieces with a common node
+};
+
+// Matches the nodes of all ranks. `has_ids` says whether keys have global ids. Then one id at two places is refused. `files`
+// names the pieces.
+MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
+                         const std::vector<std::string> &files);
+
+// The nodes that no cell of their piece uses. They count if no other piece has them inside.
+class LooseNodes {
+ public:
+  void add(const PieceNodes &nodes);
+  // Refuses a mesh in which a loose node is inside another piece, because it would count twice. Reads the pieces again if there
+  // are loose nodes.
+  void check(const MeshPieces &pieces) const;
+
+ private:
+  std::vector<NodeKey> keys_;
+};
+
+// Returns memory that is free in this process to the system. Without this call, the memory of large pieces would stay between
+// the shared nodes.
+void release_free_memory();
+
+// Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted at once.
+class NodeCounts {
+ public:
+  explicit NodeCounts(std::size_t n_kinds) : n_inside_(n_kinds) {}
+  void add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind);
+  // Returns the number of nodes of each kind in all pieces of all ranks. A node counts once for each kind.
+  std::vector<std::int64_t> sums() const;
+
+ private:
+  struct SharedKind {
+    NodeKey key;
+    std::uint64_t kind;
+    bool operator<(const SharedKind &other) const { return std::tie(kind, key) < std::tie(other.kind, other.key); }
+    bool operator==(const SharedKind &other) const { return kind == other.kind && key == other.key; }
+  };
+  std::vector<std::int64_t> n_inside_;
+  std::vector<SharedKind> shared_;
+};
+
+}  // namespace riis::program
