@@ -2,10 +2,12 @@
 #include "surface/displacement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include "base/errors.hpp"
+#include "geometry/bezier.hpp"
 
 namespace riis {
 
@@ -20,6 +22,133 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 namespace {
 
+double size_of(double x) { return std::abs(x); }
+double size_of(Vec3 x) { return length(x); }
+
+// The material points of a side in one state, in the direction of the side.
+struct OnSide {
+  std::array<double, n_material> share;  // of the warped curve's length
+  std::array<Vec3, n_material> beside;   // from the warped curve to where the map takes the point
+};
+
+OnSide on_side(const Curve &curve, const MaterialPoints &points, bool is_reversed) {
+  OnSide made{};
+  double before = 0, in_piece = 0, t = 0;
+  std::size_t piece = 0;
+  for (std::size_t k = 0; k < n_material; ++k) {
+    const PointOnPiece &at = points.on_curve[k];
+    for (; piece < at.piece; ++piece) before += curve.length(piece), in_piece = t = 0;
+    if (at.t > t) in_piece += arc_length(curve.pieces()[piece], t, at.t), t = at.t;
+    const double share = k == 0                  ? 0
+                         : k == n_material - 1   ? 1
+                         : !(curve.length() > 0) ? static_cast<double>(k) / (n_material - 1)
+                                                 : (before + in_piece) / curve.length();
+    const std::size_t i = is_reversed ? n_material - 1 - k : k;
+    made.share[i] = is_reversed ? 1 - share : share;
+    made.beside[i] = points.mapped[k] - evaluate(curve.pieces()[at.piece], at.t);
+  }
+  return made;
+}
+
+OnSide on_side(const PatchSet &set, const Side &side) {
+  return on_side(set.curves[side.curve], *set.material[side.curve], side.reversed);
+}
+
+bool has_material(const PatchSet &set, const Side &side) {
+  return side.curve < set.material.size() && set.material[side.curve];
+}
+
+}  // namespace
+
+template <class T>
+typename Through<T>::Bounds Through<T>::bounds() const {
+  constexpr std::size_t n = n_material - 1;
+  // From Newton's form to powers of x, and from there to the control points of a Bézier curve, which bound it.
+  std::array<T, n_material> power{}, control{};
+  power[0] = factors_[n];
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = n; k > 0; --k) power[k] = power[k - 1] - nodes_[i] * power[k];
+    power[0] = factors_[i] - nodes_[i] * power[0];
+  }
+  Bounds made{0, 0};
+  for (std::size_t j = 0; j <= n; ++j) {
+    double share = 1;  // binomial(j, k) / binomial(n, k)
+    for (std::size_t k = 0; k <= j; ++k) {
+      control[j] = control[j] + share * power[k];
+      share *= static_cast<double>(j - k) / static_cast<double>(n - k);
+    }
+    made.size = std::max(made.size, size_of(control[j]));
+    if (j > 0) made.slope = std::max(made.slope, static_cast<double>(n) * size_of(control[j] - control[j - 1]));
+  }
+  return made;
+}
+
+template class Through<double>;
+template class Through<Vec3>;
+
+SideMaterial::SideMaterial(const MovedPatch &moved, Side Patch::*side) {
+  const Side &now = moved.now.patches[moved.patch].*side, &before = moved.before.patches[moved.patch].*side;
+  is_warped_ = has_material(moved.now, now) && has_material(moved.before, before);
+  if (!is_warped_) return;
+  const OnSide at_now = on_side(moved.now, now), at_before = on_side(moved.before, before);
+  std::array<double, n_material> slide{};
+  std::array<Vec3, n_material> rest{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    slide[k] = at_before.share[k] - at_now.share[k];
+    rest[k] = at_now.beside[k] - at_before.beside[k];
+  }
+  nodes_ = at_now.share;
+  slide_ = {nodes_, slide};
+  rest_ = {nodes_, rest};
+}
+
+Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
+  Vector<double> made;
+  made.reserve(shares.size());
+  double last = 0;
+  for (const double share : shares) made.push_back(last = std::clamp(share + slide_.at(share), last, 1.0));
+  made.back() = 1;
+  return made;
+}
+
+Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
+  const bool is_known = base.is_warped() && edge.is_warped() && moved.patch < moved.now.mapped_middles.size() &&
+                        moved.patch < moved.before.mapped_middles.size();
+  if (!is_known) return {};
+  std::array<double, n_material> nodes{};
+  std::array<Vec3, n_material> rest{};
+  for (std::size_t k = 0; k < n_material; ++k) nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
+  for (const bool is_now : {true, false}) {
+    const PatchSet &set = is_now ? moved.now : moved.before;
+    const Patch &patch = set.patches[moved.patch];
+    for (std::size_t k = 0; k < n_material; ++k) {
+      const auto on = [&](const Side &side) {
+        return (*set.material[side.curve]).on_curve[side.reversed ? n_material - 1 - k : k];
+      };
+      const auto mapped = [&](const Side &side) {
+        return (*set.material[side.curve]).mapped[side.reversed ? n_material - 1 - k : k];
+      };
+      const auto piece = [&](const Side &side) { return set.curves[side.curve].pieces()[on(side).piece]; };
+      const auto point = [&](const Side &side) { return evaluate(piece(side), on(side).t); };
+      Vec3 offset;
+      if (k == 0 || k == n_material - 1) {
+        offset = arc_offset(set, k == 0 ? patch.u0 : patch.u1);
+      } else {
+        const Vec3 along = derivative(piece(patch.v0), on(patch.v0).t);
+        const double speed = length(along);
+        offset = speed > 0 && patch.bulge != 0 ? arc_offset(point(patch.v1) - point(patch.v0),
+                                                            ((patch.v0.reversed ? -1 : 1) / speed) * along, patch.bulge)
+                                               : Vec3{0, 0, 0};
+      }
+      const Vec3 wanted = 2 * (set.mapped_middles[moved.patch][k] - 0.5 * (mapped(patch.v0) + mapped(patch.v1)));
+      rest[k] = is_now ? wanted - offset : rest[k] - (wanted - offset);
+    }
+  }
+  return {nodes, rest};
+}
+
+namespace {
+
 // A side of a patch in both states.
 class MovedSide {
  public:
@@ -28,6 +157,7 @@ class MovedSide {
         before_(moved.before.patches[moved.patch].*side),
         curve_now_(moved.now.curves[now_.curve]),
         curve_before_(moved.before.curves[before_.curve]),
+        material_(moved, side),
         is_at_rest_(now_.reversed == before_.reversed && are_equal(curve_now_, curve_before_)) {}
 
   bool is_at_rest() const { return is_at_rest_; }
@@ -44,9 +174,17 @@ class MovedSide {
       const CurvePoints now = points_now(shares_unknown);
       for (std::size_t k = 0; k < unknown.size(); ++k) points[unknown[k]] = now.point(k);
     }
-    const CurvePoints before = points_before(shares);
+    const Vector<double> shares_before = this->shares_before(shares);
+    const CurvePoints before = points_before(shares_before);
     for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] - before.point(i);
+    if (material_.is_warped())
+      for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] + material_.rest(shares[i]);
     return points;
+  }
+
+  const SideMaterial &material() const { return material_; }
+  Vector<double> shares_before(const Vector<double> &shares) const {
+    return material_.is_warped() ? material_.shares_before(shares) : shares;
   }
 
   CurvePoints points_now(const Vector<double> &shares) const { return {curve_now_, now_.reversed, shares}; }
@@ -55,6 +193,7 @@ class MovedSide {
  private:
   Side now_, before_;
   const Curve &curve_now_, &curve_before_;
+  SideMaterial material_;
   bool is_at_rest_;
 };
 
@@ -132,8 +271,13 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
   if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
     return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
   Vector<Vec3> made = arc_offsets(moved.now, patch_now, base.points_now(u), edge.points_now(u));
-  const Vector<Vec3> before = arc_offsets(moved.before, patch_before, base.points_before(u), edge.points_before(u));
+  const Vector<double> on_base = base.shares_before(u), on_edge = edge.shares_before(u);
+  const Vector<Vec3> before =
+      arc_offsets(moved.before, patch_before, base.points_before(on_base), edge.points_before(on_edge));
   for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i];
+  if (!base.material().is_warped()) return made;
+  const Through<Vec3> rest = rest_of_offsets(moved, base.material(), edge.material());
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] + rest.at(u[i]);
   return made;
 }
 

@@ -3,7 +3,9 @@
 // In: the patch now and before, its grid. Out: the displacement of every vertex.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
@@ -27,10 +29,67 @@ struct MovedPatch {
   std::size_t patch;
 };
 
+// The polynomial through values at n_material nodes, the first of which is 0 and the last 1. In Newton's form.
+template <class T>
+class Through {
+ public:
+  Through() = default;
+  Through(const std::array<double, n_material> &nodes, const std::array<T, n_material> &values)
+      : nodes_(nodes), factors_(values) {
+    for (std::size_t order = 1; order < n_material; ++order)
+      for (std::size_t i = n_material - 1; i >= order; --i)
+        factors_[i] = (1 / (nodes_[i] - nodes_[i - order])) * (factors_[i] - factors_[i - 1]);
+  }
+
+  T at(double x) const {
+    T value = factors_[n_material - 1];
+    for (std::size_t i = n_material - 1; i-- > 0;) value = (x - nodes_[i]) * value + factors_[i];
+    return value;
+  }
+
+  // Bounds the size on [0, 1], and the size of the derivative.
+  struct Bounds {
+    double size, slope;
+  };
+  Bounds bounds() const;
+
+ private:
+  std::array<double, n_material> nodes_{};
+  std::array<T, n_material> factors_{};
+};
+
+// Which points of a side are the same material in both states. Without a warp, those at equal shares of the length. A warp
+// stretches curves unevenly. Then the point at a share now was at another share before. Besides, the curves differ a little from
+// the curves that the map takes the points along. `rest` makes up for the change of this difference.
+class SideMaterial {
+ public:
+  SideMaterial(const MovedPatch &moved, Side Patch::*side);
+
+  bool is_warped() const { return is_warped_; }
+  // Returns where the points at these shares were. The result ascends from 0 to 1.
+  Vector<double> shares_before(const Vector<double> &shares) const;
+  Vec3 rest(double share) const { return rest_.at(share); }
+
+  Through<double>::Bounds slide_bounds() const { return slide_.bounds(); }
+  Through<Vec3>::Bounds rest_bounds() const { return rest_.bounds(); }
+  // Returns the current share of the material point k of the side.
+  const std::array<double, n_material> &nodes() const { return nodes_; }
+
+ private:
+  bool is_warped_ = false;
+  std::array<double, n_material> nodes_{};
+  Through<double> slide_;
+  Through<Vec3> rest_;
+};
+
+// The same for the offsets of a patch of arcs: how far the map moves them, beyond the offsets of the warped curves. The
+// polynomial is 0 for a patch without a warp.
+Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
+
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
 // evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
-// a point in both states, so the triangles may change in between. The result is exactly 0 if neither the sides nor the bulge
-// changed.
+// a point in both states, so the triangles may change in between. Points of a warped side are matched by SideMaterial. The result
+// is exactly 0 if neither the sides nor the bulge changed.
 class PatchMotion {
  public:
   // The grid must have been made with its lines kept.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -55,6 +56,15 @@ struct CurveCopy {
   Vector<Bezier> pieces;
   Bezier rate;
 };
+
+const Vector<double> &material_shares() {
+  static const Vector<double> &shares = *new Vector<double>([] {
+    Vector<double> made;
+    for (std::size_t k = 0; k < n_material; ++k) made.push_back(static_cast<double>(k) / (n_material - 1));
+    return made;
+  }());
+  return shares;
+}
 
 // Collects the copies of curves that the images of a set need.
 class Unfolding {
@@ -177,16 +187,24 @@ double within_limits(double factor, double own) {
   return own == 0 ? std::clamp(factor, 0.0, most_of_missing) : std::clamp(factor, least_factor, most_factor);
 }
 
+// The mapped points of a piece at even parameters.
+using MappedPiece = std::array<Vec3, n_curve_steps + 1>;
+
 // Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at the ends.
-Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp) {
+// Writes the warped points.
+Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
+                    MappedPiece &mapped) {
+  mapped.fill(first.value);
   if (is_point(given)) return Bezier::point(first.value);
+  mapped.back() = last.value;
   const Bezier cubic = raised_to_cubic(given);
   const EndTangent a = end_tangent(cubic.control, first), b = end_tangent(cubic.reversed().control, last);
   double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
   for (int k = 1; k < n_curve_steps; ++k) {
     const double t = static_cast<double>(k) / n_curve_steps, s = 1 - t;
     const double b0 = s * s * s, b1 = 3 * t * s * s, b2 = 3 * t * t * s, b3 = t * t * t;
-    const Vec3 rest = warp.value(evaluate(cubic, t)) - ((b0 + b1) * first.value + (b2 + b3) * last.value);
+    view(mapped)[k] = warp.value(evaluate(cubic, t));
+    const Vec3 rest = view(mapped)[k] - ((b0 + b1) * first.value + (b2 + b3) * last.value);
     const Vec3 by_a = b1 * a.warped, by_b = b2 * b.warped;
     aa += dot(by_a, by_a), ab += dot(by_a, by_b), bb += dot(by_b, by_b);
     ar += dot(by_a, rest), br += dot(by_b, rest);
@@ -241,6 +259,55 @@ class MapAtEnds {
   Vector<Place> places_;
   std::size_t next_ = 0;
 };
+
+// The material points of a curve before any image is placed, and the weights that a mapped piece's points have there: those of
+// the polynomial through them.
+struct MaterialOfCurve {
+  explicit MaterialOfCurve(const Curve &curve) {
+    const CurvePoints points(curve, false, material_shares());
+    for (std::size_t k = 0; k < n_material; ++k) {
+      view(on_curve)[k] = {points.piece(k), points.parameter(k)};
+      for (int i = 0; i <= n_curve_steps; ++i) {
+        double product = 1;
+        for (int j = 0; j <= n_curve_steps; ++j)
+          if (j != i) product *= (points.parameter(k) * n_curve_steps - j) / (i - j);
+        view(weights[k])[i] = product;
+      }
+    }
+  }
+
+  MaterialPoints points_of(const Vector<MappedPiece> &pieces) const {
+    MaterialPoints made{{}, on_curve};
+    for (std::size_t k = 0; k < n_material; ++k) {
+      const MappedPiece &mapped = pieces[view(on_curve)[k].piece];
+      Vec3 sum{0, 0, 0};
+      for (int i = 0; i <= n_curve_steps; ++i) sum = sum + view(weights[k])[i] * view(mapped)[i];
+      view(made.mapped)[k] = sum;
+    }
+    made.mapped.front() = pieces.front().front(), made.mapped.back() = pieces.back().back();
+    return made;
+  }
+
+  std::array<PointOnPiece, n_material> on_curve;
+  std::array<double, n_curve_steps + 1> weights[n_material];
+};
+
+// Returns the middles of a patch's arcs that begin at the even shares, before an image is placed. Neighbouring patches have the
+// same bits at a common side.
+std::array<Vec3, n_material> middles_of_arcs(const PatchSet &set, const Patch &patch) {
+  const auto on = [&](const Side &side) { return CurvePoints(set.curve_of(side), side.reversed, material_shares()); };
+  const CurvePoints base = on(patch.v0), edge = on(patch.v1);
+  std::array<Vec3, n_material> made{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    const Vec3 from = base.point(k), to = edge.point(k);
+    const Vec3 offset = k == 0                ? arc_offset(set, patch.u0)
+                        : k == n_material - 1 ? arc_offset(set, patch.u1)
+                        : patch.bulge != 0    ? arc_offset(to - from, base.tangent(k), patch.bulge)
+                                              : Vec3{0, 0, 0};
+    view(made)[k] = 0.5 * (from + to) + 0.5 * offset;
+  }
+  return made;
+}
 
 // Bends the arcs at the sides of patches of arcs between their warped ends.
 void bend_arcs(PatchSet &set) {
@@ -354,17 +421,35 @@ PatchSet without_images(const PatchSet &set) {
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   Unfolding unfolding(set);
   MapAtEnds at_ends(warp);
+  Vector<std::optional<MaterialPoints>> material;
+  Vector<std::optional<MaterialOfCurve>> of_curves(set.curves.size());
+  Vector<MappedPiece> mapped;
   for (CurveCopy &copy : unfolding.copies()) {
     MapAt first = at_ends(copy.pieces.front().first());
+    mapped.clear();
     for (Bezier &piece : copy.pieces) {
       const MapAt last = at_ends(piece.last());
       if (!set.rates.empty()) copy.rate = warped_rate(piece, copy.rate, first, last, warp);
-      piece = warped_piece(piece, first, last, warp);
+      mapped.emplace_back();
+      piece = warped_piece(piece, first, last, warp, mapped.back());
       first = last;
     }
+    std::optional<MaterialOfCurve> &of_curve = of_curves[copy.curve];
+    if (!of_curve) of_curve.emplace(set.curves[copy.curve]);
+    material.push_back(of_curve->points_of(mapped));
   }
   PatchSet made = made_of(unfolding, set);
   bend_arcs(made);
+  made.material = std::move(material);
+  // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
+  if (set.rates.empty())
+    for (const Patch &patch : set.patches) {
+      const std::array<Vec3, n_material> middles = middles_of_arcs(set, patch);
+      for (const PatchImage &image : patch.images) {
+        made.mapped_middles.push_back(middles);
+        for (Vec3 &p : made.mapped_middles.back()) p = warp.value(place(image, p));
+      }
+    }
   if (check == FoldCheck::no) return made;
   std::size_t number = 0;
   for (const Patch &patch : set.patches) {
