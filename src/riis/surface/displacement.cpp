@@ -70,7 +70,7 @@ typename Through<T>::Bounds Through<T>::bounds() const {
     for (std::size_t k = n; k > 0; --k) power[k] = power[k - 1] - nodes_[i] * power[k];
     power[0] = factors_[i] - nodes_[i] * power[0];
   }
-  Bounds made{0, 0};
+  Bounds made{0, 0, 0};
   for (std::size_t j = 0; j <= n; ++j) {
     double share = 1;  // binomial(j, k) / binomial(n, k)
     for (std::size_t k = 0; k <= j; ++k) {
@@ -79,6 +79,9 @@ typename Through<T>::Bounds Through<T>::bounds() const {
     }
     made.size = std::max(made.size, size_of(control[j]));
     if (j > 0) made.slope = std::max(made.slope, static_cast<double>(n) * size_of(control[j] - control[j - 1]));
+    if (j > 1)
+      made.bend = std::max(made.bend, static_cast<double>(n * (n - 1)) *
+                                          size_of((control[j] - control[j - 1]) - (control[j - 1] - control[j - 2])));
   }
   return made;
 }
@@ -111,40 +114,78 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
   return made;
 }
 
+namespace {
+
+bool has_middles(const MovedPatch &moved) {
+  return moved.patch < moved.now.mapped_middles.size() && moved.patch < moved.before.mapped_middles.size();
+}
+
+// The material points of a side in its own direction.
+class PointsOfSide {
+ public:
+  PointsOfSide(const PatchSet &set, const Side &side)
+      : curve_(set.curves[side.curve]), points_(*set.material[side.curve]), is_reversed_(side.reversed) {}
+
+  Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
+  Vec3 point(std::size_t k) const { return evaluate(piece(k), points_.on_curve[at(k)].t); }
+  // Returns the unit tangent, or 0 if there is none.
+  Vec3 tangent(std::size_t k) const {
+    const Vec3 along = derivative(piece(k), points_.on_curve[at(k)].t);
+    const double speed = length(along);
+    return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
+  }
+
+ private:
+  std::size_t at(std::size_t k) const { return is_reversed_ ? n_material - 1 - k : k; }
+  const Bezier &piece(std::size_t k) const { return curve_.pieces()[points_.on_curve[at(k)].piece]; }
+
+  const Curve &curve_;
+  const MaterialPoints &points_;
+  bool is_reversed_;
+};
+
+// Returns how far the mapped offsets of arcs are from the offsets of the warped curves, in one state.
+std::array<Vec3, n_material> beside_offsets(const PatchSet &set, std::size_t number) {
+  const Patch &patch = set.patches[number];
+  const PointsOfSide base(set, patch.v0), edge(set, patch.v1);
+  std::array<Vec3, n_material> made{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    const Vec3 offset = k == 0                ? arc_offset(set, patch.u0)
+                        : k == n_material - 1 ? arc_offset(set, patch.u1)
+                        : patch.bulge != 0    ? arc_offset(edge.point(k) - base.point(k), base.tangent(k), patch.bulge)
+                                              : Vec3{0, 0, 0};
+    made[k] = 2 * (set.mapped_middles[number][k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
+  }
+  return made;
+}
+
+// Returns how far the mapped middle of a patch is from the Coons combination of its mapped sides, in one state.
+Vec3 beside_middle(const PatchSet &set, std::size_t number) {
+  constexpr std::size_t last = n_material - 1, half = last / 2;
+  const Patch &patch = set.patches[number];
+  const PointsOfSide v0(set, patch.v0), v1(set, patch.v1), u0(set, patch.u0), u1(set, patch.u1);
+  const Vec3 sides = 0.5 * ((v0.mapped(half) + v1.mapped(half)) + (u0.mapped(half) + u1.mapped(half)));
+  const Vec3 corners = 0.25 * ((v0.mapped(0) + v1.mapped(last)) + (v0.mapped(last) + v1.mapped(0)));
+  return set.mapped_middles[number][half] - (sides - corners);
+}
+
+}  // namespace
+
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
-  const bool is_known = base.is_warped() && edge.is_warped() && moved.patch < moved.now.mapped_middles.size() &&
-                        moved.patch < moved.before.mapped_middles.size();
-  if (!is_known) return {};
+  if (!base.is_warped() || !edge.is_warped() || !has_middles(moved)) return {};
   std::array<double, n_material> nodes{};
-  std::array<Vec3, n_material> rest{};
-  for (std::size_t k = 0; k < n_material; ++k) nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
-  for (const bool is_now : {true, false}) {
-    const PatchSet &set = is_now ? moved.now : moved.before;
-    const Patch &patch = set.patches[moved.patch];
-    for (std::size_t k = 0; k < n_material; ++k) {
-      const auto on = [&](const Side &side) {
-        return (*set.material[side.curve]).on_curve[side.reversed ? n_material - 1 - k : k];
-      };
-      const auto mapped = [&](const Side &side) {
-        return (*set.material[side.curve]).mapped[side.reversed ? n_material - 1 - k : k];
-      };
-      const auto piece = [&](const Side &side) { return set.curves[side.curve].pieces()[on(side).piece]; };
-      const auto point = [&](const Side &side) { return evaluate(piece(side), on(side).t); };
-      Vec3 offset;
-      if (k == 0 || k == n_material - 1) {
-        offset = arc_offset(set, k == 0 ? patch.u0 : patch.u1);
-      } else {
-        const Vec3 along = derivative(piece(patch.v0), on(patch.v0).t);
-        const double speed = length(along);
-        offset = speed > 0 && patch.bulge != 0 ? arc_offset(point(patch.v1) - point(patch.v0),
-                                                            ((patch.v0.reversed ? -1 : 1) / speed) * along, patch.bulge)
-                                               : Vec3{0, 0, 0};
-      }
-      const Vec3 wanted = 2 * (set.mapped_middles[moved.patch][k] - 0.5 * (mapped(patch.v0) + mapped(patch.v1)));
-      rest[k] = is_now ? wanted - offset : rest[k] - (wanted - offset);
-    }
+  std::array<Vec3, n_material> rest = beside_offsets(moved.now, moved.patch);
+  const std::array<Vec3, n_material> before = beside_offsets(moved.before, moved.patch);
+  for (std::size_t k = 0; k < n_material; ++k) {
+    nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
+    rest[k] = rest[k] - before[k];
   }
   return {nodes, rest};
+}
+
+Vec3 rest_of_middle(const MovedPatch &moved) {
+  if (!has_middles(moved)) return {0, 0, 0};
+  return beside_middle(moved.now, moved.patch) - beside_middle(moved.before, moved.patch);
 }
 
 namespace {
@@ -304,6 +345,8 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
     sides_.u0 = displacements_of(moved, {&Patch::u0, &GridLine::t0, &GridLine::is_vertex0, first, n_u}, v_lines);
     sides_.u1 =
         displacements_of(moved, {&Patch::u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
+    is_warped_ = has_middles(moved);
+    if (is_warped_) rest_of_middle_ = rest_of_middle(moved);
   }
   column_ = u_lines.places(), row_ = v_lines.places();
   u_ = u_lines.middle(), v_ = v_lines.middle();
@@ -340,8 +383,10 @@ Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
   if (j + 1 == v_.size()) return sides_.v1[i];
   if (i == 0) return sides_.u0[j];
   if (i + 1 == u_.size()) return sides_.u1[j];
-  return mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
-         mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
+  const Vec3 of_sides =
+      mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
+      mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
+  return is_warped_ ? of_sides + (16 * u * (1 - u) * v * (1 - v)) * rest_of_middle_ : of_sides;
 }
 
 ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placement &placement) {

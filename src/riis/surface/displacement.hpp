@@ -47,9 +47,9 @@ class Through {
     return value;
   }
 
-  // Bounds the size on [0, 1], and the size of the derivative.
+  // Bounds the sizes of the value and of the first two derivatives on [0, 1].
   struct Bounds {
-    double size, slope;
+    double size, slope, bend;
   };
   Bounds bounds() const;
 
@@ -85,6 +85,9 @@ class SideMaterial {
 // The same for the offsets of a patch of arcs: how far the map moves them, beyond the offsets of the warped curves. The
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
+
+// Returns how far the map moves the middle of a Coons patch, beyond the Coons combination of its sides.
+Vec3 rest_of_middle(const MovedPatch &moved);
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
 // evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
@@ -123,6 +126,8 @@ class PatchMotion {
   const LevelledGrid &levelled_;
   SideVectors sides_;
   Vector<Vec3> offsets_;
+  bool is_warped_ = false;  // and no patch of arcs
+  Vec3 rest_of_middle_{0, 0, 0};
 };
 
 // The motion of one image of a patch in space. It combines the motions of the patch, the image and the placement.

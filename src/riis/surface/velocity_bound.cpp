@@ -267,22 +267,45 @@ double largest_curvature(const Curve &curve) {
   return largest;
 }
 
-// Bounds what SideMaterial adds to the displacement at equal shares, and the derivative of this part by the share.
-Through<Vec3>::Bounds material_bounds(const SideMaterial &material, const Curve &before) {
-  if (!material.is_warped()) return {0, 0};
-  const auto slide = material.slide_bounds();
-  const auto rest = material.rest_bounds();
-  const double length = before.length(), shift = length * slide.size;
-  // The directions of the curve before at the two shares differ by this at most.
-  const double turn = length > 0 ? std::min(2.0, shift * largest_curvature(before)) : 0;
-  return {shift + rest.size, length * (turn + slide.slope) + rest.slope};
+// Bounds the distance from linear on a range of a function whose value and derivatives are bounded.
+double off_line(double width, const Through<Vec3>::Bounds &of) {
+  return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
+
+// What SideMaterial adds to the displacement at equal shares: C(u) - C(u + slide(u)) + rest(u), with the curve C before.
+class AddedByMaterial {
+ public:
+  // `third` bounds the third derivative of C by the share. It may be infinite.
+  AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
+    if (!material.is_warped()) return;
+    const auto slide = material.slide_bounds();
+    const double length = before.length(), shift = length * slide.size;
+    const double second = length > 0 ? length * length * largest_curvature(before) : 0;
+    const double turn = length > 0 ? std::min(2 * length, second * slide.size) : 0;
+    bounds_ = {shift, turn + length * slide.slope,
+               third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
+    rest_ = material.rest_bounds();
+    // Between a joint and its slid place, the second derivatives are those of two pieces.
+    of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
+  }
+
+  double slope() const { return bounds_.slope + rest_.slope; }
+  // Bounds the distance from linear on a range.
+  double off_linear(double width) const {
+    const double smooth = larger(off_line(width, bounds_.bend) + width * of_joints_, 0);
+    const double coarse = std::min(0.5 * width * bounds_.slope, 2 * bounds_.size);
+    return (smooth <= coarse ? smooth : coarse) + off_line(width, rest_);
+  }
+
+ private:
+  Through<Vec3>::Bounds bounds_{0, 0, 0}, rest_{0, 0, 0};
+  double of_joints_ = 0;
+};
 
 // For every two neighbouring lines, bounds the distance of a side's displacement from linear. The bound includes the difference
 // between a line's share on the side and the line's `middle`.
 Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material, const Vector<GridLine> &lines,
                           double GridLine::*t) {
-  const auto added = material_bounds(material, curves.before);
   const Vector<double> at_lines = shares_of(lines, t);
   Shares shares(at_lines, {&curves.now, &curves.before});
   for (int round = 0; round < most_rounds; ++round) {
@@ -291,6 +314,12 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
   }
   const SideInBoth side(curves.now, curves.before, shares.all());
   const double both_lengths = curves.now.length() + curves.before.length();
+  double third = 0;
+  for (std::size_t i = 0; i + 1 < shares.all().size(); ++i) {
+    const AlongCurve on = side.between(i);
+    third = larger(third, (on.length * on.second).size);
+  }
+  const AddedByMaterial added(material, curves.before, third);
   Vector<double> made;
   for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
     const std::size_t from = shares.line(k), to = shares.line(k + 1);
@@ -307,9 +336,8 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
     error = std::min(error, off_line(width, largest));
     // No point of a curve is farther from the curve's chord than the curve is long.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
-    // A function differs from its linear interpolation by at most half the width times its steepest slope.
-    error += std::min(0.5 * width * added.slope, 2 * added.size);
-    const double slope = both_lengths + added.slope;
+    error += added.off_linear(width);
+    const double slope = both_lengths + added.slope();
     const auto shift = [&](const GridLine &line) { return slope * std::abs(line.*t - line.middle); };
     made.push_back(error + larger(shift(lines[k]), shift(lines[k + 1])));
   }
@@ -437,7 +465,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
     double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
-    error += 2 * of_factor.size * slides + std::min(0.5 * width * rest.slope, 2 * rest.size);
+    error += 2 * of_factor.size * slides + off_line(width, rest);
     made.push_back(error);
   }
   return made;
@@ -465,16 +493,19 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
     at_u1 = off_linear(curves_of(states, patch, &Patch::u1), {moved, &Patch::u1}, grid.lines.v, &GridLine::t1);
   }
+  const double middle = has_arcs ? 0 : length(rest_of_middle(moved));
   PatchErrors made;
   auto next_level = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
-    const double row = grid.v[j + 1] - grid.v[j];
+    const double row = grid.v[j + 1] - grid.v[j], width = grid.u[i + 1] - grid.u[i];
     // The arcs add 2 v (1-v) times the offset. Between two vertices, this differs from linear by at most row^2 / 2 times the
     // offset.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
-                   largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];
+                   largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i] +
+                   // The second derivatives of 16 u (1-u) v (1-v) along u and along v are at most 8.
+                   (row * row + width * width) * middle;
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;

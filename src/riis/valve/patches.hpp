@@ -124,8 +124,8 @@ struct PatchSet {
   // Only of warped patches: an entry for each curve but the lines between the sides of a skirt. On them, equal shares stand for
   // the same points already.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only of warped patches of arcs: where the map takes the middles of the arcs that begin at the even shares. The index is that
-  // of the patch.
+  // Only of warped patches: where the map takes the points at v = 1/2 and the even shares u. The index is that of the patch.
+  // For Coons patches only the point in the middle is known.
   Vector<std::array<Vec3, n_material>> mapped_middles = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

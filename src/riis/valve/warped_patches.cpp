@@ -292,20 +292,35 @@ struct MaterialOfCurve {
   std::array<double, n_curve_steps + 1> weights[n_material];
 };
 
-// Returns the middles of a patch's arcs that begin at the even shares, before an image is placed. Neighbouring patches have the
-// same bits at a common side.
-std::array<Vec3, n_material> middles_of_arcs(const PatchSet &set, const Patch &patch) {
-  const auto on = [&](const Side &side) { return CurvePoints(set.curve_of(side), side.reversed, material_shares()); };
-  const CurvePoints base = on(patch.v0), edge = on(patch.v1);
+// Returns the points of a patch at v = 1/2 and the even shares u, before an image is placed. Neighbouring patches of arcs have
+// the same bits at a common side. Of a Coons patch, returns only the point in the middle.
+std::array<Vec3, n_material> middles_of(const PatchSet &set, const Patch &patch,
+                                        const Vector<std::optional<MaterialOfCurve>> &of_curves, bool has_arcs) {
+  constexpr std::size_t last = n_material - 1, half = last / 2;
+  const auto place_of = [&](const Side &side, std::size_t k) {
+    return view(of_curves[side.curve]->on_curve)[side.reversed ? last - k : k];
+  };
+  const auto on = [&](const Side &side, std::size_t k) {
+    const PointOnPiece at = place_of(side, k);
+    return evaluate(set.curve_of(side).pieces()[at.piece], at.t);
+  };
   std::array<Vec3, n_material> made{};
-  for (std::size_t k = 0; k < n_material; ++k) {
-    const Vec3 from = base.point(k), to = edge.point(k);
-    const Vec3 offset = k == 0                ? arc_offset(set, patch.u0)
-                        : k == n_material - 1 ? arc_offset(set, patch.u1)
-                        : patch.bulge != 0    ? arc_offset(to - from, base.tangent(k), patch.bulge)
-                                              : Vec3{0, 0, 0};
+  for (std::size_t k = 0; has_arcs && k < n_material; ++k) {
+    const Vec3 from = on(patch.v0, k), to = on(patch.v1, k);
+    Vec3 offset{0, 0, 0};
+    if (k == 0 || k == last) {
+      offset = arc_offset(set, k == 0 ? patch.u0 : patch.u1);
+    } else if (patch.bulge != 0) {
+      const PointOnPiece at = place_of(patch.v0, k);
+      const Vec3 along = derivative(set.curve_of(patch.v0).pieces()[at.piece], at.t);
+      const double speed = length(along);
+      if (speed > 0) offset = arc_offset(to - from, ((patch.v0.reversed ? -1 : 1) / speed) * along, patch.bulge);
+    }
     view(made)[k] = 0.5 * (from + to) + 0.5 * offset;
   }
+  if (!has_arcs)
+    view(made)[half] = 0.5 * ((on(patch.v0, half) + on(patch.v1, half)) + (on(patch.u0, half) + on(patch.u1, half))) -
+                       0.25 * ((on(patch.v0, 0) + on(patch.v1, last)) + (on(patch.v0, last) + on(patch.v1, 0)));
   return made;
 }
 
@@ -442,14 +457,18 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   bend_arcs(made);
   made.material = std::move(material);
   // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
-  if (set.rates.empty())
-    for (const Patch &patch : set.patches) {
-      const std::array<Vec3, n_material> middles = middles_of_arcs(set, patch);
-      for (const PatchImage &image : patch.images) {
-        made.mapped_middles.push_back(middles);
-        for (Vec3 &p : made.mapped_middles.back()) p = warp.value(place(image, p));
-      }
+  const bool has_arcs = set.rates.empty();
+  for (const Patch &patch : set.patches) {
+    const std::array<Vec3, n_material> middles = middles_of(set, patch, of_curves, has_arcs);
+    for (const PatchImage &image : patch.images) {
+      made.mapped_middles.push_back(middles);
+      for (std::size_t k = 0; k < n_material; ++k)
+        if (has_arcs || 2 * k == n_material - 1) {
+          Vec3 &p = view(made.mapped_middles.back())[k];
+          p = warp.value(place(image, p));
+        }
     }
+  }
   if (check == FoldCheck::no) return made;
   std::size_t number = 0;
   for (const Patch &patch : set.patches) {
