@@ -41,7 +41,7 @@ OnSide on_side(const Curve &curve, const MaterialPoints &points, bool is_reverse
     if (at.t > t) in_piece += arc_length(curve.pieces()[piece], t, at.t), t = at.t;
     const double share = k == 0                  ? 0
                          : k == n_material - 1   ? 1
-                         : !(curve.length() > 0) ? static_cast<double>(k) / (n_material - 1)
+                         : !(curve.length() > 0) ? material_share(k)
                                                  : (before + in_piece) / curve.length();
     const std::size_t i = is_reversed ? n_material - 1 - k : k;
     made.share[i] = is_reversed ? 1 - share : share;
@@ -116,8 +116,8 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-bool has_middles(const MovedPatch &moved) {
-  return moved.patch < moved.now.mapped_middles.size() && moved.patch < moved.before.mapped_middles.size();
+bool has_middle_lines(const MovedPatch &moved) {
+  return moved.patch < moved.now.mapped_middle_lines.size() && moved.patch < moved.before.mapped_middle_lines.size();
 }
 
 // The material points of a side in its own direction.
@@ -154,25 +154,29 @@ std::array<Vec3, n_material> beside_offsets(const PatchSet &set, std::size_t num
                         : k == n_material - 1 ? arc_offset(set, patch.u1)
                         : patch.bulge != 0    ? arc_offset(edge.point(k) - base.point(k), base.tangent(k), patch.bulge)
                                               : Vec3{0, 0, 0};
-    made[k] = 2 * (set.mapped_middles[number][k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
+    made[k] = 2 * (set.mapped_middle_lines[number][k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
   }
   return made;
 }
 
-// Returns how far the mapped middle of a patch is from the Coons combination of its mapped sides, in one state.
-Vec3 beside_middle(const PatchSet &set, std::size_t number) {
+// Returns how far the mapped points of the line u = 1/2 are from the Coons combination of the mapped sides, in one state.
+std::array<Vec3, n_material> beside_middle_line(const PatchSet &set, std::size_t number) {
   constexpr std::size_t last = n_material - 1, half = last / 2;
   const Patch &patch = set.patches[number];
   const PointsOfSide v0(set, patch.v0), v1(set, patch.v1), u0(set, patch.u0), u1(set, patch.u1);
-  const Vec3 sides = 0.5 * ((v0.mapped(half) + v1.mapped(half)) + (u0.mapped(half) + u1.mapped(half)));
-  const Vec3 corners = 0.25 * ((v0.mapped(0) + v1.mapped(last)) + (v0.mapped(last) + v1.mapped(0)));
-  return set.mapped_middles[number][half] - (sides - corners);
+  const Vec3 from = v0.mapped(half) - 0.5 * (v0.mapped(0) + v0.mapped(last)),
+             to = v1.mapped(half) - 0.5 * (v1.mapped(0) + v1.mapped(last));
+  std::array<Vec3, n_material> made{};
+  for (std::size_t k = 1; k < last; ++k)
+    made[k] =
+        set.mapped_middle_lines[number][k] - mix(from, to, material_share(k)) - 0.5 * (u0.mapped(k) + u1.mapped(k));
+  return made;
 }
 
 }  // namespace
 
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
-  if (!base.is_warped() || !edge.is_warped() || !has_middles(moved)) return {};
+  if (!base.is_warped() || !edge.is_warped() || !has_middle_lines(moved)) return {};
   std::array<double, n_material> nodes{};
   std::array<Vec3, n_material> rest = beside_offsets(moved.now, moved.patch);
   const std::array<Vec3, n_material> before = beside_offsets(moved.before, moved.patch);
@@ -183,9 +187,13 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
   return {nodes, rest};
 }
 
-Vec3 rest_of_middle(const MovedPatch &moved) {
-  if (!has_middles(moved)) return {0, 0, 0};
-  return beside_middle(moved.now, moved.patch) - beside_middle(moved.before, moved.patch);
+Through<Vec3> rest_of_middle_line(const MovedPatch &moved) {
+  if (!has_middle_lines(moved)) return {};
+  std::array<double, n_material> nodes{};
+  std::array<Vec3, n_material> rest = beside_middle_line(moved.now, moved.patch);
+  const std::array<Vec3, n_material> before = beside_middle_line(moved.before, moved.patch);
+  for (std::size_t k = 0; k < n_material; ++k) nodes[k] = material_share(k), rest[k] = rest[k] - before[k];
+  return {nodes, rest};
 }
 
 namespace {
@@ -345,11 +353,13 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
     sides_.u0 = displacements_of(moved, {&Patch::u0, &GridLine::t0, &GridLine::is_vertex0, first, n_u}, v_lines);
     sides_.u1 =
         displacements_of(moved, {&Patch::u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
-    is_warped_ = has_middles(moved);
-    if (is_warped_) rest_of_middle_ = rest_of_middle(moved);
   }
   column_ = u_lines.places(), row_ = v_lines.places();
   u_ = u_lines.middle(), v_ = v_lines.middle();
+  if (!has_arcs_ && has_middle_lines(moved)) {
+    const Through<Vec3> rest = rest_of_middle_line(moved);
+    for (const double v : v_) rests_.push_back(rest.at(v));
+  }
 }
 
 Vec3 PatchMotion::without_jumps(std::size_t i, std::size_t j, int column, int row) const {
@@ -386,7 +396,7 @@ Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
   const Vec3 of_sides =
       mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
       mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
-  return is_warped_ ? of_sides + (16 * u * (1 - u) * v * (1 - v)) * rest_of_middle_ : of_sides;
+  return rests_.empty() ? of_sides : of_sides + (4 * u * (1 - u)) * rests_[j];
 }
 
 ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placement &placement) {

@@ -86,8 +86,9 @@ class SideMaterial {
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// Returns how far the map moves the middle of a Coons patch, beyond the Coons combination of its sides.
-Vec3 rest_of_middle(const MovedPatch &moved);
+// The same for the line u = 1/2 of a Coons patch: how far the map moves its points, beyond the Coons combination of the mapped
+// sides. On other lines, the rest is 4 u (1-u) times this one.
+Through<Vec3> rest_of_middle_line(const MovedPatch &moved);
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
 // evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
@@ -126,8 +127,7 @@ class PatchMotion {
   const LevelledGrid &levelled_;
   SideVectors sides_;
   Vector<Vec3> offsets_;
-  bool is_warped_ = false;  // and no patch of arcs
-  Vec3 rest_of_middle_{0, 0, 0};
+  Vector<Vec3> rests_;  // rest_of_middle_line at v_; empty for patches of arcs and without a warp
 };
 
 // The motion of one image of a patch in space. It combines the motions of the patch, the image and the placement.

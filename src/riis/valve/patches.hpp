@@ -93,6 +93,7 @@ struct Seam {
 // A curve of a warped valve follows the points of the curve before the warp. They are known at this many even shares of that
 // curve's length, from its first point to its last.
 inline constexpr std::size_t n_material = 7;
+constexpr double material_share(std::size_t k) { return static_cast<double>(k) / (n_material - 1); }
 
 // Where the map takes these points, and the points of the warped curve that stand for them. The warped curve approximates the
 // mapped curve at equal parameters.
@@ -124,9 +125,9 @@ struct PatchSet {
   // Only of warped patches: an entry for each curve but the lines between the sides of a skirt. On them, equal shares stand for
   // the same points already.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only of warped patches: where the map takes the points at v = 1/2 and the even shares u. The index is that of the patch.
-  // For Coons patches only the point in the middle is known.
-  Vector<std::array<Vec3, n_material>> mapped_middles = {};
+  // Only of warped patches: where the map takes the points of a middle line at the even shares. It is the line v = 1/2 of patches
+  // of arcs, and the line u = 1/2 of other patches. The index is that of the patch.
+  Vector<std::array<Vec3, n_material>> mapped_middle_lines = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };

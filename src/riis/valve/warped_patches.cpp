@@ -60,7 +60,7 @@ struct CurveCopy {
 const Vector<double> &material_shares() {
   static const Vector<double> &shares = *new Vector<double>([] {
     Vector<double> made;
-    for (std::size_t k = 0; k < n_material; ++k) made.push_back(static_cast<double>(k) / (n_material - 1));
+    for (std::size_t k = 0; k < n_material; ++k) made.push_back(material_share(k));
     return made;
   }());
   return shares;
@@ -292,37 +292,58 @@ struct MaterialOfCurve {
   std::array<double, n_curve_steps + 1> weights[n_material];
 };
 
-// Returns the points of a patch at v = 1/2 and the even shares u, before an image is placed. Neighbouring patches of arcs have
-// the same bits at a common side. Of a Coons patch, returns only the point in the middle.
-std::array<Vec3, n_material> middles_of(const PatchSet &set, const Patch &patch,
-                                        const Vector<std::optional<MaterialOfCurve>> &of_curves, bool has_arcs) {
-  constexpr std::size_t last = n_material - 1, half = last / 2;
-  const auto place_of = [&](const Side &side, std::size_t k) {
-    return view(of_curves[side.curve]->on_curve)[side.reversed ? last - k : k];
-  };
-  const auto on = [&](const Side &side, std::size_t k) {
-    const PointOnPiece at = place_of(side, k);
-    return evaluate(set.curve_of(side).pieces()[at.piece], at.t);
-  };
-  std::array<Vec3, n_material> made{};
-  for (std::size_t k = 0; has_arcs && k < n_material; ++k) {
-    const Vec3 from = on(patch.v0, k), to = on(patch.v1, k);
-    Vec3 offset{0, 0, 0};
-    if (k == 0 || k == last) {
-      offset = arc_offset(set, k == 0 ? patch.u0 : patch.u1);
-    } else if (patch.bulge != 0) {
-      const PointOnPiece at = place_of(patch.v0, k);
-      const Vec3 along = derivative(set.curve_of(patch.v0).pieces()[at.piece], at.t);
-      const double speed = length(along);
-      if (speed > 0) offset = arc_offset(to - from, ((patch.v0.reversed ? -1 : 1) / speed) * along, patch.bulge);
+// The middle lines of patches (PatchSet::mapped_middle_lines), before any image is placed and before the warp.
+class MiddleLines {
+ public:
+  MiddleLines(const PatchSet &set, const Vector<std::optional<MaterialOfCurve>> &of_curves)
+      : set_(set), of_curves_(of_curves) {}
+
+  // Neighbouring patches have the same bits at a common side.
+  std::array<Vec3, n_material> of_arcs(const Patch &patch) const {
+    std::array<Vec3, n_material> made{};
+    for (std::size_t k = 0; k <= last; ++k) {
+      const Vec3 from = point(patch.v0, k), to = point(patch.v1, k);
+      const Vec3 offset = k == 0             ? arc_offset(set_, patch.u0)
+                          : k == last        ? arc_offset(set_, patch.u1)
+                          : patch.bulge != 0 ? arc_offset(to - from, tangent(patch.v0, k), patch.bulge)
+                                             : Vec3{0, 0, 0};
+      view(made)[k] = 0.5 * (from + to) + 0.5 * offset;
     }
-    view(made)[k] = 0.5 * (from + to) + 0.5 * offset;
+    return made;
   }
-  if (!has_arcs)
-    view(made)[half] = 0.5 * ((on(patch.v0, half) + on(patch.v1, half)) + (on(patch.u0, half) + on(patch.u1, half))) -
-                       0.25 * ((on(patch.v0, 0) + on(patch.v1, last)) + (on(patch.v0, last) + on(patch.v1, 0)));
-  return made;
-}
+
+  std::array<Vec3, n_material> of_coons(const Patch &patch) const {
+    const auto off_chord = [&](const Side &side) {
+      return point(side, last / 2) - 0.5 * (point(side, 0) + point(side, last));
+    };
+    const Vec3 from = off_chord(patch.v0), to = off_chord(patch.v1);
+    std::array<Vec3, n_material> made{};
+    for (std::size_t k = 0; k <= last; ++k)
+      view(made)[k] = mix(from, to, material_share(k)) + 0.5 * (point(patch.u0, k) + point(patch.u1, k));
+    return made;
+  }
+
+ private:
+  static constexpr std::size_t last = n_material - 1;
+
+  PointOnPiece at(const Side &side, std::size_t k) const {
+    return view(of_curves_[side.curve]->on_curve)[side.reversed ? last - k : k];
+  }
+  const Bezier &piece(const Side &side, const PointOnPiece &at) const { return set_.curve_of(side).pieces()[at.piece]; }
+  Vec3 point(const Side &side, std::size_t k) const {
+    const PointOnPiece found = at(side, k);
+    return evaluate(piece(side, found), found.t);
+  }
+  Vec3 tangent(const Side &side, std::size_t k) const {
+    const PointOnPiece found = at(side, k);
+    const Vec3 along = derivative(piece(side, found), found.t);
+    const double speed = length(along);
+    return speed > 0 ? ((side.reversed ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
+  }
+
+  const PatchSet &set_;
+  const Vector<std::optional<MaterialOfCurve>> &of_curves_;
+};
 
 // Bends the arcs at the sides of patches of arcs between their warped ends.
 void bend_arcs(PatchSet &set) {
@@ -458,15 +479,16 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   made.material = std::move(material);
   // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
   const bool has_arcs = set.rates.empty();
+  const MiddleLines lines(set, of_curves);
   for (const Patch &patch : set.patches) {
-    const std::array<Vec3, n_material> middles = middles_of(set, patch, of_curves, has_arcs);
+    const std::array<Vec3, n_material> line = has_arcs ? lines.of_arcs(patch) : lines.of_coons(patch);
     for (const PatchImage &image : patch.images) {
-      made.mapped_middles.push_back(middles);
-      for (std::size_t k = 0; k < n_material; ++k)
-        if (has_arcs || 2 * k == n_material - 1) {
-          Vec3 &p = view(made.mapped_middles.back())[k];
-          p = warp.value(place(image, p));
-        }
+      made.mapped_middle_lines.push_back(line);
+      // The ends of a line of a Coons patch are known from its sides.
+      for (std::size_t k = has_arcs ? 0 : 1; k < (has_arcs ? n_material : n_material - 1); ++k) {
+        Vec3 &p = view(made.mapped_middle_lines.back())[k];
+        p = warp.value(place(image, p));
+      }
     }
   }
   if (check == FoldCheck::no) return made;
