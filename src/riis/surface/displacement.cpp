@@ -31,18 +31,27 @@ struct OnSide {
   std::array<Vec3, n_material> beside;   // from the warped curve to where the map takes the point
 };
 
+// Estimates the length of a piece between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
+// slide of 0 is exact.
+double length_near(const Bezier &piece, double from, double to) {
+  const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
+  return (to - from) / 18 *
+         (5 * (length(derivative(piece, middle - reach)) + length(derivative(piece, middle + reach))) +
+          8 * length(derivative(piece, middle)));
+}
+
 OnSide on_side(const Curve &curve, const MaterialPoints &points, bool is_reversed) {
+  std::array<double, n_material> behind{};
+  for (std::size_t k = 1; k < n_material; ++k) {
+    const PointOnPiece &from = points.on_curve[k - 1], &to = points.on_curve[k];
+    behind[k] = behind[k - 1];
+    for (std::size_t piece = from.piece; piece <= to.piece; ++piece)
+      behind[k] += length_near(curve.pieces()[piece], piece == from.piece ? from.t : 0, piece == to.piece ? to.t : 1);
+  }
   OnSide made{};
-  double before = 0, in_piece = 0, t = 0;
-  std::size_t piece = 0;
   for (std::size_t k = 0; k < n_material; ++k) {
     const PointOnPiece &at = points.on_curve[k];
-    for (; piece < at.piece; ++piece) before += curve.length(piece), in_piece = t = 0;
-    if (at.t > t) in_piece += arc_length(curve.pieces()[piece], t, at.t), t = at.t;
-    const double share = k == 0                  ? 0
-                         : k == n_material - 1   ? 1
-                         : !(curve.length() > 0) ? material_share(k)
-                                                 : (before + in_piece) / curve.length();
+    const double share = curve.length() > 0 ? behind[k] / behind[n_material - 1] : material_share(k);
     const std::size_t i = is_reversed ? n_material - 1 - k : k;
     made.share[i] = is_reversed ? 1 - share : share;
     made.beside[i] = points.mapped[k] - evaluate(curve.pieces()[at.piece], at.t);
@@ -116,8 +125,8 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
-bool has_middle_lines(const MovedPatch &moved) {
-  return moved.patch < moved.now.mapped_middle_lines.size() && moved.patch < moved.before.mapped_middle_lines.size();
+bool has_points_inside(const MovedPatch &moved) {
+  return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
 // The material points of a side in its own direction.
@@ -154,29 +163,31 @@ std::array<Vec3, n_material> beside_offsets(const PatchSet &set, std::size_t num
                         : k == n_material - 1 ? arc_offset(set, patch.u1)
                         : patch.bulge != 0    ? arc_offset(edge.point(k) - base.point(k), base.tangent(k), patch.bulge)
                                               : Vec3{0, 0, 0};
-    made[k] = 2 * (set.mapped_middle_lines[number][k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
+    made[k] = 2 * (set.mapped_inside[number].points[k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
   }
   return made;
 }
 
-// Returns how far the mapped points of the line u = 1/2 are from the Coons combination of the mapped sides, in one state.
-std::array<Vec3, n_material> beside_middle_line(const PatchSet &set, std::size_t number) {
-  constexpr std::size_t last = n_material - 1, half = last / 2;
+// Returns how far the mapped inner points are from the Coons combination of the mapped sides, in one state.
+std::array<Vec3, 4> beside_combination(const PatchSet &set, std::size_t number) {
+  constexpr std::size_t last = n_material - 1;
   const Patch &patch = set.patches[number];
   const PointsOfSide v0(set, patch.v0), v1(set, patch.v1), u0(set, patch.u0), u1(set, patch.u1);
-  const Vec3 from = v0.mapped(half) - 0.5 * (v0.mapped(0) + v0.mapped(last)),
-             to = v1.mapped(half) - 0.5 * (v1.mapped(0) + v1.mapped(last));
-  std::array<Vec3, n_material> made{};
-  for (std::size_t k = 1; k < last; ++k)
-    made[k] =
-        set.mapped_middle_lines[number][k] - mix(from, to, material_share(k)) - 0.5 * (u0.mapped(k) + u1.mapped(k));
+  std::array<Vec3, 4> made{};
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const std::size_t at_u = (1 + i % 2) * last / 3, at_v = (1 + i / 2) * last / 3;
+    const double u = material_share(at_u), v = material_share(at_v);
+    made[i] = set.mapped_inside[number].points[i] - mix(v0.mapped(at_u), v1.mapped(at_u), v) -
+              mix(u0.mapped(at_v), u1.mapped(at_v), u) +
+              mix(mix(v0.mapped(0), v0.mapped(last), u), mix(v1.mapped(0), v1.mapped(last), u), v);
+  }
   return made;
 }
 
 }  // namespace
 
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
-  if (!base.is_warped() || !edge.is_warped() || !has_middle_lines(moved)) return {};
+  if (!base.is_warped() || !edge.is_warped() || !has_points_inside(moved)) return {};
   std::array<double, n_material> nodes{};
   std::array<Vec3, n_material> rest = beside_offsets(moved.now, moved.patch);
   const std::array<Vec3, n_material> before = beside_offsets(moved.before, moved.patch);
@@ -187,13 +198,19 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
   return {nodes, rest};
 }
 
-Through<Vec3> rest_of_middle_line(const MovedPatch &moved) {
-  if (!has_middle_lines(moved)) return {};
-  std::array<double, n_material> nodes{};
-  std::array<Vec3, n_material> rest = beside_middle_line(moved.now, moved.patch);
-  const std::array<Vec3, n_material> before = beside_middle_line(moved.before, moved.patch);
-  for (std::size_t k = 0; k < n_material; ++k) nodes[k] = material_share(k), rest[k] = rest[k] - before[k];
-  return {nodes, rest};
+RestInside::RestInside(const MovedPatch &moved) {
+  const bool has_arcs = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
+  if (has_arcs || !has_points_inside(moved) || moved.now.mapped_inside[moved.patch].of_arcs) return;
+  is_warped_ = true;
+  rest_ = beside_combination(moved.now, moved.patch);
+  const std::array<Vec3, 4> before = beside_combination(moved.before, moved.patch);
+  for (std::size_t i = 0; i < rest_.size(); ++i) rest_[i] = rest_[i] - before[i];
+}
+
+double RestInside::size() const {
+  double largest = 0;
+  for (const Vec3 &rest : rest_) largest = std::max(largest, length(rest));
+  return largest;
 }
 
 namespace {
@@ -223,8 +240,8 @@ class MovedSide {
       const CurvePoints now = points_now(shares_unknown);
       for (std::size_t k = 0; k < unknown.size(); ++k) points[unknown[k]] = now.point(k);
     }
-    const Vector<double> shares_before = this->shares_before(shares);
-    const CurvePoints before = points_before(shares_before);
+    const Vector<double> slid = material_.is_warped() ? material_.shares_before(shares) : Vector<double>{};
+    const CurvePoints before = points_before(material_.is_warped() ? slid : shares);
     for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] - before.point(i);
     if (material_.is_warped())
       for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] + material_.rest(shares[i]);
@@ -232,9 +249,6 @@ class MovedSide {
   }
 
   const SideMaterial &material() const { return material_; }
-  Vector<double> shares_before(const Vector<double> &shares) const {
-    return material_.is_warped() ? material_.shares_before(shares) : shares;
-  }
 
   CurvePoints points_now(const Vector<double> &shares) const { return {curve_now_, now_.reversed, shares}; }
   CurvePoints points_before(const Vector<double> &shares) const { return {curve_before_, before_.reversed, shares}; }
@@ -320,11 +334,13 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
   if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
     return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
   Vector<Vec3> made = arc_offsets(moved.now, patch_now, base.points_now(u), edge.points_now(u));
-  const Vector<double> on_base = base.shares_before(u), on_edge = edge.shares_before(u);
-  const Vector<Vec3> before =
-      arc_offsets(moved.before, patch_before, base.points_before(on_base), edge.points_before(on_edge));
+  const bool is_warped = base.material().is_warped() && edge.material().is_warped();
+  const Vector<double> on_base = is_warped ? base.material().shares_before(u) : Vector<double>{},
+                       on_edge = is_warped ? edge.material().shares_before(u) : Vector<double>{};
+  const Vector<Vec3> before = arc_offsets(moved.before, patch_before, base.points_before(is_warped ? on_base : u),
+                                          edge.points_before(is_warped ? on_edge : u));
   for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i];
-  if (!base.material().is_warped()) return made;
+  if (!is_warped) return made;
   const Through<Vec3> rest = rest_of_offsets(moved, base.material(), edge.material());
   for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] + rest.at(u[i]);
   return made;
@@ -333,7 +349,10 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
 }  // namespace
 
 PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
-    : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0), levelled_(levelled) {
+    : column_levels_(levelled.grid.u.size() - 1, 0),
+      row_levels_(levelled.grid.v.size() - 1, 0),
+      levelled_(levelled),
+      rest_(moved) {
   auto level = levelled.levels.begin();
   for_each_quad(levelled.grid, [&](std::size_t i, std::size_t j) {
     column_levels_[i] = std::max(column_levels_[i], *level);
@@ -356,10 +375,6 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
   }
   column_ = u_lines.places(), row_ = v_lines.places();
   u_ = u_lines.middle(), v_ = v_lines.middle();
-  if (!has_arcs_ && has_middle_lines(moved)) {
-    const Through<Vec3> rest = rest_of_middle_line(moved);
-    for (const double v : v_) rests_.push_back(rest.at(v));
-  }
 }
 
 Vec3 PatchMotion::without_jumps(std::size_t i, std::size_t j, int column, int row) const {
@@ -396,7 +411,7 @@ Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
   const Vec3 of_sides =
       mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
       mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
-  return rests_.empty() ? of_sides : of_sides + (4 * u * (1 - u)) * rests_[j];
+  return rest_.is_warped() ? of_sides + rest_.at(u, v) : of_sides;
 }
 
 ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placement &placement) {

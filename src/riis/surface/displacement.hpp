@@ -86,9 +86,31 @@ class SideMaterial {
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The same for the line u = 1/2 of a Coons patch: how far the map moves its points, beyond the Coons combination of the mapped
-// sides. On other lines, the rest is 4 u (1-u) times this one.
-Through<Vec3> rest_of_middle_line(const MovedPatch &moved);
+// What the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
+// (MappedInside) it is the difference between the displacement of the mapped point and the Coons combination of the mapped
+// sides. Between them lies the polynomial of degree 3 in u and in v.
+class RestInside {
+ public:
+  explicit RestInside(const MovedPatch &moved);
+
+  bool is_warped() const { return is_warped_; }
+  double size() const;
+  Vec3 at(double u, double v) const {
+    return first(u) * (first(v) * rest_[0] + second(v) * rest_[2]) +
+           second(u) * (first(v) * rest_[1] + second(v) * rest_[3]);
+  }
+  // Bounds the distance from linear on a range of u or of v.
+  double off_linear(double width) const { return 0.125 * width * width * 106 * size(); }
+
+ private:
+  // They are 1 at one third and two thirds, and 0 at the other and at the ends. On [0, 1], the sum of their sizes is at most 1.3,
+  // and that of their second derivatives at most 81.
+  static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
+  static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
+
+  bool is_warped_ = false;
+  std::array<Vec3, 4> rest_{};
+};
 
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
 // evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
@@ -127,7 +149,7 @@ class PatchMotion {
   const LevelledGrid &levelled_;
   SideVectors sides_;
   Vector<Vec3> offsets_;
-  Vector<Vec3> rests_;  // rest_of_middle_line at v_; empty for patches of arcs and without a warp
+  RestInside rest_;  // of a patch that has no arcs
 };
 
 // The motion of one image of a patch in space. It combines the motions of the patch, the image and the placement.

@@ -646,7 +646,7 @@ bool CurveNumbering::is_of(const PatchSet &set) const {
 
 PatchSet CurveNumbering::renumbered(const PatchSet &set) const {
   PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches, set.seams, set.deviation};
-  made.mapped_middle_lines = set.mapped_middle_lines;
+  made.mapped_inside = set.mapped_inside;
   if (!set.material.empty()) made.material.resize(n_curves_);
   for (std::size_t i = 0; i < patches_.size(); ++i)
     for (const auto side : {&Patch::v0, &Patch::v1, &Patch::u0, &Patch::u1}) {

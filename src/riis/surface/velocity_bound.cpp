@@ -493,7 +493,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
     at_u1 = off_linear(curves_of(states, patch, &Patch::u1), {moved, &Patch::u1}, grid.lines.v, &GridLine::t1);
   }
-  const auto middle = has_arcs ? Through<Vec3>::Bounds{0, 0, 0} : rest_of_middle_line(moved).bounds();
+  const RestInside rest(moved);
   PatchErrors made;
   auto next_level = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
@@ -504,7 +504,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i] +
-                   off_line(width, 8 * middle.size) + off_line(row, middle.bend);
+                   rest.off_linear(width) + rest.off_linear(row);
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;

@@ -113,6 +113,13 @@ struct MaterialPoints {
   }
 };
 
+// Where the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that begin at the even
+// shares. In another patch, they are the four points whose u and v are 1/3 or 2/3, first those with v = 1/3.
+struct MappedInside {
+  bool of_arcs;
+  std::array<Vec3, n_material> points;
+};
+
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
@@ -125,9 +132,8 @@ struct PatchSet {
   // Only of warped patches: an entry for each curve but the lines between the sides of a skirt. On them, equal shares stand for
   // the same points already.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only of warped patches: where the map takes the points of a middle line at the even shares. It is the line v = 1/2 of patches
-  // of arcs, and the line u = 1/2 of other patches. The index is that of the patch.
-  Vector<std::array<Vec3, n_material>> mapped_middle_lines = {};
+  // Only of warped patches: where the map takes points inside a patch. The index is that of the patch.
+  Vector<MappedInside> mapped_inside = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };

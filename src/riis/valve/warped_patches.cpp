@@ -292,59 +292,6 @@ struct MaterialOfCurve {
   std::array<double, n_curve_steps + 1> weights[n_material];
 };
 
-// The middle lines of patches (PatchSet::mapped_middle_lines), before any image is placed and before the warp.
-class MiddleLines {
- public:
-  MiddleLines(const PatchSet &set, const Vector<std::optional<MaterialOfCurve>> &of_curves)
-      : set_(set), of_curves_(of_curves) {}
-
-  // Neighbouring patches have the same bits at a common side.
-  std::array<Vec3, n_material> of_arcs(const Patch &patch) const {
-    std::array<Vec3, n_material> made{};
-    for (std::size_t k = 0; k <= last; ++k) {
-      const Vec3 from = point(patch.v0, k), to = point(patch.v1, k);
-      const Vec3 offset = k == 0             ? arc_offset(set_, patch.u0)
-                          : k == last        ? arc_offset(set_, patch.u1)
-                          : patch.bulge != 0 ? arc_offset(to - from, tangent(patch.v0, k), patch.bulge)
-                                             : Vec3{0, 0, 0};
-      view(made)[k] = 0.5 * (from + to) + 0.5 * offset;
-    }
-    return made;
-  }
-
-  std::array<Vec3, n_material> of_coons(const Patch &patch) const {
-    const auto off_chord = [&](const Side &side) {
-      return point(side, last / 2) - 0.5 * (point(side, 0) + point(side, last));
-    };
-    const Vec3 from = off_chord(patch.v0), to = off_chord(patch.v1);
-    std::array<Vec3, n_material> made{};
-    for (std::size_t k = 0; k <= last; ++k)
-      view(made)[k] = mix(from, to, material_share(k)) + 0.5 * (point(patch.u0, k) + point(patch.u1, k));
-    return made;
-  }
-
- private:
-  static constexpr std::size_t last = n_material - 1;
-
-  PointOnPiece at(const Side &side, std::size_t k) const {
-    return view(of_curves_[side.curve]->on_curve)[side.reversed ? last - k : k];
-  }
-  const Bezier &piece(const Side &side, const PointOnPiece &at) const { return set_.curve_of(side).pieces()[at.piece]; }
-  Vec3 point(const Side &side, std::size_t k) const {
-    const PointOnPiece found = at(side, k);
-    return evaluate(piece(side, found), found.t);
-  }
-  Vec3 tangent(const Side &side, std::size_t k) const {
-    const PointOnPiece found = at(side, k);
-    const Vec3 along = derivative(piece(side, found), found.t);
-    const double speed = length(along);
-    return speed > 0 ? ((side.reversed ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
-  }
-
-  const PatchSet &set_;
-  const Vector<std::optional<MaterialOfCurve>> &of_curves_;
-};
-
 // Bends the arcs at the sides of patches of arcs between their warped ends.
 void bend_arcs(PatchSet &set) {
   Vector<bool> is_bent(set.curves.size(), false);
@@ -364,22 +311,62 @@ void bend_arcs(PatchSet &set) {
   }
 }
 
+// Points of the patches of a set at even shares of their sides. `at` gives the places of the even shares on a curve.
+template <class At>
+class EvenPoints {
+ public:
+  EvenPoints(const PatchSet &set, const At &at) : set_(set), at_(at) {}
+
+  Vec3 point(const Side &side, std::size_t k) const {
+    const PointOnPiece &at = place_of(side, k);
+    return evaluate(set_.curve_of(side).pieces()[at.piece], at.t);
+  }
+  // Returns the offset of the arc at share k. Neighbouring patches have the same bits at a common side.
+  Vec3 offset(const Patch &patch, std::size_t k) const {
+    if (k == 0 || k == last) return arc_offset(set_, k == 0 ? patch.u0 : patch.u1);
+    if (patch.bulge == 0) return {0, 0, 0};
+    const PointOnPiece &at = place_of(patch.v0, k);
+    const Vec3 along = derivative(set_.curve_of(patch.v0).pieces()[at.piece], at.t);
+    const double speed = length(along);
+    if (!(speed > 0)) return {0, 0, 0};
+    return arc_offset(point(patch.v1, k) - point(patch.v0, k), ((patch.v0.reversed ? -1 : 1) / speed) * along,
+                      patch.bulge);
+  }
+
+  static constexpr std::size_t last = n_material - 1;
+
+ private:
+  const PointOnPiece &place_of(const Side &side, std::size_t k) const {
+    return view(at_(side.curve))[side.reversed ? last - k : k];
+  }
+
+  const PatchSet &set_;
+  const At &at_;
+};
+
 // Points of a patch on an even grid of labels u and v.
 class LabelGrid {
  public:
-  LabelGrid(const PatchSet &set, const Patch &patch) {
-    static const Vector<double> &shares = *new Vector<double>(even_shares());
-    const auto on = [&](const Side &side) { return CurvePoints(set.curve_of(side), side.reversed, shares); };
-    const CurvePoints base = on(patch.v0), edge = on(patch.v1), start = on(patch.u0), end = on(patch.u1);
+  template <class At>
+  LabelGrid(const EvenPoints<At> &even, const Patch &patch, bool has_arcs) {
+    constexpr std::size_t step = (n_material - 1) / n_fold_cells;
+    std::array<Vec3, n_fold_cells + 1> base, edge, start, end;
+    for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+      base[i] = even.point(patch.v0, step * i), edge[i] = even.point(patch.v1, step * i);
+      if (has_arcs)
+        start[i] = even.offset(patch, step * i);
+      else
+        start[i] = even.point(patch.u0, step * i), end[i] = even.point(patch.u1, step * i);
+    }
     for (std::size_t j = 0; j <= n_fold_cells; ++j)
       for (std::size_t i = 0; i <= n_fold_cells; ++i) {
-        const double u = shares[i], v = shares[j];
-        Vec3 p = mix(base.point(i), edge.point(i), v);
-        if (patch.bulge != 0)
-          p = p + 2 * v * (1 - v) * arc_offset(edge.point(i) - base.point(i), base.tangent(i), patch.bulge);
+        const double u = material_share(step * i), v = material_share(step * j);
+        Vec3 p = mix(base[i], edge[i], v);
+        if (has_arcs)
+          p = p + 2 * v * (1 - v) * start[i];
         else
-          p = p + mix(start.point(j), end.point(j), u) -
-              mix(mix(base.point(0), base.point(n_fold_cells), u), mix(edge.point(0), edge.point(n_fold_cells), u), v);
+          p = p + mix(start[j], end[j], u) -
+              mix(mix(base[0], base[n_fold_cells], u), mix(edge[0], edge[n_fold_cells], u), v);
         points_[j * (n_fold_cells + 1) + i] = p;
       }
   }
@@ -387,29 +374,24 @@ class LabelGrid {
   const Vec3 &at(std::size_t i, std::size_t j) const { return points_[j * (n_fold_cells + 1) + i]; }
 
  private:
-  static Vector<double> even_shares() {
-    Vector<double> shares;
-    for (std::size_t i = 0; i <= n_fold_cells; ++i) shares.push_back(static_cast<double>(i) / n_fold_cells);
-    return shares;
-  }
-
   std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)> points_;
 };
+
+// Points of a mapped patch on the same grid.
+using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
 Vec3 normal_of_cell(const Vec3 &p00, const Vec3 &p10, const Vec3 &p01, const Vec3 &p11) {
   return cross(p11 - p00, p01 - p10);
 }
 
-// Fails if the warp folds at the patch, or if the warped patch is turned over against the map of the patch. `image` places
-// the patch before the warp.
-void check_folds(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const BlendedWarp &warp) {
-  std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)> mapped;
-  for (std::size_t j = 0; j <= n_fold_cells; ++j)
-    for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+// Maps the inner points of the grid. `image` places the patch before the warp. If `check` is yes, fails if the warp folds there.
+void map_inner_points(const LabelGrid &before, const PatchImage &image, const BlendedWarp &warp, FoldCheck check,
+                      MappedGrid &mapped) {
+  for (std::size_t j = 1; j < n_fold_cells; ++j)
+    for (std::size_t i = 1; i < n_fold_cells; ++i) {
       const Vec3 p = place(image, before.at(i, j));
       const std::size_t k = j * (n_fold_cells + 1) + i;
-      // Neighbouring patches share the nodes at their sides. So the determinant is computed inside only.
-      if (i == 0 || j == 0 || i == n_fold_cells || j == n_fold_cells) {
+      if (check == FoldCheck::no) {
         mapped[k] = warp.value(p);
         continue;
       }
@@ -420,6 +402,30 @@ void check_folds(const LabelGrid &before, const PatchImage &image, const LabelGr
              "), in the valve's coordinates; it must be above 0");
       mapped[k] = at.value;
     }
+}
+
+// Maps the points of the grid at the patch's sides. Points of the sides that have been mapped are known.
+void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid &before, const PatchImage &image,
+                      const BlendedWarp &warp, bool has_arcs, MappedGrid &mapped) {
+  constexpr std::size_t last = n_material - 1, step = last / n_fold_cells;
+  const auto known = [&](const Side &side, std::size_t k) {
+    return view(made.material[side.curve]->mapped)[side.reversed ? last - k : k];
+  };
+  for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+    mapped[i] = known(patch.v0, step * i);
+    mapped[n_fold_cells * (n_fold_cells + 1) + i] = known(patch.v1, step * i);
+  }
+  for (std::size_t j = 1; j < n_fold_cells; ++j)
+    for (const bool is_end : {false, true}) {
+      const std::size_t i = is_end ? n_fold_cells : 0;
+      // On an arc, v is no share of the length.
+      mapped[j * (n_fold_cells + 1) + i] =
+          has_arcs ? warp.value(place(image, before.at(i, j))) : known(is_end ? patch.u1 : patch.u0, step * j);
+    }
+}
+
+// Fails if a part of the warped patch is turned over against the map of the patch.
+void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   for (std::size_t j = 0; j < n_fold_cells; ++j)
     for (std::size_t i = 0; i < n_fold_cells; ++i) {
       const std::size_t k = j * (n_fold_cells + 1) + i;
@@ -479,24 +485,35 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   made.material = std::move(material);
   // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
   const bool has_arcs = set.rates.empty();
-  const MiddleLines lines(set, of_curves);
+  const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnPiece, n_material> & {
+    return of_curves[curve]->on_curve;
+  };
+  const auto at_now = [&](std::size_t curve) -> const std::array<PointOnPiece, n_material> & {
+    return made.material[curve]->on_curve;
+  };
+  const EvenPoints even(set, at_rest);
+  const EvenPoints even_now(made, at_now);
   for (const Patch &patch : set.patches) {
-    const std::array<Vec3, n_material> line = has_arcs ? lines.of_arcs(patch) : lines.of_coons(patch);
+    const LabelGrid before(even, patch, has_arcs);
+    MappedInside middles{has_arcs, {}};
+    for (std::size_t k = 0; has_arcs && k < n_material; ++k)
+      view(middles.points)[k] = 0.5 * ((even.point(patch.v0, k) + even.point(patch.v1, k)) + even.offset(patch, k));
     for (const PatchImage &image : patch.images) {
-      made.mapped_middle_lines.push_back(line);
-      // The ends of a line of a Coons patch are known from its sides.
-      for (std::size_t k = has_arcs ? 0 : 1; k < (has_arcs ? n_material : n_material - 1); ++k) {
-        Vec3 &p = view(made.mapped_middle_lines.back())[k];
-        p = warp.value(place(image, p));
+      const Patch &made_patch = made.patches[made.mapped_inside.size()];
+      MappedGrid grid;
+      if (check == FoldCheck::yes || !has_arcs) map_inner_points(before, image, warp, check, grid);
+      if (check == FoldCheck::yes) {
+        map_outer_points(made, made_patch, before, image, warp, has_arcs, grid);
+        check_turns(before, image, LabelGrid(even_now, made_patch, has_arcs), grid);
       }
+      MappedInside inside = middles;
+      if (has_arcs)
+        for (Vec3 &p : inside.points) p = warp.value(place(image, p));
+      else
+        for (std::size_t i = 0; i < 4; ++i)
+          view(inside.points)[i] = view(grid)[(1 + i / 2) * (n_fold_cells + 1) + 1 + i % 2];
+      made.mapped_inside.push_back(inside);
     }
-  }
-  if (check == FoldCheck::no) return made;
-  std::size_t number = 0;
-  for (const Patch &patch : set.patches) {
-    const LabelGrid before(set, patch);
-    for (const PatchImage &image : patch.images)
-      check_folds(before, image, LabelGrid(made, made.patches[number++]), warp);
   }
   return made;
 }
