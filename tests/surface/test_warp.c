@@ -180,6 +180,10 @@ static void the_map_solves_its_equations(void **state) {
     CHECK_OK(status);
     const riis_warp_info info = info_of_warp(warp);
     assert_int_equal(info.n_landmarks, n);
+    if (info.is_planar) { /* few landmarks may be near a plane by chance; their map has other equations */
+      free_owned_after(owned_before);
+      continue;
+    }
     assert_true((info.smoothing == 0) == (noise == 0));
     if (noise == 0) {
       CHECK_AT_MOST(info.largest_residual, 1e-11 * unit);
