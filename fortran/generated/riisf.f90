@@ -133,6 +133,10 @@ module riisf
   public :: riisf_opening_angle_init
   public :: riisf_opening_angle_advance
   public :: riisf_place
+  public :: riisf_warp_create
+  public :: riisf_warp_set_targets
+  public :: riisf_valve_set_warp
+  public :: riisf_warp_destroy
 
   interface
 
@@ -1948,5 +1952,49 @@ module riisf
       integer(int32), intent(inout) :: size_state(*)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_place
+
+    subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, &
+      status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int32), intent(in) :: n_landmarks
+      real(c_double), intent(in) :: xyz(3, *)
+      real(c_double), intent(in) :: noise
+      real(c_double), intent(in) :: scale
+      real(c_double), intent(in) :: rotation_axis(3)
+      real(c_double), intent(in) :: rotation_angle
+      real(c_double), intent(in) :: translation(3)
+      integer(int64), intent(inout) :: warp
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_warp_create
+
+    subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: warp
+      integer(int32), intent(in) :: n_landmarks
+      real(c_double), intent(in) :: xyz(3, *)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_warp_set_targets
+
+    subroutine riisf_valve_set_warp(valve, closed, open, status)
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: valve
+      integer(int64), intent(in) :: closed
+      integer(int64), intent(in) :: open
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_valve_set_warp
+
+    subroutine riisf_warp_destroy(handle)
+      use, intrinsic :: iso_fortran_env, only: int64
+      implicit none
+      integer(int64), intent(inout) :: handle
+    end subroutine riisf_warp_destroy
   end interface
 end module riisf

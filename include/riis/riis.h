@@ -370,7 +370,8 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
                                          const riis_surface_options *options);
 /* Replaces the surface's content by the triangles that riis_surface_update makes, to the last bit, and gives every
  * vertex a velocity: its displacement from the point with the same patch, u and v in an earlier state, divided by
- * the time between the states (docs/theory.md, section 10). If the valve is at rest, also pass it as valve_before.
+ * the time between the states (docs/theory.md, section 10). For a warped valve, u and v are those before the warp, so
+ * the velocity is that of the wall (docs/theory.md, "Warp"). If the valve is at rest, also pass it as valve_before.
  *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now

@@ -220,5 +220,5 @@ if __name__ == "__main__":
     mitral_annuli(max(1, count // 5), 0.0, 4)
     mitral_annuli(max(1, count // 5), 0.03, 5)
     sealing(max(1, count // 10), 3)
-    for name in ("trileaflet", "aortic", "mitral"):
+    for name in ("trileaflet", "coapting", "aortic", "mitral"):
         velocities(name)

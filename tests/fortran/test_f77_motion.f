@@ -10,6 +10,7 @@ C     a Fortran 77 code calls them, against closed forms.
       CALL ARRAYS
       CALL CLOSE
       CALL FIXED
+      CALL WARPS
       PRINT *, 'motion by external subroutines'
       END
 
@@ -18,6 +19,87 @@ C     Checks that two numbers are equal.
       DOUBLE PRECISION A, B
       CHARACTER*(*) TEXT
       IF (ABS(A - B) .GT. 1D-12) CALL FAILED(TEXT)
+      END
+
+C     A warp whose landmarks shift takes the vertices with them. The
+C     shift over the step is the velocity.
+      SUBROUTINE WARPS
+      INCLUDE 'riisf.h'
+      INTEGER MAXV
+      PARAMETER (MAXV = 40000)
+      INTEGER*8 VALVE(2), SURF, WARP
+      INTEGER STAT, N, M, I, C, K
+      DOUBLE PRECISION XYZ(3,8), TO(3,8), AXIS(3), ZERO(3), SHIFT(3)
+      DOUBLE PRECISION A(3,MAXV), B(3,MAXV), V(3,MAXV), DT, OPEN(1)
+      SAVE A, B, V
+      DATA AXIS /0D0, 0D0, 1D0/, ZERO /0D0, 0D0, 0D0/
+      DATA SHIFT /0.02D0, -0.01D0, 0.03D0/, DT /0.25D0/, OPEN /0.4D0/
+      SURF = 0
+      WARP = 0
+      DO 20 I = 1, 8
+        XYZ(1,I) = 1.3D0 * MOD(I, 2)
+        XYZ(2,I) = 1.3D0 * MOD(I / 2, 2)
+        XYZ(3,I) = -1.2D0 * MOD(I / 4, 2)
+        DO 10 C = 1, 3
+          TO(C,I) = XYZ(C,I)
+   10   CONTINUE
+   20 CONTINUE
+      CALL RIISF_WARP_CREATE(2, XYZ, 0D0, 1D0, AXIS, 0D0, ZERO, WARP,
+     &  STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_points is 2')
+      CALL RIISF_WARP_CREATE(8, XYZ, 0D0, 1D0, AXIS, 0D0, ZERO, WARP,
+     &  STAT)
+      CALL OK(STAT)
+      CALL RIISF_WARP_SET_TARGETS(WARP, 7, XYZ, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'n_points is 7')
+      DO 30 I = 1, 2
+        VALVE(I) = 0
+        CALL RIISF_VALVE_CREATE('trileaflet', VALVE(I), STAT)
+        CALL OK(STAT)
+        CALL RIISF_VALVE_SET(VALVE(I), 'opening', 1, OPEN, STAT)
+        CALL OK(STAT)
+        CALL RIISF_VALVE_SET_WARP(VALVE(I), WARP, 0_8, STAT)
+        CALL OK(STAT)
+   30 CONTINUE
+      CALL RIISF_VALVE_SET_WARP(VALVE(1), 0_8, WARP, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'closed')
+      CALL RIISF_SURFACE_CREATE(VALVE(1), 0.1D0, 0.05D0, 1D0, AXIS,
+     &  0D0, ZERO, SURF, STAT)
+      CALL OK(STAT)
+      CALL RIISF_SURFACE_VERTICES(SURF, MAXV, N, A, STAT)
+      CALL OK(STAT)
+      DO 60 K = 1, 2
+        DO 50 I = 1, 8
+          DO 40 C = 1, 3
+            TO(C,I) = TO(C,I) + SHIFT(C)
+   40     CONTINUE
+   50   CONTINUE
+        CALL RIISF_WARP_SET_TARGETS(WARP, 8, TO, STAT)
+        CALL OK(STAT)
+        CALL RIISF_VALVE_SET_WARP(VALVE(3 - K), WARP, 0_8, STAT)
+        CALL OK(STAT)
+        CALL RIISF_SURFACE_UPDATE_MOVING(SURF, VALVE(3 - K), VALVE(K),
+     &    DT, STAT)
+        CALL OK(STAT)
+   60 CONTINUE
+      CALL RIISF_SURFACE_VERTICES(SURF, MAXV, M, B, STAT)
+      CALL OK(STAT)
+      IF (M .NE. N) CALL FAILED('vertices of a shifted valve')
+      CALL RIISF_SURFACE_VERTEX_VELOCITIES(SURF, MAXV, M, V, STAT)
+      CALL OK(STAT)
+      DO 80 I = 1, N
+        DO 70 C = 1, 3
+          IF (ABS(B(C,I) - A(C,I) - 2D0 * SHIFT(C)) .GT. 1D-11)
+     &      CALL FAILED('a shifted vertex')
+          IF (ABS(V(C,I) - SHIFT(C) / DT) .GT. 1D-10)
+     &      CALL FAILED('its velocity')
+   70   CONTINUE
+   80 CONTINUE
+      CALL RIISF_SURFACE_DESTROY(SURF)
+      CALL RIISF_VALVE_DESTROY(VALVE(1))
+      CALL RIISF_VALVE_DESTROY(VALVE(2))
+      CALL RIISF_WARP_DESTROY(WARP)
+      IF (WARP .NE. 0) CALL FAILED('a warp is left')
       END
 
       SUBROUTINE TABLE

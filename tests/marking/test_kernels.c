@@ -589,6 +589,37 @@ static void triangles_without_area_are_noticed(void **state) {
   }
 }
 
+/* Sums of cubes are those of a plain loop, and have the same bits with every instruction set. */
+static void cubes_are_summed(void **state) {
+  (void)state;
+  enum { most = 40 };
+  for (int trial = 0; trial < 200; ++trial) {
+    const int n = 8 * (1 + (int)(random_bits(&rng) % 5));
+    double sources[3 * most], weights[3 * most], at[3], expected[12] = {0}, sizes[12] = {0}, sums[15], first[15];
+    for (int i = 0; i < 3 * n; ++i) sources[i] = random_between(&rng, -2, 2), weights[i] = random_between(&rng, -1, 1);
+    for (int c = 0; c < 3; ++c) at[c] = trial % 10 ? random_between(&rng, -2, 2) : sources[c * n + 1];
+    for (int i = 0; i < n; ++i) {
+      double d[3], square = 0;
+      for (int c = 0; c < 3; ++c) d[c] = at[c] - sources[c * n + i], square += d[c] * d[c];
+      for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < 4; ++k) {
+          const double term = weights[c * n + i] * sqrt(square) * (k == 0 ? square : d[k - 1]);
+          expected[3 * k + c] += term, sizes[3 * k + c] += fabs(term);
+        }
+    }
+    int is_first = 1;
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      kernels_sum_cubes(set, n, sources, weights, at, sums);
+      for (int i = 0; i < 12; ++i) CHECK_NEAR(sums[i], expected[i], 1e-14 * sizes[i]);
+      assert_memory_equal(sums, sums + 12, 3 * sizeof *sums);
+      if (is_first) memcpy(first, sums, sizeof sums);
+      assert_memory_equal(first, sums, sizeof sums);
+      is_first = 0;
+    }
+  }
+}
+
 /* If triangles pass the check for a shift, they still have an area after their corners have moved by an eighth of that shift. */
 static void triangles_keep_their_area_when_corners_move(void **state) {
   (void)state;
@@ -754,6 +785,7 @@ int main(void) {
       cmocka_unit_test(no_pair_that_matters_is_lost),
       cmocka_unit_test(corners_are_bounded_and_framed),
       cmocka_unit_test(triangles_without_area_are_noticed),
+      cmocka_unit_test(cubes_are_summed),
       cmocka_unit_test(triangles_keep_their_area_when_corners_move),
       cmocka_unit_test(points_are_placed),
       cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),

@@ -140,6 +140,12 @@ void kernels_place_points(int set, const double *first, const double *second, do
 /* Returns 0 if one of up to 8 triangles may have no area, either now or after its corners move by up to an eighth of `shift`. */
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
+/* Sums weight |at - source|^3 and its derivatives over n sources, n a multiple of 8. sources(n, 3) and weights(n, 3) are stored
+ * coordinate by coordinate. Writes the sum, then a third of its derivatives by x, y and z. The first 3 of `sums` once more, by
+ * the function without derivatives, follow. */
+void kernels_sum_cubes(int set, int64_t n, const double *sources, const double *weights, const double *at,
+                       double *sums);
+
 /* Makes a group of n <= 16 triangles, corners(9, n), in the surface's frame, with one instruction set. The caller frees it. */
 typedef struct kernel_group kernel_group;
 kernel_group *kernels_group(int set, int n, const double *corners);

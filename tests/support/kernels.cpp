@@ -157,6 +157,17 @@ int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id,
   return of(set).have_area(vertices, vertex_id, n, shift);
 }
 
+void kernels_sum_cubes(int set, int64_t n, const double *sources, const double *weights, const double *at,
+                       double *sums) {
+  const CubeSources of_cubes{{sources, sources + n, sources + 2 * n}, {weights, weights + n, weights + 2 * n}, n};
+  CubeSums with, without{};
+  of(set).sum_cubes_with_derivatives(of_cubes, at, with);
+  of(set).sum_cubes(of_cubes, at, without);
+  std::copy_n(with.value, 3, sums);
+  std::copy_n(with.third_along[0], 9, sums + 3);
+  std::copy_n(without.value, 3, sums + 12);
+}
+
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed) {
   std::vector<VertexNumbers> at(static_cast<std::size_t>(n_vertices));

@@ -180,6 +180,10 @@ static void the_map_solves_its_equations(void **state) {
     CHECK_OK(status);
     const riis_warp_info info = info_of_warp(warp);
     assert_int_equal(info.n_landmarks, n);
+    if (info.is_planar) { /* few landmarks may be near a plane by chance; their map has other equations */
+      free_owned_after(owned_before);
+      continue;
+    }
     assert_true((info.smoothing == 0) == (noise == 0));
     if (noise == 0) {
       CHECK_AT_MOST(info.largest_residual, 1e-11 * unit);
@@ -566,77 +570,230 @@ static void warped_valves_seal(void **state) {
 
 /* --- An annulus that moves -------------------------------------------------------------------------------------------- */
 
-/* Velocities are displacements over the step: those of points with the same patch, u and v. With a fixed triangulation these are
- * the displacements of vertices, to what the curves' labels allow. The same targets give the same bits, whatever came before. */
+/* A root that widens unevenly, tilts and shifts in a beat. `of` has the sizes of these motions. */
+static void beat(const double *x, double time, const double *of, double *y) {
+  const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
+  const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));
+  const double p[3] = {x[0] * wide, x[1] * wide, x[2] + of[2] * sin(phase) * cos(angle)};
+  y[0] = cos(tilt) * p[0] + sin(tilt) * p[2] + of[3] * sin(phase);
+  y[1] = p[1] + 0.5 * of[3] * cos(phase);
+  y[2] = cos(tilt) * p[2] - sin(tilt) * p[0];
+}
+
+/* A step of a moving annulus. The maps of both times are taken by warps of their own. */
+typedef struct {
+  riis_valve *now, *before;           /* warped */
+  riis_valve *rest_now, *rest_before; /* the same without warps */
+  riis_warp *map_now, *map_before;
+  double seconds;
+} warped_step;
+
+static riis_valve *valve_at(const riis_valve *valve, double opening) {
+  riis_valve *made = NULL;
+  CHECK_OK(riis_valve_copy(valve, &made));
+  CHECK_OK(riis_valve_set_scalar(own(made), "opening", opening));
+  return made;
+}
+
+static warped_step new_step(const char *kind, double opening, double opening_before,
+                            const riis_surface_options *options) {
+  warped_step step = {.seconds = 0.01};
+  double from[3 * max_landmarks], to[3 * max_landmarks], in_valve[3 * max_landmarks], moved[3];
+  const double of[4] = {between(0.03, 0.08), between(0.03, 0.06), between(0.03, 0.08), between(0.1, 0.2)};
+  const double time = between(0, 1);
+  const riis_surface_options in_place = surface_options();
+  step.rest_now = new_valve(kind);
+  CHECK_OK(riis_valve_set_scalar(step.rest_now, "opening", opening));
+  step.rest_before = valve_at(step.rest_now, opening_before);
+  step.now = valve_at(step.rest_now, opening);
+  step.before = valve_at(step.rest_now, opening_before);
+  const int64_t n = landmarks_on(new_surface(step.rest_now, &in_place), 40, in_valve);
+  const affine map = map_of(options);
+  for (int64_t i = 0; i < n; ++i) apply(&map, in_valve + 3 * i, from + 3 * i);
+  for (int s = 0; s < 2; ++s) {
+    for (int64_t i = 0; i < n; ++i) {
+      beat(in_valve + 3 * i, time + s * step.seconds, of, moved);
+      apply(&map, moved, to + 3 * i);
+    }
+    riis_warp *warp = new_warp(n, from, 0, options);
+    CHECK_OK(set_targets(warp, n, to));
+    CHECK_OK(riis_valve_set_warp(s ? step.now : step.before, warp, NULL));
+    *(s ? &step.map_now : &step.map_before) = warp;
+  }
+  return step;
+}
+
+/* Returns the largest difference between the velocities of a surface and those of its material, and writes the largest speed. The
+ * material point x of a vertex y is the point that the map takes there. Before, x was where the valve without its warp had the
+ * same label, and the map of that time took it to another place. */
+static double material_error(const riis_surface *surface, const warped_step *step, const riis_surface_options *options,
+                             double *largest, double *rms) {
+  const riis_triangles t = triangles_of(surface);
+  const int64_t n = t.n_vertices;
+  double *x = own(malloc((size_t)n * 3 * sizeof *x)), *y = own(malloc((size_t)n * 3 * sizeof *y));
+  memcpy(x, t.xyz, (size_t)n * 3 * sizeof *x);
+  for (int round = 0; round < 16; ++round) {
+    const riis_points points = points_at(n, x);
+    CHECK_OK(riis_warp_map(step->map_now, &points, y));
+    for (int64_t i = 0; i < 3 * n; ++i) x[i] += t.xyz[i] - y[i];
+  }
+  riis_surface_options fine = *options;
+  fine.tolerance = 0.01;
+  fine.triangulation = RIIS_TRIANGULATION_ADAPTED;
+  riis_surface *rest = new_surface(step->rest_now, &fine);
+  CHECK_OK(riis_surface_update_moving(rest, step->rest_now, step->rest_before, step->seconds, NULL, NULL));
+  const riis_triangles r = triangles_of(rest);
+  int64_t *triangle = own(malloc((size_t)n * sizeof *triangle));
+  double *weights = own(malloc((size_t)n * 3 * sizeof *weights));
+  riis_closest_arrays closest;
+  CHECK_OK(riis_closest_arrays_init(&closest, sizeof closest));
+  closest.triangle_id = triangle, closest.barycentric = weights;
+  const riis_points points = points_at(n, x);
+  CHECK_OK(riis_closest_points(rest, &points, NULL, &closest));
+  for (int64_t i = 0; i < n; ++i) {
+    int64_t at = 0; /* triangles without area are left out, so an id may be larger than the position */
+    for (int64_t low = 0, high = r.n_triangles - 1; low <= high;) {
+      at = (low + high) / 2;
+      if (r.triangle_id[at] == triangle[i]) break;
+      if (r.triangle_id[at] < triangle[i])
+        low = at + 1;
+      else
+        high = at - 1;
+    }
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < 3; ++c)
+        x[3 * i + c] -= step->seconds * weights[3 * i + k] * r.velocity[3 * r.vertex_id[3 * at + k] + c];
+  }
+  const riis_points before = points_at(n, x);
+  CHECK_OK(riis_warp_map(step->map_before, &before, y));
+  double worst = 0, square = 0;
+  *largest = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    double wanted[3], zero[3] = {0, 0, 0};
+    for (int c = 0; c < 3; ++c) wanted[c] = (t.xyz[3 * i + c] - y[3 * i + c]) / step->seconds;
+    *largest = fmax(*largest, distance3(wanted, zero));
+    const double off = distance3(wanted, t.velocity + 3 * i);
+    worst = fmax(worst, off);
+    square += off * off;
+  }
+  *rms = sqrt(square / (double)n);
+  return worst;
+}
+
+/* Finds the velocity of a surface at a label of a patch, by linear interpolation in a triangle of labels. Returns 0 where the
+ * triangles of labels leave a hole. */
+static int velocity_at_label(const riis_triangles *t, int32_t patch, const double *uv, double *velocity) {
+  for (int64_t i = 0; i < t->n_triangles; ++i) {
+    if (t->patch_id[i] != patch) continue;
+    const int64_t *id = t->vertex_id + 3 * i;
+    const double *a = t->uv + 2 * id[0], *b = t->uv + 2 * id[1], *c = t->uv + 2 * id[2];
+    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const double of_b = ((uv[0] - a[0]) * (c[1] - a[1]) - (uv[1] - a[1]) * (c[0] - a[0])) / area;
+    const double of_c = ((b[0] - a[0]) * (uv[1] - a[1]) - (b[1] - a[1]) * (uv[0] - a[0])) / area;
+    if (!(of_b >= -1e-9 && of_c >= -1e-9 && of_b + of_c <= 1 + 1e-9)) continue;
+    for (int k = 0; k < 3; ++k)
+      velocity[k] = (1 - of_b - of_c) * t->velocity[3 * id[0] + k] + of_b * t->velocity[3 * id[1] + k] +
+                    of_c * t->velocity[3 * id[2] + k];
+    return 1;
+  }
+  return 0;
+}
+
+/* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. */
 static void a_moving_annulus_has_its_velocities(void **state) {
+  (void)state;
+  static const char *const with_warp[4] = {"trileaflet", "coapting", "aortic", "mitral"};
+  for (int trial = 0; trial < 8; ++trial) {
+    const int owned_before = n_owned(), is_fixed = trial / 4;
+    const riis_surface_options options =
+        random_placement(is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const double opening = between(0.3, 0.9), rate = between(-2, 2);
+    double largest = 0, rms, still = 0, moving = 0;
+    for (int opens = 0; opens < 2; ++opens) {
+      const warped_step step = new_step(with_warp[trial % 4], opening, opening - opens * rate * 0.01, &options);
+      riis_surface *surface = new_surface(step.now, &options);
+      CHECK_OK(riis_surface_update_moving(surface, step.now, step.before, step.seconds, NULL, NULL));
+      *(opens ? &moving : &still) = material_error(surface, &step, &options, &largest, &rms);
+      printf("%s, %s, %s: velocities differ by %.2g %% of the largest, rms %.2g %%\n", with_warp[trial % 4],
+             is_fixed ? "fixed" : "adapted", opens ? "opening" : "still", 100 * (opens ? moving : still) / largest,
+             100 * rms / largest);
+      CHECK_AT_MOST(opens ? moving : still, 0.01 * largest);
+      if (is_fixed) continue;
+      const double bound = info_of(surface).velocity_error_bound;
+      riis_surface_options fine = options;
+      fine.tolerance = 0.01;
+      riis_surface *finer = new_surface(step.now, &fine);
+      CHECK_OK(riis_surface_update_moving(finer, step.now, step.before, step.seconds, NULL, NULL));
+      const riis_triangles a = triangles_of(surface), b = triangles_of(finer);
+      double worst = 0, velocity[3];
+      for (int64_t i = 0; i < b.n_triangles; i += 7) {
+        const int64_t vertex = b.vertex_id[3 * i];
+        if (velocity_at_label(&a, b.patch_id[i], b.uv + 2 * vertex, velocity))
+          worst = fmax(worst, distance3(velocity, b.velocity + 3 * vertex));
+      }
+      assert_true(worst > 0);
+      CHECK_AT_MOST(worst, bound);
+      CHECK_AT_MOST(bound, largest);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+/* With a fixed triangulation, the triangles' motion across the leaflet is that of the velocities. Along the leaflet, vertices
+ * follow shares of lengths. */
+static void fixed_vertices_move_with_their_velocities(void **state) {
   (void)state;
   for (int trial = 0; trial < 3; ++trial) {
     const int owned_before = n_owned();
-    const char *kind = kinds[trial % 3];
-    riis_surface_options options = random_placement(RIIS_TRIANGULATION_FIXED);
-    riis_valve *now = new_valve(kind), *before = NULL, *fresh = NULL;
-    CHECK_OK(riis_valve_set_scalar(now, "opening", between(0, 1)));
-    double from[3 * max_landmarks], to[2][3 * max_landmarks], in_valve[3 * max_landmarks];
-    riis_surface_options in_place = surface_options();
-    const int64_t n = landmarks_on(new_surface(now, &in_place), 40, in_valve);
-    const affine map = map_of(&options);
-    for (int64_t i = 0; i < n; ++i) {
-      double moved[3];
-      apply(&map, in_valve + 3 * i, from + 3 * i);
-      for (int s = 0; s < 2; ++s) {
-        deform(in_valve + 3 * i, s ? 0.05 : 0.02, moved);
-        apply(&map, moved, to[s] + 3 * i);
-      }
-    }
-    riis_warp *warp = new_warp(n, from, 0, &options);
-    CHECK_OK(riis_valve_copy(now, &before));
-    own(before);
-    CHECK_OK(riis_valve_copy(now, &fresh));
-    own(fresh);
-    CHECK_OK(riis_valve_set_warp(now, warp, NULL));
-    riis_surface *surface = new_surface(now, &options);
-    CHECK_OK(set_targets(warp, n, to[0]));
-    CHECK_OK(riis_valve_set_warp(before, warp, NULL));
-    CHECK_OK(riis_surface_update(surface, before, NULL));
+    const riis_surface_options options = random_placement(RIIS_TRIANGULATION_FIXED);
+    const double opening = between(0.3, 0.9);
+    const warped_step step = new_step(kinds[trial], opening, opening, &options);
+    riis_surface *surface = new_surface(step.now, &options);
+    CHECK_OK(riis_surface_update(surface, step.before, NULL));
     const riis_triangles first = triangles_of(surface);
     double *xyz = own(malloc((size_t)first.n_vertices * 3 * sizeof *xyz));
     memcpy(xyz, first.xyz, (size_t)first.n_vertices * 3 * sizeof *xyz);
-    double *uv = own(malloc((size_t)first.n_vertices * 2 * sizeof *uv));
-    memcpy(uv, first.uv, (size_t)first.n_vertices * 2 * sizeof *uv);
-    CHECK_OK(set_targets(warp, n, to[1]));
-    CHECK_OK(riis_valve_set_warp(now, warp, NULL));
-    CHECK_OK(riis_surface_update_moving(surface, now, before, 0.01, NULL, NULL));
+    CHECK_OK(riis_surface_update_moving(surface, step.now, step.before, step.seconds, NULL, NULL));
     const riis_triangles second = triangles_of(surface);
     assert_int_equal(first.n_vertices, second.n_vertices);
-    double largest = 0, worst = 0, square = 0;
-    int64_t n_compared = 0;
-    for (int64_t i = 0; i < second.n_vertices; ++i) {
-      /* Where a curve has several pieces, a vertex follows a joint, whose share of the length changes. */
-      if (memcmp(uv + 2 * i, second.uv + 2 * i, 2 * sizeof *uv) != 0) continue;
-      ++n_compared;
-      double off[3], zero[3] = {0, 0, 0};
-      for (int c = 0; c < 3; ++c) off[c] = second.velocity[3 * i + c] - (second.xyz[3 * i + c] - xyz[3 * i + c]) / 0.01;
-      largest = fmax(largest, distance3(second.velocity + 3 * i, zero));
-      worst = fmax(worst, distance3(off, zero));
-      square += pow(distance3(off, zero), 2);
+    double largest = 0, worst = 0;
+    for (int64_t i = 0; i < second.n_triangles; ++i) {
+      const int64_t *id = second.vertex_id + 3 * i;
+      const double *a = second.xyz + 3 * id[0], *b = second.xyz + 3 * id[1], *c = second.xyz + 3 * id[2];
+      const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+      const double normal[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+      double across = 0, zero[3] = {0, 0, 0};
+      for (int k = 0; k < 3; ++k)
+        for (int d = 0; d < 3; ++d)
+          across += normal[d] / distance3(normal, zero) / 3 *
+                    (second.velocity[3 * id[k] + d] - (second.xyz[3 * id[k] + d] - xyz[3 * id[k] + d]) / step.seconds);
+      for (int k = 0; k < 3; ++k) largest = fmax(largest, distance3(second.velocity + 3 * id[k], zero));
+      worst = fmax(worst, fabs(across));
     }
-    printf("%s: velocities differ by %.2g of the largest, rms %.2g\n", kind, worst / largest,
-           sqrt(square / (double)n_compared) / largest);
-    assert_true(n_compared > second.n_vertices / 2);
-    CHECK_AT_MOST(worst, 0.01 * largest);
-    /* A restart: a new warp and a new surface give the same bits. */
-    riis_warp *again = new_warp(n, from, 0, &options);
-    riis_valve *fresh_before = NULL;
-    CHECK_OK(riis_valve_copy(fresh, &fresh_before));
-    own(fresh_before);
-    CHECK_OK(set_targets(again, n, to[1]));
-    CHECK_OK(riis_valve_set_warp(fresh, again, NULL));
-    CHECK_OK(set_targets(again, n, to[0]));
-    CHECK_OK(riis_valve_set_warp(fresh_before, again, NULL));
-    options.triangulation = RIIS_TRIANGULATION_ADAPTED;
-    riis_surface *one = new_surface(now, &options), *two = new_surface(fresh, &options);
-    CHECK_OK(riis_surface_update_moving(one, now, before, 0.01, NULL, NULL));
-    CHECK_OK(riis_surface_update_moving(two, fresh, fresh_before, 0.01, NULL, NULL));
+    printf("%s: triangles move across by %.2g %% of the largest speed otherwise\n", kinds[trial],
+           100 * worst / largest);
+    /* The map bends mitral arcs otherwise than the warped valve does. */
+    CHECK_AT_MOST(worst, (trial == 2 ? 0.06 : 0.02) * largest);
+    free_owned_after(owned_before);
+  }
+}
+
+/* The same targets give the same bits, whatever came before. */
+static void a_restart_repeats_velocities(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 6; ++trial) {
+    const int owned_before = n_owned();
+    const riis_surface_options options =
+        random_placement(trial / 3 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const double opening = between(0, 1);
+    const warped_step step = new_step(kinds[trial % 3], opening, opening, &options);
+    riis_valve *fresh = valve_at(step.rest_now, opening), *fresh_before = valve_at(step.rest_now, opening);
+    CHECK_OK(riis_valve_set_warp(fresh, step.map_now, NULL));
+    CHECK_OK(riis_valve_set_warp(fresh_before, step.map_before, NULL));
+    riis_surface *one = new_surface(step.now, &options), *two = new_surface(fresh, &options);
+    CHECK_OK(riis_surface_update_moving(one, step.before, step.now, 0.02, NULL, NULL));
+    CHECK_OK(riis_surface_update_moving(one, step.now, step.before, step.seconds, NULL, NULL));
+    CHECK_OK(riis_surface_update_moving(two, fresh, fresh_before, step.seconds, NULL, NULL));
     const riis_triangles a = triangles_of(one), b = triangles_of(two);
     assert_true(is_same_content(one, two));
     assert_memory_equal(a.velocity, b.velocity, (size_t)a.n_vertices * 3 * sizeof *a.velocity);
@@ -847,6 +1004,8 @@ int main(void) {
       cmocka_unit_test(closed_and_open_landmarks_are_met),
       cmocka_unit_test(warped_valves_seal),
       cmocka_unit_test(a_moving_annulus_has_its_velocities),
+      cmocka_unit_test(fixed_vertices_move_with_their_velocities),
+      cmocka_unit_test(a_restart_repeats_velocities),
       cmocka_unit_test(keys_in_time_give_targets),
       cmocka_unit_test(folds_are_found_and_named),
       cmocka_unit_test(folds_at_patches_are_named),

@@ -490,10 +490,42 @@ void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, 
   }
 }
 
+template <bool has_derivatives>
+RIIS_INLINE void sum_cubes_of(const CubeSources &sources, const double *at, CubeSums &sums) {
+  const Doubles3 y{Doubles::all(at[0]), Doubles::all(at[1]), Doubles::all(at[2])};
+  const Doubles none = Doubles::all(0);
+  Doubles3 value{none, none, none}, by_x = value, by_y = value, by_z = value;
+  const auto lanes = [](const double *const(&from)[3], int64_t i) RIIS_LAMBDA {
+    return Doubles3{Doubles::load_unaligned(from[0] + i), Doubles::load_unaligned(from[1] + i),
+                    Doubles::load_unaligned(from[2] + i)};
+  };
+  for (int64_t i = 0; i < sources.n; i += Doubles::n) {
+    const Doubles3 d = y - lanes(sources.source, i), weight = lanes(sources.weight, i);
+    const Doubles square = dot(d, d), r = root(square);
+    value = value + square * r * weight;
+    if (has_derivatives) {
+      const Doubles3 of_r = r * weight;
+      by_x = by_x + d.x * of_r, by_y = by_y + d.y * of_r, by_z = by_z + d.z * of_r;
+    }
+  }
+  const auto sum = [](Doubles3 of, double(&to)[3])
+                       RIIS_LAMBDA { to[0] = sum_of(of.x), to[1] = sum_of(of.y), to[2] = sum_of(of.z); };
+  sum(value, sums.value);
+  if (!has_derivatives) return;
+  sum(by_x, sums.third_along[0]);
+  sum(by_y, sums.third_along[1]);
+  sum(by_z, sums.third_along[2]);
+}
+
+void sum_cubes(const CubeSources &sources, const double *at, CubeSums &sums) { sum_cubes_of<false>(sources, at, sums); }
+void sum_cubes_with_derivatives(const CubeSources &sources, const double *at, CubeSums &sums) {
+  sum_cubes_of<true>(sources, at, sums);
+}
+
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {take_corners,    have_area,   place_points, measure_triangles,
-                                                        frame_group,     make_groups, decide,       locate,
-                                                        mix_at_vertices, find_sides};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {
+    take_corners, have_area, place_points,    measure_triangles, frame_group, make_groups,
+    decide,       locate,    mix_at_vertices, find_sides,        sum_cubes,   sum_cubes_with_derivatives};
 
 }  // namespace riis

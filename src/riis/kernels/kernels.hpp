@@ -122,6 +122,17 @@ struct alignas(64) PlacedBy {
   double of_image[3][4], offset_of_image[4], rotation[3][4], translation[4], scale;
 };
 
+// Sources of functions |r|^3 with their weights, coordinate by coordinate. n is a multiple of 8. Lanes without a source have the
+// weight 0.
+struct CubeSources {
+  const double *source[3], *weight[3];
+  int64_t n;
+};
+// The sum of weight |y - source|^3 at a point y, and a third of its derivatives by the coordinates of y.
+struct CubeSums {
+  double value[3], third_along[3][3];
+};
+
 // The most keys that are ranked in one call: the number of nodes in two leaves.
 constexpr int32_t keys_at_once = 2 * nodes_per_leaf;
 
@@ -172,6 +183,9 @@ struct DecisionKernels {
   // Finds the side of each point, +1, -1 or 0. It is the sign of the point's height over the located point, along the normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);
+  // Sums cubes of distances. The first function leaves the derivatives as they are. All instruction sets give the same bits.
+  void (*sum_cubes)(const CubeSources &sources, const double *at, CubeSums &sums);
+  void (*sum_cubes_with_derivatives)(const CubeSources &sources, const double *at, CubeSums &sums);
 };
 
 struct Kernels : FilterKernels, DecisionKernels {};

@@ -2,10 +2,12 @@
 #include "surface/displacement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
 #include "base/errors.hpp"
+#include "geometry/bezier.hpp"
 
 namespace riis {
 
@@ -20,6 +22,199 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 namespace {
 
+double size_of(double x) { return std::abs(x); }
+double size_of(Vec3 x) { return length(x); }
+
+// The material points of a side in one state, in the direction of the side.
+struct OnSide {
+  std::array<double, n_material> share;  // of the warped curve's length
+  std::array<Vec3, n_material> beside;   // from the warped curve to where the map takes the point
+};
+
+// Estimates the length of a piece between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
+// slide of 0 is exact.
+double length_near(const Bezier &piece, double from, double to) {
+  const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
+  return (to - from) / 18 *
+         (5 * (length(derivative(piece, middle - reach)) + length(derivative(piece, middle + reach))) +
+          8 * length(derivative(piece, middle)));
+}
+
+OnSide on_side(const Curve &curve, const MaterialPoints &points, bool is_reversed) {
+  std::array<double, n_material> behind{};
+  for (std::size_t k = 1; k < n_material; ++k) {
+    const PointOnPiece &from = points.on_curve[k - 1], &to = points.on_curve[k];
+    behind[k] = behind[k - 1];
+    for (std::size_t piece = from.piece; piece <= to.piece; ++piece)
+      behind[k] += length_near(curve.pieces()[piece], piece == from.piece ? from.t : 0, piece == to.piece ? to.t : 1);
+  }
+  OnSide made{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    const PointOnPiece &at = points.on_curve[k];
+    const double share = curve.length() > 0 ? behind[k] / behind[n_material - 1] : material_share(k);
+    const std::size_t i = is_reversed ? n_material - 1 - k : k;
+    made.share[i] = is_reversed ? 1 - share : share;
+    made.beside[i] = points.mapped[k] - evaluate(curve.pieces()[at.piece], at.t);
+  }
+  return made;
+}
+
+OnSide on_side(const PatchSet &set, const Side &side) {
+  return on_side(set.curves[side.curve], *set.material[side.curve], side.reversed);
+}
+
+bool has_material(const PatchSet &set, const Side &side) {
+  return side.curve < set.material.size() && set.material[side.curve];
+}
+
+}  // namespace
+
+template <class T>
+typename Through<T>::Bounds Through<T>::bounds() const {
+  constexpr std::size_t n = n_material - 1;
+  // From Newton's form to powers of x, and from there to the control points of a Bézier curve, which bound it.
+  std::array<T, n_material> power{}, control{};
+  power[0] = factors_[n];
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = n; k > 0; --k) power[k] = power[k - 1] - nodes_[i] * power[k];
+    power[0] = factors_[i] - nodes_[i] * power[0];
+  }
+  Bounds made{0, 0, 0};
+  for (std::size_t j = 0; j <= n; ++j) {
+    double share = 1;  // binomial(j, k) / binomial(n, k)
+    for (std::size_t k = 0; k <= j; ++k) {
+      control[j] = control[j] + share * power[k];
+      share *= static_cast<double>(j - k) / static_cast<double>(n - k);
+    }
+    made.size = std::max(made.size, size_of(control[j]));
+    if (j > 0) made.slope = std::max(made.slope, static_cast<double>(n) * size_of(control[j] - control[j - 1]));
+    if (j > 1)
+      made.bend = std::max(made.bend, static_cast<double>(n * (n - 1)) *
+                                          size_of((control[j] - control[j - 1]) - (control[j - 1] - control[j - 2])));
+  }
+  return made;
+}
+
+template class Through<double>;
+template class Through<Vec3>;
+
+SideMaterial::SideMaterial(const MovedPatch &moved, Side Patch::*side) {
+  const Side &now = moved.now.patches[moved.patch].*side, &before = moved.before.patches[moved.patch].*side;
+  is_warped_ = has_material(moved.now, now) && has_material(moved.before, before);
+  if (!is_warped_) return;
+  const OnSide at_now = on_side(moved.now, now), at_before = on_side(moved.before, before);
+  std::array<double, n_material> slide{};
+  std::array<Vec3, n_material> rest{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    slide[k] = at_before.share[k] - at_now.share[k];
+    rest[k] = at_now.beside[k] - at_before.beside[k];
+  }
+  nodes_ = at_now.share;
+  slide_ = {nodes_, slide};
+  rest_ = {nodes_, rest};
+}
+
+Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
+  Vector<double> made;
+  made.reserve(shares.size());
+  double last = 0;
+  for (const double share : shares) made.push_back(last = std::clamp(share + slide_.at(share), last, 1.0));
+  made.back() = 1;
+  return made;
+}
+
+namespace {
+
+bool has_points_inside(const MovedPatch &moved) {
+  return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
+}
+
+// The material points of a side in its own direction.
+class PointsOfSide {
+ public:
+  PointsOfSide(const PatchSet &set, const Side &side)
+      : curve_(set.curves[side.curve]), points_(*set.material[side.curve]), is_reversed_(side.reversed) {}
+
+  Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
+  Vec3 point(std::size_t k) const { return evaluate(piece(k), points_.on_curve[at(k)].t); }
+  // Returns the unit tangent, or 0 if there is none.
+  Vec3 tangent(std::size_t k) const {
+    const Vec3 along = derivative(piece(k), points_.on_curve[at(k)].t);
+    const double speed = length(along);
+    return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
+  }
+
+ private:
+  std::size_t at(std::size_t k) const { return is_reversed_ ? n_material - 1 - k : k; }
+  const Bezier &piece(std::size_t k) const { return curve_.pieces()[points_.on_curve[at(k)].piece]; }
+
+  const Curve &curve_;
+  const MaterialPoints &points_;
+  bool is_reversed_;
+};
+
+// Returns how far the mapped offsets of arcs are from the offsets of the warped curves, in one state.
+std::array<Vec3, n_material> beside_offsets(const PatchSet &set, std::size_t number) {
+  const Patch &patch = set.patches[number];
+  const PointsOfSide base(set, patch.v0), edge(set, patch.v1);
+  std::array<Vec3, n_material> made{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    const Vec3 offset = k == 0                ? arc_offset(set, patch.u0)
+                        : k == n_material - 1 ? arc_offset(set, patch.u1)
+                        : patch.bulge != 0    ? arc_offset(edge.point(k) - base.point(k), base.tangent(k), patch.bulge)
+                                              : Vec3{0, 0, 0};
+    made[k] = 2 * (set.mapped_inside[number].points[k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
+  }
+  return made;
+}
+
+// Returns how far the mapped inner points are from the Coons combination of the mapped sides, in one state.
+std::array<Vec3, 4> beside_combination(const PatchSet &set, std::size_t number) {
+  constexpr std::size_t last = n_material - 1;
+  const Patch &patch = set.patches[number];
+  const PointsOfSide v0(set, patch.v0), v1(set, patch.v1), u0(set, patch.u0), u1(set, patch.u1);
+  std::array<Vec3, 4> made{};
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const std::size_t at_u = (1 + i % 2) * last / 3, at_v = (1 + i / 2) * last / 3;
+    const double u = material_share(at_u), v = material_share(at_v);
+    made[i] = set.mapped_inside[number].points[i] - mix(v0.mapped(at_u), v1.mapped(at_u), v) -
+              mix(u0.mapped(at_v), u1.mapped(at_v), u) +
+              mix(mix(v0.mapped(0), v0.mapped(last), u), mix(v1.mapped(0), v1.mapped(last), u), v);
+  }
+  return made;
+}
+
+}  // namespace
+
+Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
+  if (!base.is_warped() || !edge.is_warped() || !has_points_inside(moved)) return {};
+  std::array<double, n_material> nodes{};
+  std::array<Vec3, n_material> rest = beside_offsets(moved.now, moved.patch);
+  const std::array<Vec3, n_material> before = beside_offsets(moved.before, moved.patch);
+  for (std::size_t k = 0; k < n_material; ++k) {
+    nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
+    rest[k] = rest[k] - before[k];
+  }
+  return {nodes, rest};
+}
+
+RestInside::RestInside(const MovedPatch &moved) {
+  const bool has_arcs = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
+  if (has_arcs || !has_points_inside(moved) || moved.now.mapped_inside[moved.patch].of_arcs) return;
+  is_warped_ = true;
+  rest_ = beside_combination(moved.now, moved.patch);
+  const std::array<Vec3, 4> before = beside_combination(moved.before, moved.patch);
+  for (std::size_t i = 0; i < rest_.size(); ++i) rest_[i] = rest_[i] - before[i];
+}
+
+double RestInside::size() const {
+  double largest = 0;
+  for (const Vec3 &rest : rest_) largest = std::max(largest, length(rest));
+  return largest;
+}
+
+namespace {
+
 // A side of a patch in both states.
 class MovedSide {
  public:
@@ -28,6 +223,7 @@ class MovedSide {
         before_(moved.before.patches[moved.patch].*side),
         curve_now_(moved.now.curves[now_.curve]),
         curve_before_(moved.before.curves[before_.curve]),
+        material_(moved, side),
         is_at_rest_(now_.reversed == before_.reversed && are_equal(curve_now_, curve_before_)) {}
 
   bool is_at_rest() const { return is_at_rest_; }
@@ -44,10 +240,15 @@ class MovedSide {
       const CurvePoints now = points_now(shares_unknown);
       for (std::size_t k = 0; k < unknown.size(); ++k) points[unknown[k]] = now.point(k);
     }
-    const CurvePoints before = points_before(shares);
+    const Vector<double> slid = material_.is_warped() ? material_.shares_before(shares) : Vector<double>{};
+    const CurvePoints before = points_before(material_.is_warped() ? slid : shares);
     for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] - before.point(i);
+    if (material_.is_warped())
+      for (std::size_t i = 0; i < shares.size(); ++i) points[i] = points[i] + material_.rest(shares[i]);
     return points;
   }
+
+  const SideMaterial &material() const { return material_; }
 
   CurvePoints points_now(const Vector<double> &shares) const { return {curve_now_, now_.reversed, shares}; }
   CurvePoints points_before(const Vector<double> &shares) const { return {curve_before_, before_.reversed, shares}; }
@@ -55,6 +256,7 @@ class MovedSide {
  private:
   Side now_, before_;
   const Curve &curve_now_, &curve_before_;
+  SideMaterial material_;
   bool is_at_rest_;
 };
 
@@ -132,15 +334,25 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
   if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
     return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
   Vector<Vec3> made = arc_offsets(moved.now, patch_now, base.points_now(u), edge.points_now(u));
-  const Vector<Vec3> before = arc_offsets(moved.before, patch_before, base.points_before(u), edge.points_before(u));
+  const bool is_warped = base.material().is_warped() && edge.material().is_warped();
+  const Vector<double> on_base = is_warped ? base.material().shares_before(u) : Vector<double>{},
+                       on_edge = is_warped ? edge.material().shares_before(u) : Vector<double>{};
+  const Vector<Vec3> before = arc_offsets(moved.before, patch_before, base.points_before(is_warped ? on_base : u),
+                                          edge.points_before(is_warped ? on_edge : u));
   for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i];
+  if (!is_warped) return made;
+  const Through<Vec3> rest = rest_of_offsets(moved, base.material(), edge.material());
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] + rest.at(u[i]);
   return made;
 }
 
 }  // namespace
 
 PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
-    : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0), levelled_(levelled) {
+    : column_levels_(levelled.grid.u.size() - 1, 0),
+      row_levels_(levelled.grid.v.size() - 1, 0),
+      levelled_(levelled),
+      rest_(moved) {
   auto level = levelled.levels.begin();
   for_each_quad(levelled.grid, [&](std::size_t i, std::size_t j) {
     column_levels_[i] = std::max(column_levels_[i], *level);
@@ -197,8 +409,10 @@ Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
   if (j + 1 == v_.size()) return sides_.v1[i];
   if (i == 0) return sides_.u0[j];
   if (i + 1 == u_.size()) return sides_.u1[j];
-  return mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
-         mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
+  const Vec3 of_sides =
+      mix(sides_.v0[i], sides_.v1[i], v) + mix(sides_.u0[j], sides_.u1[j], u) -
+      mix(mix(sides_.v0.front(), sides_.v0.back(), u), mix(sides_.v1.front(), sides_.v1.back(), u), v);
+  return rest_.is_warped() ? of_sides + rest_.at(u, v) : of_sides;
 }
 
 ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placement &placement) {

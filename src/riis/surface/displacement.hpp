@@ -3,7 +3,9 @@
 // In: the patch now and before, its grid. Out: the displacement of every vertex.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
@@ -27,10 +29,93 @@ struct MovedPatch {
   std::size_t patch;
 };
 
+// The polynomial through values at n_material nodes, the first of which is 0 and the last 1. In Newton's form.
+template <class T>
+class Through {
+ public:
+  Through() = default;
+  Through(const std::array<double, n_material> &nodes, const std::array<T, n_material> &values)
+      : nodes_(nodes), factors_(values) {
+    for (std::size_t order = 1; order < n_material; ++order)
+      for (std::size_t i = n_material - 1; i >= order; --i)
+        factors_[i] = (1 / (nodes_[i] - nodes_[i - order])) * (factors_[i] - factors_[i - 1]);
+  }
+
+  T at(double x) const {
+    T value = factors_[n_material - 1];
+    for (std::size_t i = n_material - 1; i-- > 0;) value = (x - nodes_[i]) * value + factors_[i];
+    return value;
+  }
+
+  // Bounds the sizes of the value and of the first two derivatives on [0, 1].
+  struct Bounds {
+    double size, slope, bend;
+  };
+  Bounds bounds() const;
+
+ private:
+  std::array<double, n_material> nodes_{};
+  std::array<T, n_material> factors_{};
+};
+
+// Which points of a side are the same material in both states. Without a warp, those at equal shares of the length. A warp
+// stretches curves unevenly. Then the point at a share now was at another share before. Besides, the curves differ a little from
+// the curves that the map takes the points along. `rest` makes up for the change of this difference.
+class SideMaterial {
+ public:
+  SideMaterial(const MovedPatch &moved, Side Patch::*side);
+
+  bool is_warped() const { return is_warped_; }
+  // Returns where the points at these shares were. The result ascends from 0 to 1.
+  Vector<double> shares_before(const Vector<double> &shares) const;
+  Vec3 rest(double share) const { return rest_.at(share); }
+
+  Through<double>::Bounds slide_bounds() const { return slide_.bounds(); }
+  Through<Vec3>::Bounds rest_bounds() const { return rest_.bounds(); }
+  // Returns the current share of the material point k of the side.
+  const std::array<double, n_material> &nodes() const { return nodes_; }
+
+ private:
+  bool is_warped_ = false;
+  std::array<double, n_material> nodes_{};
+  Through<double> slide_;
+  Through<Vec3> rest_;
+};
+
+// The same for the offsets of a patch of arcs: how far the map moves them, beyond the offsets of the warped curves. The
+// polynomial is 0 for a patch without a warp.
+Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
+
+// What the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
+// (MappedInside) it is the difference between the displacement of the mapped point and the Coons combination of the mapped
+// sides. Between them lies the polynomial of degree 3 in u and in v.
+class RestInside {
+ public:
+  explicit RestInside(const MovedPatch &moved);
+
+  bool is_warped() const { return is_warped_; }
+  double size() const;
+  Vec3 at(double u, double v) const {
+    return first(u) * (first(v) * rest_[0] + second(v) * rest_[2]) +
+           second(u) * (first(v) * rest_[1] + second(v) * rest_[3]);
+  }
+  // Bounds the distance from linear on a range of u or of v.
+  double off_linear(double width) const { return 0.125 * width * width * 106 * size(); }
+
+ private:
+  // They are 1 at one third and two thirds, and 0 at the other and at the ends. On [0, 1], the sum of their sizes is at most 1.3,
+  // and that of their second derivatives at most 81.
+  static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
+  static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
+
+  bool is_warped_ = false;
+  std::array<Vec3, 4> rest_{};
+};
+
 // The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
-// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. A point is identified
-// in both states by (u,v) alone, so the two states may have different triangles. The result is exactly 0 if neither the sides nor
-// the bulge changed.
+// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
+// a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped side. The
+// result is exactly 0 if neither the sides nor the bulge changed.
 class PatchMotion {
  public:
   // Computes the motion at the grid's vertices. The grid must have been made with its lines kept.
@@ -64,6 +149,7 @@ class PatchMotion {
   const LevelledGrid &levelled_;
   SideVectors sides_;
   Vector<Vec3> offsets_;
+  RestInside rest_;  // of a patch that has no arcs
 };
 
 // The motion of one image of a patch in space. It combines the motions of the patch, the image and the placement.

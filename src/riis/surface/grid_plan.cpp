@@ -647,12 +647,18 @@ bool CurveNumbering::is_of(const PatchSet &set) const {
 
 PatchSet CurveNumbering::renumbered(const PatchSet &set) const {
   PatchSet made{Vector<Curve>(n_curves_, set.curves.front()), set.patches, set.seams, set.deviation};
+  made.mapped_inside = set.mapped_inside;
+  if (!set.material.empty()) made.material.resize(n_curves_);
   for (std::size_t i = 0; i < patches_.size(); ++i)
     for (const auto side : {&Patch::v0, &Patch::v1, &Patch::u0, &Patch::u1}) {
       const Side &from = set.patches[i].*side, &to = patches_[i].*side;
       const Curve &curve = set.curves[from.curve];
-      made.curves[to.curve] = from.reversed == to.reversed ? curve : curve.reversed();
+      const bool is_turned = from.reversed != to.reversed;
+      made.curves[to.curve] = is_turned ? curve.reversed() : curve;
       made.patches[i].*side = to;
+      if (set.material.empty() || !set.material[from.curve]) continue;
+      const MaterialPoints &points = *set.material[from.curve];
+      made.material[to.curve] = is_turned ? points.reversed(curve.pieces().size()) : points;
     }
   return made;
 }

@@ -262,9 +262,52 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
 
+// Bounds the largest curvature of a curve. Infinite if the curve may turn on the spot.
+double largest_curvature(const Curve &curve) {
+  double largest = 0;
+  for (const Bezier &piece : curve.pieces()) largest = larger(largest, largest_curvature(piece));
+  return largest;
+}
+
+// Bounds the distance from linear on a range of a function whose value and derivatives are bounded.
+double off_line(double width, const Through<Vec3>::Bounds &of) {
+  return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
+}
+
+// What SideMaterial adds to the displacement at equal shares: C(u) - C(u + slide(u)) + rest(u), with the curve C before.
+class AddedByMaterial {
+ public:
+  // `third` bounds the third derivative of C by the share. It may be infinite.
+  AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
+    if (!material.is_warped()) return;
+    const auto slide = material.slide_bounds();
+    const double length = before.length(), shift = length * slide.size;
+    const double second = length > 0 ? length * length * largest_curvature(before) : 0;
+    const double turn = length > 0 ? std::min(2 * length, second * slide.size) : 0;
+    bounds_ = {shift, turn + length * slide.slope,
+               third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
+    rest_ = material.rest_bounds();
+    // Between a joint and its slid place, the second derivatives are those of two pieces.
+    of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
+  }
+
+  double slope() const { return bounds_.slope + rest_.slope; }
+  // Bounds the distance from linear on a range.
+  double off_linear(double width) const {
+    const double smooth = larger(off_line(width, bounds_.bend) + width * of_joints_, 0);
+    const double coarse = std::min(0.5 * width * bounds_.slope, 2 * bounds_.size);
+    return (smooth <= coarse ? smooth : coarse) + off_line(width, rest_);
+  }
+
+ private:
+  Through<Vec3>::Bounds bounds_{0, 0, 0}, rest_{0, 0, 0};
+  double of_joints_ = 0;
+};
+
 // For every two neighbouring lines, bounds the distance of a side's displacement from linear. The bound includes the difference
 // between a line's share on the side and the line's `middle`.
-Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines, double GridLine::*t) {
+Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material, const Vector<GridLine> &lines,
+                          double GridLine::*t) {
   const Vector<double> at_lines = shares_of(lines, t);
   Shares shares(at_lines, {&curves.now, &curves.before});
   for (int round = 0; round < most_rounds; ++round) {
@@ -273,6 +316,12 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
   }
   const SideInBoth side(curves.now, curves.before, shares.all());
   const double both_lengths = curves.now.length() + curves.before.length();
+  double third = 0;
+  for (std::size_t i = 0; i + 1 < shares.all().size(); ++i) {
+    const AlongCurve on = side.between(i);
+    third = larger(third, (on.length * on.second).size);
+  }
+  const AddedByMaterial added(material, curves.before, third);
   Vector<double> made;
   for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
     const std::size_t from = shares.line(k), to = shares.line(k + 1);
@@ -290,7 +339,9 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
     error = std::min(error, off_line(width, largest));
     // This bound always holds: no point of a curve is farther from the chord than the curve is long.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
-    const auto shift = [&](const GridLine &line) { return both_lengths * std::abs(line.*t - line.middle); };
+    error += added.off_linear(width);
+    const double slope = both_lengths + added.slope();
+    const auto shift = [&](const GridLine &line) { return slope * std::abs(line.*t - line.middle); };
     made.push_back(error + larger(shift(lines[k]), shift(lines[k + 1])));
   }
   return made;
@@ -300,6 +351,7 @@ Vector<double> off_linear(const TwoCurves &curves, const Vector<GridLine> &lines
 struct ArcRangeInBoth {
   Both first, second;
   double largest;  // bounds |O| in both states
+  double m_least;  // of |W x T|; not above 0 if it may vanish
   bool is_tight;
 };
 
@@ -341,7 +393,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
       larger(distance(start_now, start_before), distance(end_now, end_before)) + off_line(width, m2.change);
   if (!(m_least > 0 && w_least > 0)) {
     const Both unknown{infinity, infinity};
-    return {unknown, unknown, w_largest, false};
+    return {unknown, unknown, w_largest, 0, false};
   }
   // Computes |W| and its derivatives, then the unit vector of M and its derivatives.
   const Both to_w{1, w0.change / w_least}, across_w{1, to_w.change};
@@ -352,13 +404,38 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
   const Both inverse_m1 = inverse_m * inverse_m * unit * m1;
   const Both across1{unit1.size, 2 * (unit1.change + unit1.size * unit.change)};
   const Both unit2 = inverse_m1 * across * m1 + inverse_m * across1 * m1 + inverse_m * across * m2;
-  return {size1 * unit + size0 * unit1, size2 * unit + 2 * size1 * unit1 + size0 * unit2, w_largest,
+  return {size1 * unit + size0 * unit1, size2 * unit + 2 * size1 * unit1 + size0 * unit2, w_largest, m_least,
           b.is_tight && e.is_tight && w_least >= tight_share * w0.size && m_least >= tight_share * m_size};
 }
+
+// Bounds the change of O, without its factor, if the points of base and edge slide as SideMaterial says.
+class SlidOffset {
+ public:
+  SlidOffset(const SideMaterial &on_base, const SideMaterial &on_edge, const Curve &base, const Curve &edge) {
+    if (!on_base.is_warped() || !on_edge.is_warped()) return;
+    const double shift = base.length() * on_base.slide_bounds().size;
+    width_ = shift + edge.length() * on_edge.slide_bounds().size;
+    turn_ = base.length() > 0 ? std::min(2.0, shift * largest_curvature(base)) : 0;
+  }
+
+  double change(const ArcRangeInBoth &on) const {
+    if (width_ == 0 && turn_ == 0) return 0;
+    const double largest = on.largest + width_;
+    const double of_direction = on.m_least > 0 ? std::min(2.0, 2 * (width_ + largest * turn_) / on.m_least) : 2;
+    return width_ + largest * of_direction;
+  }
+
+ private:
+  double width_ = 0, turn_ = 0;  // bound the changes of W and of T
+};
 
 // For every two neighbouring lines, bounds the distance of O's displacement from linear.
 Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
                                  const TwoCurves &edge, const Vector<GridLine> &lines) {
+  const MovedPatch moved{states.now, states.before, patch};
+  const SideMaterial material_of_base(moved, &Patch::v0), material_of_edge(moved, &Patch::v1);
+  const SlidOffset slid(material_of_base, material_of_edge, base.before, edge.before);
+  const auto rest = rest_of_offsets(moved, material_of_base, material_of_edge).bounds();
   const double factor = states.now.patches[patch].bulge, factor_before = states.before.patches[patch].bulge;
   const Both of_factor{larger(std::abs(factor), std::abs(factor_before)), std::abs(factor - factor_before)};
   const Vector<double> at_lines = shares_of(lines, &GridLine::middle);
@@ -373,11 +450,12 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
   for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
     const std::size_t from = shares.line(k), to = shares.line(k + 1);
     const double width = shares.all()[to] - shares.all()[from];
-    double largest = 0, second = 0, first = 0, passed = 0;
+    double largest = 0, second = 0, first = 0, passed = 0, slides = 0;
     bool has_joint = false;
     for (std::size_t i = from; i < to; ++i) {
       const ArcRangeInBoth on = offset_on(on_base, on_edge, i);
       largest = larger(largest, on.largest);
+      slides = larger(slides, slid.change(on));
       has_joint = has_joint || (i > from && is_joint(i));
       if (on_base.is_same_piece(i) && on_edge.is_same_piece(i)) {
         second = larger(second, (of_factor * on.second).change);
@@ -390,6 +468,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
     double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
+    error += 2 * of_factor.size * slides + off_line(width, rest);
     made.push_back(error);
   }
   return made;
@@ -406,27 +485,29 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   const PatchMotion motion(moved, levelled);
   const bool has_arcs = states.now.patches[patch].bulge != 0 || states.before.patches[patch].bulge != 0;
   const TwoCurves v0 = curves_of(states, patch, &Patch::v0), v1 = curves_of(states, patch, &Patch::v1);
-  const Vector<double> at_v0 = off_linear(v0, grid.lines.u, &GridLine::t0),
-                       at_v1 = off_linear(v1, grid.lines.u, &GridLine::t1);
+  const Vector<double> at_v0 = off_linear(v0, {moved, &Patch::v0}, grid.lines.u, &GridLine::t0),
+                       at_v1 = off_linear(v1, {moved, &Patch::v1}, grid.lines.u, &GridLine::t1);
   Vector<double> at_u0(grid.v.size() - 1, 0), at_u1 = at_u0, offset(grid.u.size() - 1, 0), rows = offset;
   if (has_arcs) {
     offset = offset_off_linear(states, patch, v0, v1, grid.lines.u);
     const Vector<Vec3> moves = motion.offset_moves();
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) rows[i] = larger_of(moves[i], moves[i + 1]);
   } else {
-    at_u0 = off_linear(curves_of(states, patch, &Patch::u0), grid.lines.v, &GridLine::t0);
-    at_u1 = off_linear(curves_of(states, patch, &Patch::u1), grid.lines.v, &GridLine::t1);
+    at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
+    at_u1 = off_linear(curves_of(states, patch, &Patch::u1), {moved, &Patch::u1}, grid.lines.v, &GridLine::t1);
   }
+  const RestInside rest(moved);
   PatchErrors made;
   auto next_level = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
     const int level = *next_level++, n = 1 << level;
-    const double row = grid.v[j + 1] - grid.v[j];
+    const double row = grid.v[j + 1] - grid.v[j], width = grid.u[i + 1] - grid.u[i];
     // The arcs add 2 v (1-v) times the offset. Between two vertices, this differs from linear by at most row^2 / 2 times the
     // offset.
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
-                   largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i];
+                   largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i] +
+                   rest.off_linear(width) + rest.off_linear(row);
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;

@@ -3,10 +3,13 @@
 // they can share curves.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "base/recycled.hpp"
+#include "common/array_view.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/curve.hpp"
 #include "geometry/placement.hpp"
@@ -88,6 +91,36 @@ struct Seam {
   }
 };
 
+// A curve of a warped valve follows the points of the curve before the warp. They are known at this many even shares of that
+// curve's length, from its first point to its last.
+inline constexpr std::size_t n_material = 7;
+constexpr double material_share(std::size_t k) { return static_cast<double>(k) / (n_material - 1); }
+
+// Where the map takes these points, and the points of the warped curve that stand for them. The warped curve approximates the
+// mapped curve at equal parameters.
+struct MaterialPoints {
+  std::array<Vec3, n_material> mapped;
+  std::array<PointOnPiece, n_material> on_curve;
+
+  // Returns the points in the order of the reversed curve, which has this many pieces.
+  MaterialPoints reversed(std::size_t n_pieces) const {
+    MaterialPoints made{};
+    for (std::size_t k = 0; k < n_material; ++k) {
+      const PointOnPiece &at = view(on_curve)[n_material - 1 - k];
+      view(made.mapped)[k] = view(mapped)[n_material - 1 - k];
+      view(made.on_curve)[k] = {n_pieces - 1 - at.piece, 1 - at.t};
+    }
+    return made;
+  }
+};
+
+// Where the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that begin at the even
+// shares. In another patch, they are the four points whose u and v are 1/3 or 2/3, first those with v = 1/3.
+struct MappedInside {
+  bool of_arcs;
+  std::array<Vec3, n_material> points;
+};
+
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
@@ -97,6 +130,11 @@ struct PatchSet {
   // The derivatives of control points with respect to the opening, or nothing if the valve does not blend control points. The
   // list serves the first curves, which have one piece each. The curves of a skirt come after these and have no entry.
   Vector<Bezier> rates = {};
+  // Only of warped patches: an entry for each curve but the lines between the sides of a skirt. On them, equal shares stand for
+  // the same points already.
+  Vector<std::optional<MaterialPoints>> material = {};
+  // Only of warped patches: where the map takes points inside a patch. The index is that of the patch.
+  Vector<MappedInside> mapped_inside = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };

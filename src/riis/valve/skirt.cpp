@@ -80,8 +80,12 @@ class SkirtMaker {
   void add(const HeldSide &held, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
     const Patch parent = set_.patches[held.patch];
     const Curve inner = along(set_, held.side), outer = outer_curve(inner, parent, lengths);
-    Patch strip{
-        {add_curve(outer)}, held.side, {line(outer.first(), inner.first())}, {line(outer.last(), inner.last())}, {}};
+    const std::size_t rim = add_curve(outer);
+    if (!set_.material.empty()) {
+      set_.material.resize(set_.curves.size());
+      set_.material[rim] = material_of_outer(inner, held.side, outer);
+    }
+    Patch strip{{rim}, held.side, {line(outer.first(), inner.first())}, {line(outer.last(), inner.last())}, {}};
     for (std::size_t i = first_image; i < first_image + n_images; ++i) {
       PatchImage image = parent.images[i];
       image.leaflet_id = leaflet_id_;
@@ -155,6 +159,27 @@ class SkirtMaker {
       from = to, from_slope = to_slope;
     }
     return Curve(std::move(pieces));
+  }
+
+  // Returns the material points of the outer side. They lie outwards from those of the inner side.
+  MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
+    const MaterialPoints &given = *set_.material[side.curve];
+    const MaterialPoints points = side.reversed ? given.reversed(inner.pieces().size()) : given;
+    const auto n_parts = static_cast<double>(outer.pieces().size());
+    MaterialPoints made{};
+    for (std::size_t k = 0; k < n_material; ++k) {
+      const PointOnPiece &at = view(points.on_curve)[k];
+      double share = k == n_material - 1 ? 1 : 0;
+      if (k > 0 && k + 1 < n_material) {
+        for (std::size_t piece = 0; piece < at.piece; ++piece) share += inner.length(piece);
+        share = std::min(1.0, (share + arc_length(inner.pieces()[at.piece], 0, at.t)) / inner.length());
+      }
+      const double part = std::min(std::floor(share * n_parts), n_parts - 1);
+      view(made.on_curve)[k] = {static_cast<std::size_t>(part), share * n_parts - part};
+      const auto on = [&](const Curve &curve, const PointOnPiece &p) { return evaluate(curve.pieces()[p.piece], p.t); };
+      view(made.mapped)[k] = on(outer, view(made.on_curve)[k]) + (view(points.mapped)[k] - on(inner, at));
+    }
+    return made;
   }
 
   PatchSet &set_;

@@ -8,10 +8,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
+#include "kernels/kernels.hpp"
 
 namespace riis {
 namespace {
@@ -24,41 +21,6 @@ constexpr double largest_stretch_error = 0.1;
 // attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory.md, "Warp").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
-
-// Two doubles, which the processor handles together.
-#if defined(__SSE2__)
-struct Pair {
-  __m128d both;
-
-  static Pair of(double x) { return {_mm_set1_pd(x)}; }
-  static Pair at(const double *x) { return {_mm_loadu_pd(x)}; }
-  friend Pair operator+(Pair a, Pair b) { return {_mm_add_pd(a.both, b.both)}; }
-  friend Pair operator-(Pair a, Pair b) { return {_mm_sub_pd(a.both, b.both)}; }
-  friend Pair operator*(Pair a, Pair b) { return {_mm_mul_pd(a.both, b.both)}; }
-  friend Pair root(Pair a) { return {_mm_sqrt_pd(a.both)}; }
-  double sum() const { return _mm_cvtsd_f64(both) + _mm_cvtsd_f64(_mm_unpackhi_pd(both, both)); }
-};
-#else
-struct Pair {
-  double x, y;
-
-  static Pair of(double x) { return {x, x}; }
-  static Pair at(const double *x) { return {x[0], x[1]}; }
-  friend Pair operator+(Pair a, Pair b) { return {a.x + b.x, a.y + b.y}; }
-  friend Pair operator-(Pair a, Pair b) { return {a.x - b.x, a.y - b.y}; }
-  friend Pair operator*(Pair a, Pair b) { return {a.x * b.x, a.y * b.y}; }
-  friend Pair root(Pair a) { return {std::sqrt(a.x), std::sqrt(a.y)}; }
-  double sum() const { return x + y; }
-};
-#endif
-
-struct PairOfVectors {
-  Pair x = Pair::of(0), y = Pair::of(0), z = Pair::of(0);
-
-  Vec3 sum() const { return {x.sum(), y.sum(), z.sum()}; }
-};
-PairOfVectors operator+(const PairOfVectors &a, const PairOfVectors &b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-PairOfVectors operator*(Pair s, const PairOfVectors &a) { return {s * a.x, s * a.y, s * a.z}; }
 
 struct SymmetricThree {
   double xx, yy, zz, xy, xz, yz;
@@ -98,6 +60,13 @@ void principal_axes(const SymmetricThree &given, Vec3 *axes, double *values) {
   axes[2] = cross(axes[0], axes[1]);
 }
 
+const Kernels &best_kernels() {
+  static const Kernels &best = kernels(best_instruction_set());
+  return best;
+}
+
+Vec3 vector(const double (&x)[3]) { return {x[0], x[1], x[2]}; }
+
 double cubed_distance(Vec3 a, Vec3 b) {
   const Vec3 d = b - a;
   const double square = dot(d, d);
@@ -106,34 +75,29 @@ double cubed_distance(Vec3 a, Vec3 b) {
 
 }  // namespace
 
+CubeSources WarpMap::cubes() const {
+  return {{source_x.data(), source_y.data(), source_z.data()},
+          {weight_x.data(), weight_y.data(), weight_z.data()},
+          static_cast<std::int64_t>(source_x.size())};
+}
+
 Vec3 WarpMap::value(Vec3 x) const {
   const Vec3 y = (1 / size) * (x - centre);
-  const Pair px = Pair::of(y.x), py = Pair::of(y.y), pz = Pair::of(y.z);
-  PairOfVectors sum;
-  for (std::size_t i = 0; i < source_x.size(); i += 2) {
-    const Pair dx = px - Pair::at(&source_x[i]), dy = py - Pair::at(&source_y[i]), dz = pz - Pair::at(&source_z[i]);
-    const Pair square = dx * dx + dy * dy + dz * dz;
-    sum = sum +
-          square * root(square) * PairOfVectors{Pair::at(&weight_x[i]), Pair::at(&weight_y[i]), Pair::at(&weight_z[i])};
-  }
-  return x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + sum.sum());
+  const double at[3] = {y.x, y.y, y.z};
+  CubeSums sums;
+  best_kernels().sum_cubes(cubes(), at, sums);
+  return x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + vector(sums.value));
 }
 
 MapAt WarpMap::at(Vec3 x) const {
   const Vec3 y = (1 / size) * (x - centre);
-  const Pair px = Pair::of(y.x), py = Pair::of(y.y), pz = Pair::of(y.z);
-  PairOfVectors sum, by_x, by_y, by_z;
-  for (std::size_t i = 0; i < source_x.size(); i += 2) {
-    const Pair dx = px - Pair::at(&source_x[i]), dy = py - Pair::at(&source_y[i]), dz = pz - Pair::at(&source_z[i]);
-    const Pair square = dx * dx + dy * dy + dz * dz, r = root(square);
-    const PairOfVectors of_r =
-        r * PairOfVectors{Pair::at(&weight_x[i]), Pair::at(&weight_y[i]), Pair::at(&weight_z[i])};
-    sum = sum + square * of_r;
-    by_x = by_x + dx * of_r, by_y = by_y + dy * of_r, by_z = by_z + dz * of_r;
-  }
-  return {x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + sum.sum()),
-          Vec3{1, 0, 0} + linear_x + 3 * by_x.sum(), Vec3{0, 1, 0} + linear_y + 3 * by_y.sum(),
-          Vec3{0, 0, 1} + linear_z + 3 * by_z.sum()};
+  const double at[3] = {y.x, y.y, y.z};
+  CubeSums sums;
+  best_kernels().sum_cubes_with_derivatives(cubes(), at, sums);
+  return {x + size * (shift + y.x * linear_x + y.y * linear_y + y.z * linear_z + vector(sums.value)),
+          Vec3{1, 0, 0} + linear_x + 3 * vector(sums.third_along[0]),
+          Vec3{0, 1, 0} + linear_y + 3 * vector(sums.third_along[1]),
+          Vec3{0, 0, 1} + linear_z + 3 * vector(sums.third_along[2])};
 }
 
 Vec3 BlendedWarp::value(Vec3 x) const {
@@ -382,7 +346,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   map.centre = centre_, map.size = size_;
   for (Vector<double> *list :
        {&map.source_x, &map.source_y, &map.source_z, &map.weight_x, &map.weight_y, &map.weight_z})
-    list->assign(n + n % 2, 0.0);
+    list->assign((n + 7) / 8 * 8, 0.0);
   for (std::size_t k = 0; k < n_free_; ++k) {
     const double *column = basis_.data() + k * n;
     const Vec3 z = solution_[k];

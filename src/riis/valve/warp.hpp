@@ -8,6 +8,7 @@
 
 #include "base/recycled.hpp"
 #include "geometry/vec3.hpp"
+#include "kernels/kernels.hpp"
 
 namespace riis {
 
@@ -30,9 +31,12 @@ class WarpMap {
   double size = 1;
   Vec3 shift{0, 0, 0};
   Vec3 linear_x{0, 0, 0}, linear_y{0, 0, 0}, linear_z{0, 0, 0};  // the columns of `linear`
-  // The coordinates of sources and weights lie in arrays of their own, so that the processor handles two at a time. If their
-  // number is odd, a source with the weight 0 follows.
+  // The coordinates of sources and weights lie in arrays of their own, so that the processor handles eight at a time. Sources
+  // with the weight 0 make their number a multiple of eight.
   Vector<double> source_x, source_y, source_z, weight_x, weight_y, weight_z;
+
+ private:
+  CubeSources cubes() const;
 };
 
 // The map between two states of a valve: (1 - opening) times the map `closed` plus opening times the map `open`.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -55,6 +56,15 @@ struct CurveCopy {
   Vector<Bezier> pieces;
   Bezier rate;
 };
+
+const Vector<double> &material_shares() {
+  static const Vector<double> &shares = *new Vector<double>([] {
+    Vector<double> made;
+    for (std::size_t k = 0; k < n_material; ++k) made.push_back(material_share(k));
+    return made;
+  }());
+  return shares;
+}
 
 // Collects the copies of curves that the images of a set need.
 class Unfolding {
@@ -177,16 +187,24 @@ double within_limits(double factor, double own) {
   return own == 0 ? std::clamp(factor, 0.0, most_of_missing) : std::clamp(factor, least_factor, most_factor);
 }
 
+// The mapped points of a piece at even parameters.
+using MappedPiece = std::array<Vec3, n_curve_steps + 1>;
+
 // Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at the ends.
-Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp) {
+// Writes the warped points.
+Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
+                    MappedPiece &mapped) {
+  mapped.fill(first.value);
   if (is_point(given)) return Bezier::point(first.value);
+  mapped.back() = last.value;
   const Bezier cubic = raised_to_cubic(given);
   const EndTangent a = end_tangent(cubic.control, first), b = end_tangent(cubic.reversed().control, last);
   double aa = 0, ab = 0, bb = 0, ar = 0, br = 0;
   for (int k = 1; k < n_curve_steps; ++k) {
     const double t = static_cast<double>(k) / n_curve_steps, s = 1 - t;
     const double b0 = s * s * s, b1 = 3 * t * s * s, b2 = 3 * t * t * s, b3 = t * t * t;
-    const Vec3 rest = warp.value(evaluate(cubic, t)) - ((b0 + b1) * first.value + (b2 + b3) * last.value);
+    view(mapped)[k] = warp.value(evaluate(cubic, t));
+    const Vec3 rest = view(mapped)[k] - ((b0 + b1) * first.value + (b2 + b3) * last.value);
     const Vec3 by_a = b1 * a.warped, by_b = b2 * b.warped;
     aa += dot(by_a, by_a), ab += dot(by_a, by_b), bb += dot(by_b, by_b);
     ar += dot(by_a, rest), br += dot(by_b, rest);
@@ -242,6 +260,38 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
+// The material points of a curve before any image is placed, and the weights that a mapped piece's points have there: those of
+// the polynomial through them.
+struct MaterialOfCurve {
+  explicit MaterialOfCurve(const Curve &curve) {
+    const CurvePoints points(curve, false, material_shares());
+    for (std::size_t k = 0; k < n_material; ++k) {
+      view(on_curve)[k] = {points.piece(k), points.parameter(k)};
+      for (int i = 0; i <= n_curve_steps; ++i) {
+        double product = 1;
+        for (int j = 0; j <= n_curve_steps; ++j)
+          if (j != i) product *= (points.parameter(k) * n_curve_steps - j) / (i - j);
+        view(weights[k])[i] = product;
+      }
+    }
+  }
+
+  MaterialPoints points_of(const Vector<MappedPiece> &pieces) const {
+    MaterialPoints made{{}, on_curve};
+    for (std::size_t k = 0; k < n_material; ++k) {
+      const MappedPiece &mapped = pieces[view(on_curve)[k].piece];
+      Vec3 sum{0, 0, 0};
+      for (int i = 0; i <= n_curve_steps; ++i) sum = sum + view(weights[k])[i] * view(mapped)[i];
+      view(made.mapped)[k] = sum;
+    }
+    made.mapped.front() = pieces.front().front(), made.mapped.back() = pieces.back().back();
+    return made;
+  }
+
+  std::array<PointOnPiece, n_material> on_curve;
+  std::array<double, n_curve_steps + 1> weights[n_material];
+};
+
 // Bends the arcs at the sides of patches of arcs between their warped ends.
 void bend_arcs(PatchSet &set) {
   Vector<bool> is_bent(set.curves.size(), false);
@@ -261,22 +311,62 @@ void bend_arcs(PatchSet &set) {
   }
 }
 
+// Points of the patches of a set at even shares of their sides. `at` gives the places of the even shares on a curve.
+template <class At>
+class EvenPoints {
+ public:
+  EvenPoints(const PatchSet &set, const At &at) : set_(set), at_(at) {}
+
+  Vec3 point(const Side &side, std::size_t k) const {
+    const PointOnPiece &at = place_of(side, k);
+    return evaluate(set_.curve_of(side).pieces()[at.piece], at.t);
+  }
+  // Returns the offset of the arc at share k. Neighbouring patches have the same bits at a common side.
+  Vec3 offset(const Patch &patch, std::size_t k) const {
+    if (k == 0 || k == last) return arc_offset(set_, k == 0 ? patch.u0 : patch.u1);
+    if (patch.bulge == 0) return {0, 0, 0};
+    const PointOnPiece &at = place_of(patch.v0, k);
+    const Vec3 along = derivative(set_.curve_of(patch.v0).pieces()[at.piece], at.t);
+    const double speed = length(along);
+    if (!(speed > 0)) return {0, 0, 0};
+    return arc_offset(point(patch.v1, k) - point(patch.v0, k), ((patch.v0.reversed ? -1 : 1) / speed) * along,
+                      patch.bulge);
+  }
+
+  static constexpr std::size_t last = n_material - 1;
+
+ private:
+  const PointOnPiece &place_of(const Side &side, std::size_t k) const {
+    return view(at_(side.curve))[side.reversed ? last - k : k];
+  }
+
+  const PatchSet &set_;
+  const At &at_;
+};
+
 // Points of a patch on an even grid of labels u and v.
 class LabelGrid {
  public:
-  LabelGrid(const PatchSet &set, const Patch &patch) {
-    static const Vector<double> &shares = *new Vector<double>(even_shares());
-    const auto on = [&](const Side &side) { return CurvePoints(set.curve_of(side), side.reversed, shares); };
-    const CurvePoints base = on(patch.v0), edge = on(patch.v1), start = on(patch.u0), end = on(patch.u1);
+  template <class At>
+  LabelGrid(const EvenPoints<At> &even, const Patch &patch, bool has_arcs) {
+    constexpr std::size_t step = (n_material - 1) / n_fold_cells;
+    std::array<Vec3, n_fold_cells + 1> base, edge, start, end;
+    for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+      base[i] = even.point(patch.v0, step * i), edge[i] = even.point(patch.v1, step * i);
+      if (has_arcs)
+        start[i] = even.offset(patch, step * i);
+      else
+        start[i] = even.point(patch.u0, step * i), end[i] = even.point(patch.u1, step * i);
+    }
     for (std::size_t j = 0; j <= n_fold_cells; ++j)
       for (std::size_t i = 0; i <= n_fold_cells; ++i) {
-        const double u = shares[i], v = shares[j];
-        Vec3 p = mix(base.point(i), edge.point(i), v);
-        if (patch.bulge != 0)
-          p = p + 2 * v * (1 - v) * arc_offset(edge.point(i) - base.point(i), base.tangent(i), patch.bulge);
+        const double u = material_share(step * i), v = material_share(step * j);
+        Vec3 p = mix(base[i], edge[i], v);
+        if (has_arcs)
+          p = p + 2 * v * (1 - v) * start[i];
         else
-          p = p + mix(start.point(j), end.point(j), u) -
-              mix(mix(base.point(0), base.point(n_fold_cells), u), mix(edge.point(0), edge.point(n_fold_cells), u), v);
+          p = p + mix(start[j], end[j], u) -
+              mix(mix(base[0], base[n_fold_cells], u), mix(edge[0], edge[n_fold_cells], u), v);
         points_[j * (n_fold_cells + 1) + i] = p;
       }
   }
@@ -284,29 +374,24 @@ class LabelGrid {
   const Vec3 &at(std::size_t i, std::size_t j) const { return points_[j * (n_fold_cells + 1) + i]; }
 
  private:
-  static Vector<double> even_shares() {
-    Vector<double> shares;
-    for (std::size_t i = 0; i <= n_fold_cells; ++i) shares.push_back(static_cast<double>(i) / n_fold_cells);
-    return shares;
-  }
-
   std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)> points_;
 };
+
+// Points of a mapped patch on the same grid.
+using MappedGrid = std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)>;
 
 Vec3 normal_of_cell(const Vec3 &p00, const Vec3 &p10, const Vec3 &p01, const Vec3 &p11) {
   return cross(p11 - p00, p01 - p10);
 }
 
-// Fails if the warp folds at the patch, or if the warped patch is turned over against the map of the patch. `image` places
-// the patch before the warp.
-void check_folds(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const BlendedWarp &warp) {
-  std::array<Vec3, (n_fold_cells + 1) * (n_fold_cells + 1)> mapped;
-  for (std::size_t j = 0; j <= n_fold_cells; ++j)
-    for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+// Maps the inner points of the grid. `image` places the patch before the warp. If `check` is yes, fails if the warp folds there.
+void map_inner_points(const LabelGrid &before, const PatchImage &image, const BlendedWarp &warp, FoldCheck check,
+                      MappedGrid &mapped) {
+  for (std::size_t j = 1; j < n_fold_cells; ++j)
+    for (std::size_t i = 1; i < n_fold_cells; ++i) {
       const Vec3 p = place(image, before.at(i, j));
       const std::size_t k = j * (n_fold_cells + 1) + i;
-      // Neighbouring patches share the nodes at their sides. So the determinant is computed inside only.
-      if (i == 0 || j == 0 || i == n_fold_cells || j == n_fold_cells) {
+      if (check == FoldCheck::no) {
         mapped[k] = warp.value(p);
         continue;
       }
@@ -317,6 +402,30 @@ void check_folds(const LabelGrid &before, const PatchImage &image, const LabelGr
              "), in the valve's coordinates; it must be above 0");
       mapped[k] = at.value;
     }
+}
+
+// Maps the points of the grid at the patch's sides. Points of the sides that have been mapped are known.
+void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid &before, const PatchImage &image,
+                      const BlendedWarp &warp, bool has_arcs, MappedGrid &mapped) {
+  constexpr std::size_t last = n_material - 1, step = last / n_fold_cells;
+  const auto known = [&](const Side &side, std::size_t k) {
+    return view(made.material[side.curve]->mapped)[side.reversed ? last - k : k];
+  };
+  for (std::size_t i = 0; i <= n_fold_cells; ++i) {
+    mapped[i] = known(patch.v0, step * i);
+    mapped[n_fold_cells * (n_fold_cells + 1) + i] = known(patch.v1, step * i);
+  }
+  for (std::size_t j = 1; j < n_fold_cells; ++j)
+    for (const bool is_end : {false, true}) {
+      const std::size_t i = is_end ? n_fold_cells : 0;
+      // On an arc, v is no share of the length.
+      mapped[j * (n_fold_cells + 1) + i] =
+          has_arcs ? warp.value(place(image, before.at(i, j))) : known(is_end ? patch.u1 : patch.u0, step * j);
+    }
+}
+
+// Fails if a part of the warped patch is turned over against the map of the patch.
+void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   for (std::size_t j = 0; j < n_fold_cells; ++j)
     for (std::size_t i = 0; i < n_fold_cells; ++i) {
       const std::size_t k = j * (n_fold_cells + 1) + i;
@@ -354,23 +463,57 @@ PatchSet without_images(const PatchSet &set) {
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   Unfolding unfolding(set);
   MapAtEnds at_ends(warp);
+  Vector<std::optional<MaterialPoints>> material;
+  Vector<std::optional<MaterialOfCurve>> of_curves(set.curves.size());
+  Vector<MappedPiece> mapped;
   for (CurveCopy &copy : unfolding.copies()) {
     MapAt first = at_ends(copy.pieces.front().first());
+    mapped.clear();
     for (Bezier &piece : copy.pieces) {
       const MapAt last = at_ends(piece.last());
       if (!set.rates.empty()) copy.rate = warped_rate(piece, copy.rate, first, last, warp);
-      piece = warped_piece(piece, first, last, warp);
+      mapped.emplace_back();
+      piece = warped_piece(piece, first, last, warp, mapped.back());
       first = last;
     }
+    std::optional<MaterialOfCurve> &of_curve = of_curves[copy.curve];
+    if (!of_curve) of_curve.emplace(set.curves[copy.curve]);
+    material.push_back(of_curve->points_of(mapped));
   }
   PatchSet made = made_of(unfolding, set);
   bend_arcs(made);
-  if (check == FoldCheck::no) return made;
-  std::size_t number = 0;
+  made.material = std::move(material);
+  // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
+  const bool has_arcs = set.rates.empty();
+  const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnPiece, n_material> & {
+    return of_curves[curve]->on_curve;
+  };
+  const auto at_now = [&](std::size_t curve) -> const std::array<PointOnPiece, n_material> & {
+    return made.material[curve]->on_curve;
+  };
+  const EvenPoints even(set, at_rest);
+  const EvenPoints even_now(made, at_now);
   for (const Patch &patch : set.patches) {
-    const LabelGrid before(set, patch);
-    for (const PatchImage &image : patch.images)
-      check_folds(before, image, LabelGrid(made, made.patches[number++]), warp);
+    const LabelGrid before(even, patch, has_arcs);
+    MappedInside middles{has_arcs, {}};
+    for (std::size_t k = 0; has_arcs && k < n_material; ++k)
+      view(middles.points)[k] = 0.5 * ((even.point(patch.v0, k) + even.point(patch.v1, k)) + even.offset(patch, k));
+    for (const PatchImage &image : patch.images) {
+      const Patch &made_patch = made.patches[made.mapped_inside.size()];
+      MappedGrid grid;
+      if (check == FoldCheck::yes || !has_arcs) map_inner_points(before, image, warp, check, grid);
+      if (check == FoldCheck::yes) {
+        map_outer_points(made, made_patch, before, image, warp, has_arcs, grid);
+        check_turns(before, image, LabelGrid(even_now, made_patch, has_arcs), grid);
+      }
+      MappedInside inside = middles;
+      if (has_arcs)
+        for (Vec3 &p : inside.points) p = warp.value(place(image, p));
+      else
+        for (std::size_t i = 0; i < 4; ++i)
+          view(inside.points)[i] = view(grid)[(1 + i / 2) * (n_fold_cells + 1) + 1 + i % 2];
+      made.mapped_inside.push_back(inside);
+    }
   }
   return made;
 }
