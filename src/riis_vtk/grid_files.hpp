@@ -17,8 +17,11 @@ class vtkXMLDataParser;
 
 namespace riis::vtk {
 
-// Reads an unstructured grid with at least one point from a .vtu (XML) or .vtk (legacy) file.
+// Reads an unstructured grid with at least one point from a file of any of the formats of docs/formats.md.
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught);
+
+// Fails unless the grid has points, and its cells have types, sizes and points that exist.
+void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 
 // Reads polydata with at least one point from a .vtp (XML) file. Its cells are only polygons and strips.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);

@@ -17,6 +17,7 @@
 #include "common/array_view.hpp"
 #include "riis_vtk/grid_files.hpp"
 #include "riis_vtk/mesh.hpp"
+#include "riis_vtk/other_files.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -304,7 +305,12 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
   return guarded([&](const CaughtOutput &caught) {
     require(mesh, "mesh");
     require(path, "path");
-    naming(path, [&] { write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught); });
+    naming(path, [&] {
+      if (ending_of(path) == "xdmf")
+        write_xdmf(path, mesh->grid);
+      else
+        write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught);
+    });
   });
 }
 
