@@ -68,6 +68,7 @@ struct MarkOptions : ValveOptions {
 
   std::string mesh;        // "" if there is none
   bool needs_mesh = true;  // whether a case must name a mesh
+  bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
   std::optional<double> resistance;           // R, for an array of K

@@ -545,6 +545,15 @@ fs::path latest_with(const fs::path &root, double time, const char *file) {
   return found.empty() ? root / "constant" / "polyMesh" : found.rbegin()->second;
 }
 
+// Returns whether the case has a folder such as processors4, with the parts of all processes in each file.
+bool has_collated_parts(const fs::path &root) {
+  std::error_code error;
+  const fs::directory_iterator entries(root, error);
+  return !error && std::any_of(begin(entries), end(entries), [](const fs::directory_entry &entry) {
+    return entry.path().filename().string().rfind("processors", 0) == 0;
+  });
+}
+
 fs::path parent_of(const fs::path &path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 }  // namespace
@@ -552,6 +561,25 @@ fs::path parent_of(const fs::path &path) { return path.has_parent_path() ? path.
 bool is_openfoam(const std::string &path) {
   std::error_code error;
   return ending_of(path) == "foam" || fs::is_directory(path, error);
+}
+
+bool is_foam_time(const std::string &path) {
+  fs::path folder = path;
+  if (!folder.has_filename()) folder = folder.parent_path();
+  return time_of(folder) && is_mesh(parent_of(folder) / "constant" / "polyMesh");
+}
+
+std::string foam_case_of(const std::string &path) {
+  fs::path root = path;
+  if (ending_of(path) == "foam" && !fs::is_directory(root)) root = parent_of(root);
+  if (!root.has_filename()) root = root.parent_path();  // a path may end with a slash
+  if (root.filename() == "polyMesh") root = parent_of(root);
+  if (root.filename() == "constant" || is_foam_time(root.string())) root = parent_of(root);
+  return root.string();
+}
+
+std::vector<std::array<std::string, 2>> read_patches(const std::string &foam_case) {
+  return FoamFile(fs::path(foam_case) / "constant" / "polyMesh", "boundary").patches();
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path) {
@@ -571,6 +599,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path) {
     is_single = read_folder({latest_with(whole, *time, "faces"), latest_with(whole, *time, "points")}, mesh);
   } else if (const std::vector<fs::path> parts = parts_of(root); !parts.empty()) {
     is_single = read_parts(path, parts, mesh);
+  } else if (has_collated_parts(root)) {
+    fail_file(path, "has its parts in one folder; reconstructParMesh -constant joins them");
   } else {
     fail_file(path, "is a directory, but not a case of OpenFOAM: it lacks constant/polyMesh");
   }

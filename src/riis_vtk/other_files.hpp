@@ -4,12 +4,17 @@
 // cells again. No count of a file is believed before the file holds as many bytes as the count needs.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include <vtkDoubleArray.h>
 #include <vtkIdTypeArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include "riis_vtk/files.hpp"
+
+struct riis_vtk_mesh;
 
 namespace riis::vtk {
 
@@ -23,6 +28,12 @@ vtkSmartPointer<vtkUnstructuredGrid> read_gmsh(const std::string &path);
 // A case of OpenFOAM, a time of a case, a folder polyMesh, or a file .foam in a case (openfoam.cpp).
 bool is_openfoam(const std::string &path);
 vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path);
+std::string foam_case_of(const std::string &path);
+
+// Whether the path is a folder of a time in a case of OpenFOAM, which may be missing. Writes the arrays of cells as its fields
+// (foam_fields.cpp).
+bool is_foam_time(const std::string &path);
+void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh);
 
 // XDMF with its data in the file itself or in HDF5 files (xdmf.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_xdmf(const std::string &path);
@@ -52,6 +63,9 @@ struct PlainGrid {
   // Makes the grid. Fails if a coordinate is not finite.
   vtkSmartPointer<vtkUnstructuredGrid> grid(const std::string &path);
 };
+
+// The names and the types of the patches of a case's mesh.
+std::vector<std::array<std::string, 2>> read_patches(const std::string &foam_case);
 
 // The content of a file, from its beginning to its end, as text or binary numbers. Errors name the file and the position.
 class Source {

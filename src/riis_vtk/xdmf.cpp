@@ -108,6 +108,13 @@ class XdmfFile {
     return *item;
   }
 
+  // FEniCS writes the attribute NumberType, and meshio DataType.
+  static bool is_real(const XmlElement &item) {
+    const std::string type =
+        item.attribute("NumberType").empty() ? item.attribute("DataType") : item.attribute("NumberType");
+    return type.empty() || lower_case(type) == "float";
+  }
+
   // Returns the numbers of rows and columns. A single dimension is a number of rows with one column.
   std::array<std::int64_t, 2> size_of(const XmlElement &item) const {
     const std::string text = item.attribute("Dimensions");
@@ -184,7 +191,6 @@ class XdmfFile {
     std::string_view text = item.text;
     const std::string file_path = beside(plain_text(take_word(text)));
     const MappedFile file(file_path, check_readable(file_path));
-    const std::string type = lower_case(item.attribute("NumberType"));
     const std::string precision = item.attribute("Precision").empty() ? "4" : item.attribute("Precision");
     if (precision != "4" && precision != "8")
       fail_file(path_, "has binary numbers of ", shortened(precision), " bytes; 4 and 8 are read");
@@ -200,10 +206,10 @@ class XdmfFile {
     const int n_bytes = precision == "8" ? 8 : 4;
     in.check_count(n, n_bytes, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
-    const bool is_real = type.empty() || type == "float";
-    if (is_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in the place of whole ones");
+    const bool are_real = is_real(item);
+    if (are_real && !std::is_same_v<Number, double>) fail_file(path_, "has real numbers in the place of whole ones");
     for (Number &value : values)
-      value = is_real ? static_cast<Number>(in.real(n_bytes)) : static_cast<Number>(in.integer(n_bytes));
+      value = are_real ? static_cast<Number>(in.real(n_bytes)) : static_cast<Number>(in.integer(n_bytes));
     note_precision(item);
     return values;
   }
@@ -311,8 +317,7 @@ class XdmfFile {
       fail_file(path_, "attribute ", shortened(name), " has ", size[0], " x ", size[1], " values for ", n,
                 is_of_cells ? " cells" : " nodes");
     auto *const to = is_of_cells ? static_cast<vtkDataSetAttributes *>(grid->GetCellData()) : grid->GetPointData();
-    const std::string type = lower_case(item->attribute("NumberType"));
-    if (type.empty() || type == "float") {
+    if (is_real(*item)) {
       const std::vector<double> values = numbers<double>(*item);
       const auto array = named_array<vtkDoubleArray>(name, n, static_cast<int>(size[1]));
       std::copy(values.begin(), values.end(), array->GetPointer(0));
