@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/mesh_reading.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -82,6 +83,9 @@ struct Answer {
 
 // Reads the mesh, writes it again as a .vtu, and answers through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer) {
+  // Readers print errors of their own. This process's message goes through the pipe.
+  const int nowhere = open("/dev/null", O_WRONLY);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   const rlimit none = {0, 0};
   setrlimit(RLIMIT_CORE, &none);
   limit_memory(path);

@@ -204,8 +204,20 @@ vtkSmartPointer<vtkUnstructuredGrid> read_blocks(const std::string &path, const 
 
 #ifdef RIIS_VTK_EXODUS
 
+namespace {
+
+// Fails unless the file begins as NetCDF or HDF5 files do. Exodus prints its own errors on stderr.
+void check_magic(const std::string &path) {
+  const MappedFile file(path, check_readable(path));
+  const std::string_view first = file.bytes().substr(0, 4);
+  if (first.substr(0, 3) != "CDF" && first != "\x89HDF")
+    fail_file(path, "is not an Exodus file: it is neither NetCDF nor HDF5");
+}
+
+}  // namespace
+
 vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const CaughtOutput &caught) {
-  check_readable(path);
+  check_magic(path);
   vtkNew<vtkExodusIIReader> reader;
   if (!reader->CanReadFile(path.c_str())) fail_file(path, "is not an Exodus file, is damaged or truncated");
   reader->SetFileName(path.c_str());

@@ -31,7 +31,8 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {3, 4, VTK_QUAD, {}},
       {4, 4, VTK_TETRA, {}},
       {5, 8, VTK_HEXAHEDRON, {}},
-      {6, 6, VTK_WEDGE, {}},
+      // The base of VTK's wedges is seen from outside, and that of gmsh's prisms from inside.
+      {6, 6, VTK_WEDGE, {0, 2, 1, 3, 5, 4}},
       {7, 5, VTK_PYRAMID, {}},
       {8, 3, VTK_QUADRATIC_EDGE, {}},
       {9, 6, VTK_QUADRATIC_TRIANGLE, {}},
@@ -41,11 +42,12 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {17, 20, VTK_QUADRATIC_HEXAHEDRON, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}},
       {12, 27, VTK_TRIQUADRATIC_HEXAHEDRON, {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
                                              19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26}},
-      {18, 15, VTK_QUADRATIC_WEDGE, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}},
-      {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16}},
+      {18, 15, VTK_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10}},
+      {13, 18, VTK_BIQUADRATIC_QUADRATIC_WEDGE, {0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10, 16, 17, 15}},
       {19, 13, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
-      // VTK's cell with these 14 nodes is the Lagrange pyramid of order 2.
-      {14, 14, VTK_LAGRANGE_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12, 13}},
+      // VTK 9.1 has no pyramid with a node in the middle of its base. This node stays a node of the mesh, and the cell on the
+      // other side of the base has its edges.
+      {14, 14, VTK_QUADRATIC_PYRAMID, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}},
   };
   const auto found =
       std::find_if(types.begin(), types.end(), [&](const ElementType &type) { return type.gmsh_type == gmsh_type; });
@@ -324,7 +326,8 @@ class GmshFile {
       if (!id) in_.refuse("element ", tag, " has the node ", node, ", which $Nodes lacks");
       ids[static_cast<std::size_t>(i)] = *id;
     }
-    for (int i = 0; i < type.n_nodes; ++i)
+    const int n_kept = type.order.empty() ? type.n_nodes : static_cast<int>(type.order.size());
+    for (int i = 0; i < n_kept; ++i)
       mesh_.ids->InsertNextValue(view(ids)[type.order.empty() ? i : view(type.order)[i]]);
     mesh_.end_cell(type.vtk_type);
     physical_.push_back(static_cast<std::int32_t>(physical));

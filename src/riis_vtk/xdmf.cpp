@@ -158,6 +158,9 @@ class XdmfFile {
     in.check_count(n, 1, "numbers");
     std::vector<Number> values(static_cast<std::size_t>(n));
     for (Number &value : values) {
+      // Checks only the end, because a check of the whole rest would take a time that grows with the square of n.
+      if (in.rest().size() < 64 && std::all_of(in.rest().begin(), in.rest().end(), is_blank))
+        in.refuse("a DataItem has ", static_cast<std::int64_t>(&value - values.data()), " of its ", n, " numbers");
       if constexpr (std::is_same_v<Number, double>)
         value = in.real(8);
       else
@@ -388,8 +391,7 @@ class XdmfWriter {
 
  private:
   void begin_item(const std::string &dataset, std::int64_t n_rows, int n_columns, const char *type) {
-    text_ +=
-        joined("<DataItem DataType=\"", type, "\" NumberType=\"", type, "\" Precision=\"8\" Dimensions=\"", n_rows);
+    text_ += joined("<DataItem NumberType=\"", type, "\" Precision=\"8\" Dimensions=\"", n_rows);
     if (n_columns > 1) text_ += joined(" ", n_columns);
     text_ += hdf5_ ? "\" Format=\"HDF\">" : "\" Format=\"XML\">\n";
     if (hdf5_) text_ += xml_text(fs::path(hdf5_->path()).filename().string()) + ":/" + xml_text(dataset);

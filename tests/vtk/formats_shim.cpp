@@ -55,7 +55,11 @@ Grid read(const std::string &path) {
 std::string bytes_of(vtkUnstructuredGrid *grid, vtkIdType node, int how) {
   double point[3];
   grid->GetPoint(node, point);
-  for (double &x : point) x = how == SHIM_FLOATS ? static_cast<double>(static_cast<float>(x)) : x + 0.0;  // -0 is 0
+  for (double &x : point) {
+    // gcc 12 leaves out the conversion to float and back in a loop that it vectorises, unless the float is volatile.
+    const volatile auto rounded = static_cast<float>(x);
+    x = how == SHIM_FLOATS ? static_cast<double>(rounded) : x + 0.0;  // -0 is 0
+  }
   return std::string(reinterpret_cast<const char *>(point), sizeof point);
 }
 
@@ -181,7 +185,7 @@ double shim_bend(const char *path, int64_t n_of_type[100]) {
     for (vtkIdType i = 0; at && i < cell->GetNumberOfPoints(); ++i) {
       double place[3], node[3];
       if (!linear_place(grid, id, type, at + 3 * i, place)) break;
-      grid->GetPoint(cell->GetPointId(i), node);
+      grid->GetPoint(cell->GetPointId(static_cast<int>(i)), node);
       most = std::max(most, std::hypot(place[0] - node[0], place[1] - node[1], place[2] - node[2]));
     }
   }
@@ -195,13 +199,13 @@ int shim_write_exodus([[maybe_unused]] const char *path, [[maybe_unused]] const 
   blocks->SetName("ObjectId");
   // A block of Exodus has one type of cells.
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
-    blocks->InsertNextValue(10 * grid->GetCellType(i) + static_cast<int>(i % 2));
+    blocks->InsertNextValue(10 * grid->GetCellType(i) + (i % 2 == 0 ? 0 : 1));
   grid->GetCellData()->AddArray(blocks);
   vtkNew<vtkExodusIIWriter> writer;
   writer->SetInputData(grid);
   writer->SetFileName(path);
   writer->SetBlockIdArrayName("ObjectId");
-  writer->StoreDoublesOn();
+  writer->SetStoreDoubles(1);
   return writer->Write();
 #else
   return 0;

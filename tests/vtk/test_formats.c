@@ -24,12 +24,16 @@ static void rewrite(const char *from, const char *to, const char *notes) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-static void expect_same(const char *a, const char *b, int how, int64_t n_least) {
+static void expect_same_but(const char *a, const char *b, int how, int64_t n_least, int64_t n_other_cells) {
   int64_t counts[4] = {0, 0, -1, -1};
   assert_true(shim_compare_meshes(scratch_path(a), scratch_path(b), how, counts));
-  if (counts[2] != 0 || counts[3] != 0 || counts[0] < n_least || counts[1] < n_least)
+  if (counts[2] != 0 || counts[3] != n_other_cells || counts[0] < n_least || counts[1] < n_least)
     fail_msg("%s and %s: %lld points, %lld cells, of which %lld and %lld differ", a, b, (long long)counts[0],
              (long long)counts[1], (long long)counts[2], (long long)counts[3]);
+}
+
+static void expect_same(const char *a, const char *b, int how, int64_t n_least) {
+  expect_same_but(a, b, how, n_least, 0);
 }
 
 /* Boxes of hexahedra, prisms and tetrahedra, with pyramids between hexahedra and tetrahedra. */
@@ -66,7 +70,7 @@ static void test_gmsh(void **state) {
   const char *orders[] = {"-order 1", "-order 2", "-order 2 -setnumber Mesh.SecondOrderIncomplete 1"};
   const char *formats[] = {"msh22", "msh22 -bin", "msh41", "msh41 -bin"};
   /* The cells of volume of each order: tetrahedra, hexahedra, prisms, pyramids. */
-  const int types[3][4] = {{10, 12, 13, 14}, {24, 29, 32, 74}, {24, 25, 26, 27}};
+  const int types[3][4] = {{10, 12, 13, 14}, {24, 29, 32, 27}, {24, 25, 26, 27}};
   for (int order = 0; order < 3; ++order) {
     char options[256];
     snprintf(options, sizeof options, "-3 %s -format msh41 -bin %s", orders[order], scratch_path("mix.geo"));
@@ -77,7 +81,7 @@ static void test_gmsh(void **state) {
       rewrite("mix.msh", "mix.vtu", "");
       int64_t n_of_type[100];
       const double bend = shim_bend(scratch_path("mix.vtu"), n_of_type);
-      assert_true(bend >= 0 && bend < 1e-12);
+      assert_true(bend >= 0 && bend < 1e-10);
       for (int i = 0; i < 4; ++i)
         if (n_of_type[types[order][i]] < 2)
           fail_msg("%s, %s: %lld cells of type %d", orders[order], formats[format],
@@ -85,7 +89,10 @@ static void test_gmsh(void **state) {
       /* gmsh writes text with 16 digits, and so a text file is compared with a text file. */
       snprintf(options, sizeof options, "-save %s -format vtk%s", scratch_path("mix.msh"), format % 2 ? " -bin" : "");
       run_gmsh(options, "mix.vtk");
-      if (order != 1) expect_same("mix.vtu", "mix.vtk", order == 0 ? SHIM_BITS : SHIM_SETS, 30);
+      /* gmsh 4.8 writes linear pyramids in place of quadratic ones, and prisms of second order with a base that is seen from
+       * inside. */
+      if (order == 0) expect_same("mix.vtu", "mix.vtk", SHIM_BITS, 30);
+      if (order == 2) expect_same_but("mix.vtu", "mix.vtk", SHIM_SETS, 30, 2 * n_of_type[27]);
       char type[32];
       int64_t n_components = 0, n_cells = 0;
       double groups[4096];
@@ -163,22 +170,22 @@ static void test_meshio(void **state) {
   (void)state;
   write_plain("plain.vtu", 0);
   scratch_write_text("convert.py",
-                     "import sys, meshio, numpy\n"
+                     "import os, sys, meshio, numpy\n"
                      "def same(a, b):\n"
                      "    assert numpy.array_equal(a.points, b.points)\n"
                      "    assert [c.type for c in a.cells] == [c.type for c in b.cells]\n"
                      "    assert all(numpy.array_equal(c.data, d.data) for c, d in zip(a.cells, b.cells))\n"
-                     "folder = sys.argv[1] + '/'\n"
-                     "mesh = meshio.read(folder + 'plain.vtu')\n"
+                     "os.chdir(sys.argv[1])\n"
+                     "mesh = meshio.read('plain.vtu')\n"
                      "mesh.point_data = {'p': mesh.points[:, 0].copy(), 'v': 2 * mesh.points}\n"
                      "for how in ['HDF', 'XML', 'Binary']:\n"
-                     "    mesh.write(folder + how + '.xdmf', data_format=how)\n"
-                     "mesh.write(folder + 'meshio.e')\n"
-                     "mesh.write(folder + 'meshio22.msh', file_format='gmsh22')\n"
-                     "mesh.write(folder + 'meshio41.msh', file_format='gmsh')\n"
-                     "same(mesh, meshio.read(folder + 'plain.xdmf'))\n"
+                     "    mesh.write(how + '.xdmf', data_format=how)\n"
+                     "mesh.write('meshio.e')\n"
+                     "mesh.write('meshio22.msh', file_format='gmsh22')\n"
+                     "mesh.write('meshio41.msh', file_format='gmsh')\n"
+                     "same(mesh, meshio.read('plain.xdmf'))\n"
                      "single = meshio.Mesh(mesh.points.astype('f4'), mesh.cells)\n"
-                     "single.write(folder + 'single.xdmf')\n");
+                     "single.write('single.xdmf')\n");
   rewrite("plain.vtu", "plain.xdmf", "");
   char command[1024];
   snprintf(command, sizeof command, RIIS_MESHIO_PYTHON " %s %s > %s 2>&1", scratch_path("convert.py"),
@@ -263,19 +270,21 @@ static const broken faults[] = {
     {"a.xdmf", xdmf, "0 0 0 1 0", "0 0 nan 1 0", "z of node 0 is nan"},
     {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2 4<", "cell 0 names point 4 of 4"},
     {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2 -1<", "cell 0 names point -1 of 4"},
-    {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2<", "\"</DataItem>"},
+    {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2<", "a DataItem has 3 of its 4 numbers"},
     {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2 3 4<", "more than 4 numbers are in a DataItem"},
     {"a.xdmf", xdmf, "Tetrahedron", "Dodecahedron", "has a Topology of the type Dodecahedron, which is not read"},
     {"a.xdmf", xdmf, "Tetrahedron", "Mixed", "cell 0 is of XDMF's type 0, which is not read"},
     {"a.xdmf", xdmf, "Format=\"XML\">0 0", "Format=\"HDF\">none.h5:/x</DataItem><DataItem Dimensions=\"1\">0 0",
      "none.h5: cannot be read"},
     {"a.xdmf", xdmf, "Format=\"XML\">0 0", "Format=\"HDF\">a.xdmf:/x</DataItem><DataItem Dimensions=\"1\">0 0", "HDF5"},
-    {"a.xdmf", xdmf, "Format=\"XML\">0 0", "Format=\"Binary\">a.xdmf</DataItem><DataItem Dimensions=\"1\">0 0", "is "},
+    {"a.xdmf", xdmf, "Format=\"XML\">0 0",
+     "Format=\"Binary\" Seek=\"9999\">a.xdmf</DataItem><DataItem Dimensions=\"1\">0 0",
+     "has a DataItem with Seek=\"9999\""},
     {"a.xdmf", xdmf, "Dimensions=\"4\"", "Dimensions=\"5\"", "attribute p has 5 x 1 values for 4 nodes"},
     {"a.vtm", vtm, "vtkMultiBlockDataSet\"", "Collection\"", "is not a list of blocks"},
     {"a.vtm", vtm, "plain.vtu", "missing.vtu", "missing.vtu: cannot be read: No such file"},
     {"a.vtm", vtm, "plain.vtu", "a.vtp", "lists no .vtu file"},
-    {"a.exo", xdmf, "", "", "is not an Exodus file, is damaged or truncated"},
+    {"a.exo", xdmf, "", "", "is not an Exodus file: it is neither NetCDF nor HDF5"},
 };
 
 static void write_broken(const broken *fault) {

@@ -30,7 +30,11 @@ static void run(const char *format, ...) {
   vsnprintf(arguments, sizeof arguments, format, list);
   va_end(list);
   snprintf(command, sizeof command, "cd %s && (%s) > log.txt 2>&1", scratch_path("."), arguments);
-  if (system(command) != 0) fail_msg("%s\n%s", command, scratch_read(scratch_path("log.txt"), NULL));
+  if (system(command) != 0) {
+    size_t n = 0;
+    const char *log = scratch_read(scratch_path("log.txt"), &n);
+    fail_msg("%s\n%s", command, log + (n > 800 ? n - 800 : 0));
+  }
 }
 
 /* ---- A tetrahedron as text, whole and broken ---- */
@@ -73,7 +77,7 @@ static const broken faults[] = {
      "has a scalar of 16 bits; 32 and 64 are read"},
     {0, "format ascii;", "format binary; arch \"LSB;label=32;scalar=64\";", "claims 4 points, but only"},
     {0, "\n4\n(", "\n4{(0 0 0)}\n(", "equal points in {} are not read"},
-    {1, "\n4\n(", "\n9\n(", "is in the place of a \"(\""},
+    {1, "\n4\n(", "\n9\n(", "claims 9 faces, but only"},
     {1, "3(1 2 3)", "3(1 2 4)", "faces: face 2 names point 4 of 4"},
     {1, "3(1 2 3)", "3(1 2 -3)", "faces: face 2 names point -3 of 4"},
     {1, "3(1 2 3)", "2(1 2)", "faces: face 2 has 2 points"},
@@ -194,6 +198,26 @@ static void expect_same(const char *a, const char *b, int how, int64_t n_least) 
              (long long)counts[1], (long long)counts[2], (long long)counts[3]);
 }
 
+/* Nodes have the same bits in the same order, and cells the same centres. */
+static void expect_same_order(const char *a, const char *b) {
+  riis_vtk_mesh *meshes[2] = {NULL, NULL};
+  const double *xyz[2];
+  int64_t n[2];
+  const char *names[] = {a, b};
+  for (int i = 0; i < 2; ++i) {
+    expect_fine(riis_vtk_mesh_read(scratch_path(names[i]), &meshes[i]));
+    expect_fine(riis_vtk_mesh_get_nodes(meshes[i], &n[i], NULL, &xyz[i]));
+  }
+  assert_true(n[0] == n[1] && memcmp(xyz[0], xyz[1], 3 * sizeof(double) * (size_t)n[0]) == 0);
+  for (int i = 0; i < 2; ++i) {
+    expect_fine(riis_vtk_mesh_use_centers(meshes[i]));
+    expect_fine(riis_vtk_mesh_get_nodes(meshes[i], &n[i], NULL, &xyz[i]));
+  }
+  assert_true(n[0] == n[1]);
+  for (int64_t i = 0; i < 3 * n[0]; ++i) assert_true(fabs(xyz[0][i] - xyz[1][i]) < 1e-14);
+  for (int i = 0; i < 2; ++i) riis_vtk_mesh_destroy(&meshes[i]);
+}
+
 static void test_block_mesh(void **state) {
   (void)state;
   write_case("text", "ascii", "off");
@@ -206,14 +230,15 @@ static void test_block_mesh(void **state) {
   rewrite("packed", "packed.vtu");
   assert_true(scratch_is_same("text.vtu", "binary.vtu") && scratch_is_same("text.vtu", "packed.vtu"));
   /* foamToVTK rounds to single precision. */
-  run("cd text && foamToVTK -ascii -constant -no-boundary && cp VTK/*/internal.vtu ../other.vtu");
+  run("cd text && foamToVTK -constant -no-boundary && cp VTK/*/internal.vtu ../other.vtu");
   expect_same("text.vtu", "other.vtu", SHIM_FLOATS, 200);
   int64_t n_of_type[100];
   assert_true(shim_bend(scratch_path("text.vtu"), n_of_type) == 0 && n_of_type[12] == 5 * 6 * 7);
   /* A decomposed case has the same nodes and cells in the same order. */
   run("cp -r text parts && cd parts && decomposePar && rm -r constant");
   rewrite("parts", "parts.vtu");
-  assert_true(scratch_is_same("text.vtu", "parts.vtu"));
+  expect_same("text.vtu", "parts.vtu", SHIM_SETS, 200);
+  expect_same_order("text", "parts");
   rewrite("parts/processor1", "part.vtu");
   /* Points that moved are those of the latest time that is not later. */
   run("mkdir -p text/0.5/polyMesh text/2 && sed 's/^(\\(.*\\) \\(.*\\) \\(.*\\))$/(\\1 \\2 9)/' "
@@ -254,7 +279,9 @@ static void test_centers(const char *name) {
   riis_vtk_mesh *mesh = NULL;
   const double *xyz = NULL;
   int64_t n = 0;
-  run("cd %s && rm -rf 0 0.5 2 && mkdir 0 && postProcess -constant -func writeCellCentres && mv constant/C 0/C", name);
+  run("cd %s && sed -i s/binary/ascii/ system/controlDict && rm -rf 0 0.5 2 && mkdir 0 && postProcess -constant -func "
+      "writeCellCentres && mv constant/C 0/C",
+      name);
   expect_fine(riis_vtk_mesh_read(scratch_path(name), &mesh));
   expect_fine(riis_vtk_mesh_use_centers(mesh));
   expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
@@ -270,10 +297,8 @@ static void test_centers(const char *name) {
   expect_fine(riis_vtk_mesh_set_point_array(mesh, "riis_K", n, 1, K));
   expect_fine(riis_vtk_mesh_set_point_array(mesh, "riis_K_u_surface", n, 3, K));
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path(path)));
-  /* OpenFOAM writes the maximum of each field, and the magnitude of Ku. */
-  run("cd %s && postProcess -time 1 -func 'mag(Ku)' && postProcess -time 1 -func 'components(Ku)' && "
-      "postProcess -time 1 -func 'scale(K)' -field K || postProcess -time 1 -func 'grad(K)'",
-      name);
+  /* OpenFOAM reads both fields. */
+  run("cd %s && postProcess -time 1 -func 'mag(Ku)' && postProcess -time 1 -func 'grad(K)'", name);
   snprintf(path, sizeof path, "%s/1/mag(Ku)", name);
   double *magnitude = field(path, n);
   snprintf(path, sizeof path, "%s/1/K", name);
@@ -318,7 +343,7 @@ static void test_other_cells(void **state) {
   assert_true(shim_bend(scratch_path("mix.vtu"), n_of_type) == 0 && n_of_type[10] > 20 && n_of_type[13] > 10);
   test_centers("mix");
   write_case("dual", "ascii", "off");
-  run("cp -r mix/constant dual && cd dual && polyDualMesh 60 -overwrite && foamToVTK -ascii -constant -no-boundary && "
+  run("cp -r mix/constant dual && rm dual/constant/C* && cd dual && polyDualMesh 60 -overwrite && foamToVTK -constant -no-boundary && "
       "cp VTK/*/internal.vtu ../other.vtu");
   rewrite("dual", "dual.vtu");
   assert_true(shim_bend(scratch_path("dual.vtu"), n_of_type) == 0 && n_of_type[42] > 20);
@@ -329,6 +354,8 @@ static void test_other_cells(void **state) {
 #endif
 
 int main(void) {
+  /* Debian's package needs this folder, and its programs do not know it. */
+  setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_tetrahedron), cmocka_unit_test(test_broken),
 #ifdef RIIS_BLOCKMESH
