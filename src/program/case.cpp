@@ -7,6 +7,7 @@
 
 #include "program/leaks.hpp"
 #include "program/mesh_marking.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/moving_valve.hpp"
 #include "program/opening_law.hpp"
 #include "program/outputs.hpp"
@@ -66,7 +67,8 @@ void write_case_files(const MarkOptions &options, const std::vector<MovingValve>
 // Prints a line for each valve and for each written file.
 void print_case(const Case &all, const std::vector<MovingValve> &valves, const Report &report) {
   if (all.options.quiet) return;
-  std::string text = "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";
+  std::string text =
+      take_notes() + "mesh      " + all.options.mesh + ": " + counted(valves[0].stats().n_nodes, "node") + "\n";
   for (const MovingValve &valve : valves) {
     text += "valve     " + valve.options().prefix + ": " +
             (valve.source().valve ? "opening " + shown(valve.opening()) + ", " : "") +

@@ -17,7 +17,7 @@ namespace riis::program {
 
 MeshFile read_mesh(const MarkOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.mesh, options.quiet);
-  MeshFile mesh = read_mesh_file(options.mesh, options.quiet);
+  MeshFile mesh = read_mesh_file(options.mesh);
   if (options.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), options.mesh);
   seconds.read += stage.seconds();
   return mesh;

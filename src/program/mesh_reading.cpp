@@ -10,12 +10,12 @@
 #include <cerrno>
 #include <charconv>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <utility>
 
 #include "program/refusal.hpp"
 #include "program/valve_source.hpp"
@@ -118,7 +118,16 @@ Answer answer_of(int from) {
   return answer;
 }
 
-MeshFile read_by_child(const std::string &path, std::string &notes) {
+std::string &kept_notes() {
+  static std::string notes;
+  return notes;
+}
+
+void note(const std::string &path, const std::string &text) {
+  if (!text.empty()) kept_notes() += "note      " + path + ": " + text + "\n";
+}
+
+MeshFile read_by_child(const std::string &path) {
   const PassingFolder folder;
   int ends[2];
   if (pipe(ends) != 0) throw Refusal{exit_bad_data, std::string("no pipe to a child process: ") + std::strerror(errno)};
@@ -144,7 +153,7 @@ MeshFile read_by_child(const std::string &path, std::string &notes) {
     throw Refusal{
         exit_bad_data,
         answer.text + (answer.status == RIIS_FILE_ERROR ? conversion_hint(path, Content::mesh, answer.text) : "")};
-  notes = answer.text;
+  note(path, answer.text);
   riis_vtk_mesh *mesh = nullptr;
   check(riis_vtk_mesh_read(folder.mesh().c_str(), &mesh));
   return MeshFile(mesh);
@@ -157,22 +166,18 @@ bool has_poly_mesh(const fs::path &folder) {
 
 }  // namespace
 
-MeshFile read_mesh_file(const std::string &path, bool quiet) {
-  std::string notes;
-  MeshFile file;
-  if (may_crash(path)) {
-    file = read_by_child(path, notes);
-  } else {
-    riis_vtk_mesh *mesh = nullptr;
-    check_mesh_read(riis_vtk_mesh_read(path.c_str(), &mesh), path);
-    file.reset(mesh);
-    const char *text = nullptr;
-    check(riis_vtk_mesh_get_notes(mesh, &text));
-    notes = text;
-  }
-  if (!notes.empty() && !quiet) std::fprintf(stderr, "riis: note: %s: %s\n", path.c_str(), notes.c_str());
+MeshFile read_mesh_file(const std::string &path) {
+  if (may_crash(path)) return read_by_child(path);
+  riis_vtk_mesh *mesh = nullptr;
+  check_mesh_read(riis_vtk_mesh_read(path.c_str(), &mesh), path);
+  MeshFile file(mesh);
+  const char *text = nullptr;
+  check(riis_vtk_mesh_get_notes(mesh, &text));
+  note(path, text);
   return file;
 }
+
+std::string take_notes() { return std::exchange(kept_notes(), ""); }
 
 bool is_foam_case(const std::string &path) { return has_poly_mesh(path); }
 

@@ -8,8 +8,10 @@
 
 namespace riis::program {
 
-// Reads a mesh. Prints the reader's notes on stderr, unless `quiet`.
-MeshFile read_mesh_file(const std::string &path, bool quiet);
+// Reads a mesh. Keeps the reader's note, such as that the file has single precision, for the summary.
+MeshFile read_mesh_file(const std::string &path);
+// Returns the lines of the notes since the last call, for the beginning of the summary.
+std::string take_notes();
 
 // Returns whether the path is the folder of a case of OpenFOAM.
 bool is_foam_case(const std::string &path);

@@ -217,7 +217,7 @@ void check_mesh(const PlaceOptions &options, const Placed &placed) {
   const LandmarkFile &landmarks = placed.landmarks;
   const MeshFile mesh = [&] {
     const Stage stage("reading " + options.mesh, options.quiet);
-    return read_mesh_file(options.mesh, options.quiet);
+    return read_mesh_file(options.mesh);
   }();
   int64_t n_nodes = 0;
   const double *nodes = nullptr;
@@ -434,7 +434,7 @@ void run_place(const PlaceOptions &options) {
     write_text(path, text);
     uses_stdout = uses_stdout || path == "-";
   }
-  if (!options.quiet && !uses_stdout) write_text("-", place_report(kind, options, placed));
+  if (!options.quiet && !uses_stdout) write_text("-", take_notes() + place_report(kind, options, placed));
 }
 
 }  // namespace riis::program

@@ -10,6 +10,7 @@
 #include "program/handles.hpp"
 #include "program/leaks.hpp"
 #include "program/mesh_marking.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/pictures.hpp"
@@ -102,7 +103,7 @@ void write_stats(const MarkOptions &options, const Report &report) {
 }
 
 void print_table(const MarkOptions &options, const Report &report) {
-  if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
+  if (!options.quiet && options.stats != "-") write_text("-", take_notes() + table_of(report));
 }
 
 // Refuses outputs that would replace a frame. Outputs are written after all frames are read, so the user would not notice.

@@ -217,8 +217,8 @@ void warn_of_sweep(const Case &all, const Sweep &sweep, const riis_vtk_mesh *fil
 void print_summary(const Case &all, const Writing &writing, int64_t n_nodes, int64_t n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
-  std::string text = "times     " + counted(view(times).size(), "time") + " from " + shown(times.front()) + " to " +
-                     shown(times.back()) + "\n";
+  std::string text = take_notes() + "times     " + counted(view(times).size(), "time") + " from " +
+                     shown(times.front()) + " to " + shown(times.back()) + "\n";
   text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
           (writing.meshes().is_wanted() ? ", " + grouped(n_written) + " written\n" : "\n");
   text += writing.table().summary();
