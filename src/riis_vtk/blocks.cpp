@@ -130,7 +130,8 @@ struct HashOfPoint {
 };
 
 // Numbers the nodes of all blocks. Nodes of different blocks are one node if they have the same global id or, where a block has
-// no ids, if their coordinates are equal. Nodes of one block stay different, so that slits stay open. Returns the number of nodes.
+// no ids, if their coordinates are equal. Nodes of one block stay different, so that slits stay open. Returns the number of
+// nodes.
 vtkIdType number_nodes(std::vector<Block> &blocks) {
   const bool have_ids =
       std::all_of(blocks.begin(), blocks.end(), [](const Block &b) { return global_ids_of(b.grid) != nullptr; });

@@ -343,7 +343,8 @@ static void test_other_cells(void **state) {
   assert_true(shim_bend(scratch_path("mix.vtu"), n_of_type) == 0 && n_of_type[10] > 20 && n_of_type[13] > 10);
   test_centers("mix");
   write_case("dual", "ascii", "off");
-  run("cp -r mix/constant dual && rm dual/constant/C* && cd dual && polyDualMesh 60 -overwrite && foamToVTK -constant -no-boundary && "
+  run("cp -r mix/constant dual && rm dual/constant/C* && cd dual && polyDualMesh 60 -overwrite && "
+      "foamToVTK -constant -no-boundary && "
       "cp VTK/*/internal.vtu ../other.vtu");
   rewrite("dual", "dual.vtu");
   assert_true(shim_bend(scratch_path("dual.vtu"), n_of_type) == 0 && n_of_type[42] > 20);
