@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <vtkCell.h>
+#include <vtkCellType.h>
 #include <vtkCellTypes.h>
 #include <vtkGenericCell.h>
 #include <vtkNew.h>
@@ -43,6 +45,7 @@ FaceCenter center_of(vtkCell *face) {
     mean = mean + view(points)[i];
   }
   mean = 1.0 / static_cast<double>(n) * mean;
+  if (face->GetCellType() == VTK_PIXEL) std::swap(points[2], points[3]);  // the corners of a pixel do not go around it
   if (n == 3) return {mean, 0.5 * cross(points[1] - points[0], points[2] - points[0])};
   Vector area = {0, 0, 0}, moment = {0, 0, 0};
   double size = 0;

@@ -404,6 +404,15 @@ static void test_centers(void **state) {
     riis_vtk_mesh_destroy(&mesh);
   }
   plain_free(&hexahedra);
+  scratch_write_text(
+      "voxel.vtk",
+      "# vtk DataFile Version 2.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+      "0 0 0 2 0 0 0 4 0 2 4 0 0 0 6 2 0 6 0 4 6 2 4 6\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n");
+  expect_fine(riis_vtk_mesh_read(scratch_path("voxel.vtk"), &mesh));
+  expect_fine(riis_vtk_mesh_use_centers(mesh));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
+  for (int c = 0; c < 3; ++c) assert_true(n == 1 && fabs(xyz[c] - (c + 1)) < 1e-14);
+  riis_vtk_mesh_destroy(&mesh);
   write_plain("curved.vtu", 1);
   expect_fine(riis_vtk_mesh_read(scratch_path("curved.vtu"), &mesh));
   expect_refused(riis_vtk_mesh_use_centers(mesh), RIIS_INVALID_ARGUMENT, "cell 0 is a vtkQuadraticTetra");
