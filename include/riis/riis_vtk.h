@@ -32,12 +32,25 @@ extern "C" {
 /* An unstructured grid as read from the file, with its points as doubles. */
 typedef struct riis_vtk_mesh riis_vtk_mesh;
 
-/* Reads an unstructured grid, which may have no cells. The faces of polyhedra may be in streams, or in lists
- * as VTK 9.4 writes them.
- *   path  ends in .vtu (XML) or .vtk (legacy). A legacy file without cells must have CELLS 0 0, CELL_TYPES 0
- * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, another data set, truncated, or has
+/* Reads a mesh, which may have no cells. Its nodes and cells keep the file's order, and cells of second order
+ * get VTK's order of nodes. docs/formats.md has the limits of each format.
+ *   path  a file by its ending, or a folder of OpenFOAM:
+ *         .vtu (VTK XML), .vtk (legacy VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh),
+ *         .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam, a case, its time folder, or a polyMesh
+ * HDF5 and VTK's reader of Exodus can crash on damaged files: read .xdmf and Exodus files that you do not
+ * trust in a separate process, as the program riis does.
+ * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, of another kind, truncated, or has
  * no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
+/* Gives notes on the file in one line, such as "its points have single precision", or "". The text is valid
+ * until the mesh is destroyed. */
+RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
+/* Makes the centres of the cells the nodes of the mesh, in the order of the cells, for solvers with their
+ * unknowns there. They are OpenFOAM's centres. Two nodes are then neighbours if their cells share a face, and
+ * the arrays that are set are arrays of cells. Centres have no parts (riis_vtk_mesh_extract).
+ * Errors: RIIS_INVALID_ARGUMENT naming the cell, if it is neither a linear volume cell nor a polyhedron. The
+ * mesh then keeps its nodes. */
+RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
 
@@ -120,7 +133,11 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
- *   path  ends in .vtu */
+ *   path  ends in .vtu, or in .xdmf. The numbers of NAME.xdmf are in NAME.h5 beside it, or in itself if riis was
+ *         built without HDF5. Polyhedra and text have no place in an .xdmf. With nodes at centres, the path may
+ *         also be a time folder of the case of OpenFOAM that was read, such as CASE/0. The arrays of cells
+ *         become its fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
+ *         Such a folder may be written in part if an error occurs */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
 /* ---- Meshes in pieces ---------------------------------------------------------------------------------- */

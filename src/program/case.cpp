@@ -9,6 +9,7 @@
 #include "program/leaks.hpp"
 #include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/moving_valve.hpp"
 #include "program/opening_law.hpp"
 #include "program/outputs.hpp"
@@ -76,7 +77,7 @@ void write_case_files(const MarkOptions &options, const std::vector<MovingValve>
 void print_case(const Case &all, const std::vector<MovingValve> &valves, int64_t n_nodes,
                 const std::vector<int64_t> &n_marked, const Report &report) {
   if (all.options.quiet) return;
-  std::string text = "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") + "\n";
+  std::string text = take_notes() + "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") + "\n";
   for (std::size_t i = 0; i < valves.size(); ++i) {
     const MovingValve &valve = valves[i];
     text += "valve     " + valve.options().prefix + ": " +

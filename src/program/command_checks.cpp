@@ -120,6 +120,12 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
   check_distance(command, options);
   if (!is_prefix(options.prefix))
     refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
+  if (options.at_cells) {
+    if (!options.pictures.empty()) refuse_usage("--cells: --picture shows marks of nodes");
+    if (!options.series.movie.empty()) refuse_usage("--cells: --movie shows marks of nodes");
+    if (options.n_steps > 0) refuse_usage("--cells: --steps times marks of nodes");
+    options.series.all_cells = true;  // centres have no parts
+  }
   if (has_case) return options;
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
   if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");

@@ -274,12 +274,15 @@ void declare_series(Command &command, MarkOptions &options) {
   command.option("--time")->excludes(times);
 }
 
+constexpr const char *mesh_help = "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM";
+
 }  // namespace
 
 void declare_mark(Command command, MarkOptions &options) {
   command.group("Mesh");
-  command.text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML), .vtk (legacy), or .pvtu (pieces)",
-               options.mesh);
+  command.text("MESH", "FILE", mesh_help, options.mesh);
+  command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
+               options.at_cells);
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
@@ -288,8 +291,9 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_placement(command, options);
   declare_marking(command, options);
   command.group("Output");
-  CLI::Option *const output =
-      command.text("--output", "OUT.vtu|.pvtu", "Write the marked mesh; a .pvtu if MESH is one", options.output);
+  CLI::Option *const output = command.text(
+      "--output", "OUT", "Write the marked mesh: .vtu, .xdmf, .pvtu if MESH is one; --cells: fields in CASE/TIME",
+      options.output);
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);
   command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
@@ -320,10 +324,7 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   command.group("Mesh");
-  command
-      .text("MESH", "FILE", "The mesh, an unstructured grid: .vtu (XML), .vtk (legacy), or .pvtu (pieces)",
-            options.mesh)
-      ->required();
+  command.text("MESH", "FILE", mesh_help, options.mesh)->required();
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
               [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })

@@ -24,6 +24,7 @@ void check_options_of_pieces(const MarkOptions &options) {
   };
   if (!options.pictures.empty()) refuse("--picture", "a picture needs the whole mesh");
   if (!options.series.movie.empty()) refuse("--movie", "a movie needs the whole mesh");
+  if (options.at_cells) refuse("--cells", "cells at the border of a piece have neighbours in another piece");
   if (options.n_steps > 0) refuse("--steps", "steps are timed in the whole mesh");
   if (options.mark_options.search == RIIS_SEARCH_PAPER)
     refuse("--search paper", "this search walks through the whole mesh");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "program/handles.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_source.hpp"
@@ -16,10 +17,10 @@ namespace riis::program {
 
 MeshFile read_mesh(const MarkOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.mesh, options.quiet);
-  riis_vtk_mesh *mesh = nullptr;
-  check_mesh_read(riis_vtk_mesh_read(options.mesh.c_str(), &mesh), options.mesh);
+  MeshFile mesh = read_mesh_file(options.mesh);
+  if (options.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), options.mesh);
   seconds.read += stage.seconds();
-  return MeshFile(mesh);
+  return mesh;
 }
 
 Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path) {

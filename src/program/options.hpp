@@ -70,6 +70,7 @@ struct MarkOptions : ValveOptions {
   std::vector<std::string>
       pieces;              // the files of a mesh in pieces; empty before its list is read, and for other meshes
   bool needs_mesh = true;  // whether a case must name a mesh
+  bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options;
   double far_distance = RIIS_FAR_DISTANCE;
   std::optional<double> resistance;           // R, for an array of K

@@ -19,6 +19,7 @@
 #include <system_error>
 #include <vector>
 
+#include "program/mesh_reading.hpp"
 #include "program/pictures.hpp"
 #include "program/ranks.hpp"
 #include "program/refusal.hpp"
@@ -87,7 +88,10 @@ NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> 
 }
 
 NamedFiles outputs_of(const MarkOptions &options) {
-  NamedFiles outputs = {{"--output", options.output}, {options.surface_output_option, options.surface_output}};
+  // Fields of OpenFOAM go into a folder.
+  const bool is_folder = is_foam_case(options.output) || is_foam_time(options.output);
+  NamedFiles outputs = {{"--output", is_folder ? "" : options.output},
+                        {options.surface_output_option, options.surface_output}};
   for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
@@ -193,6 +197,27 @@ fs::path place_of(const std::string &path) {
 
 fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
 
+namespace {
+
+// Checks --output: a file, a time of a case of OpenFOAM or, for a series, the case itself.
+void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
+  const std::string &path = options.output;
+  if (path.empty()) return;
+  if (!has_pieces && (is_series ? is_foam_case(path) : is_foam_time(path))) {
+    if (!options.at_cells) refuse_usage("--output: " + path + " takes fields of cells: write --cells");
+    const fs::path folder = is_series ? fs::path(path) : folder_of(place_of(path));
+    if (access(folder.c_str(), W_OK | X_OK) != 0) cannot_be_written(path, system_text(errno));
+    return;
+  }
+  if (is_series)
+    check_ending(path, ".pvd", "--output");
+  else if (has_pieces || !has_ending(path, ".xdmf"))
+    check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
+  check_place(path);
+}
+
+}  // namespace
+
 OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
   // The ranks of a run share their outputs. The first one checks and locks these.
   if (!ranks::is_first()) return OutputLocks({});
@@ -203,20 +228,20 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
   check_distinct(inputs, outputs);
   const std::vector<NamedFile> lists = {{"--output", options.output}, {"--surface-output", options.surface_output}};
   for (const NamedFile &list : lists)
-    if (!list.path.empty() && (is_series || (has_pieces && list.option == "--output")))
+    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
       check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
   const auto check_file = [](const std::string &path, const char *ending, const std::string &option) {
     if (path.empty()) return;
     check_ending(path, ending, option);
     check_place(path);
   };
-  check_file(options.output, is_series ? ".pvd" : has_pieces ? ".pvtu" : ".vtu", "--output");
+  check_output(options, is_series, has_pieces);
   check_file(options.surface_output, is_series ? ".pvd" : ".vtp", options.surface_output_option);
   for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
   if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
   if (!options.series.table.empty()) check_place(options.series.table);
   for (const NamedFile &list : lists)
-    if (!list.path.empty() && (is_series || (has_pieces && list.option == "--output")))
+    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
       SeriesFiles(list.path, "", 1).check_folder();
   check_movie(options.series.movie);
   if (!options.series.movie.empty()) check_place(options.series.movie);

@@ -11,6 +11,7 @@
 #include "program/crossings.hpp"
 #include "program/handles.hpp"
 #include "program/landmark_file.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/progress.hpp"
@@ -214,12 +215,10 @@ double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const
 void check_mesh(const PlaceOptions &options, const Placed &placed) {
   if (options.mesh.empty()) return;
   const LandmarkFile &landmarks = placed.landmarks;
-  riis_vtk_mesh *handle = nullptr;
-  {
+  const MeshFile mesh = [&] {
     const Stage stage("reading " + options.mesh, options.quiet);
-    check_mesh_read(riis_vtk_mesh_read(options.mesh.c_str(), &handle), options.mesh);
-  }
-  const MeshFile mesh(handle);
+    return read_mesh_file(options.mesh);
+  }();
   int64_t n_nodes = 0;
   const double *nodes = nullptr;
   check(riis_vtk_mesh_get_nodes(mesh.get(), &n_nodes, nullptr, &nodes));
@@ -435,7 +434,7 @@ void run_place(const PlaceOptions &options) {
     write_text(path, text);
     uses_stdout = uses_stdout || path == "-";
   }
-  if (!options.quiet && !uses_stdout) write_text("-", place_report(kind, options, placed));
+  if (!options.quiet && !uses_stdout) write_text("-", take_notes() + place_report(kind, options, placed));
 }
 
 }  // namespace riis::program

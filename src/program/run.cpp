@@ -11,6 +11,7 @@
 #include "program/leaks.hpp"
 #include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/outputs.hpp"
 #include "program/parameters.hpp"
 #include "program/pictures.hpp"
@@ -77,7 +78,7 @@ void write_stats(const MarkOptions &options, const Report &report) {
 }
 
 void print_table(const MarkOptions &options, const Report &report) {
-  if (!options.quiet && options.stats != "-") write_text("-", table_of(report));
+  if (!options.quiet && options.stats != "-") write_text("-", take_notes() + table_of(report));
 }
 
 // Refuses outputs that would replace a frame. Outputs are written after all frames are read, so the user would not notice.

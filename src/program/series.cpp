@@ -14,6 +14,7 @@
 #include "program/leaks.hpp"
 #include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/moving_valve.hpp"
 #include "program/outputs.hpp"
 #include "program/pictures.hpp"
@@ -55,7 +56,8 @@ class Writing {
         part_(part),
         pictures_(pictures),
         nodes_(borrow_nodes(part, all.options.mesh)),
-        meshes_(all.options.output, ".vtu", times().size()),
+        foam_case_(is_foam_case(all.options.output) ? all.options.output : ""),
+        meshes_(foam_case_.empty() ? all.options.output : "", ".vtu", times().size()),
         surfaces_(all.options.surface_output, ".vtp", times().size()),
         table_(all) {}
 
@@ -94,6 +96,7 @@ class Writing {
 
   std::size_t n_done() const { return n_done_; }  // number of steps written
   const SeriesTable &table() const { return table_; }
+  const std::string &foam_case() const { return foam_case_; }
   const SeriesFiles &meshes() const { return meshes_; }
   const SeriesFiles &surfaces() const { return surfaces_; }
 
@@ -111,6 +114,7 @@ class Writing {
       check(riis_vtk_mesh_write(part_, path.c_str()));
       lists.add([&] { meshes_.add(times()[step], 0, path); });
     }
+    if (!foam_case_.empty()) check(riis_vtk_mesh_write(part_, foam_time(foam_case_, times()[step]).c_str()));
     for (std::size_t valve = 0; surfaces_.is_wanted() && valve < valves_.size(); ++valve) {
       const std::string path = surfaces_.path_of(step, all_.part_of(valve));
       check(riis_vtk_surface_write(valves_[valve].surface(), path.c_str()));
@@ -131,6 +135,7 @@ class Writing {
   riis_vtk_mesh *part_;
   SeriesPictures *pictures_;
   Mesh nodes_;
+  const std::string foam_case_;  // the case of OpenFOAM that gets fields, or ""
   SeriesFiles meshes_, surfaces_;
   SeriesTable table_;
   std::size_t n_done_ = 0;
@@ -218,8 +223,8 @@ void print_summary(const Case &all, const SeriesTable &table, const std::vector<
                    std::int64_t n_nodes, std::optional<std::int64_t> n_written, Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
-  std::string text = "times     " + counted(view(times).size(), "time") + " from " + shown(times.front()) + " to " +
-                     shown(times.back()) + "\n";
+  std::string text = take_notes() + "times     " + counted(view(times).size(), "time") + " from " +
+                     shown(times.front()) + " to " + shown(times.back()) + "\n";
   text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
           (n_written ? ", " + grouped(*n_written) + " written\n" : "\n");
   text += table.summary();
@@ -229,6 +234,8 @@ void print_summary(const Case &all, const SeriesTable &table, const std::vector<
     report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
                              files->folder());
   }
+  if (!writing.foam_case().empty())
+    report.written.push_back(writing.foam_case() + ", fields of " + counted(view(times).size(), "time"));
   if (!all.options.series.table.empty()) report.written.push_back(all.options.series.table);
   for (const std::string &path : report.written) text += "written   " + path + "\n";
   write_text("-", text);

@@ -49,7 +49,7 @@ void check_read(riis_status status, const std::string &path, Content content) {
   try {
     check(status);
   } catch (Refusal &refusal) {
-    if (status == RIIS_FILE_ERROR) refusal.text += conversion_hint(path, content);
+    if (status == RIIS_FILE_ERROR) refusal.text += conversion_hint(path, content, refusal.text);
     throw;
   }
 }
@@ -246,8 +246,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // The endings that a tool converts. tests/cli/test_cli_conversions.c tests each ending if the tool is installed.
-const std::set<std::string> meshes_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh"};
-const std::set<std::string> meshes_of_meshio = {".inp", ".su2"};
+const std::set<std::string> meshes_of_gmsh = {".unv", ".bdf", ".nas", ".mesh"};
+const std::set<std::string> meshes_of_meshio = {".inp", ".su2", ".med"};
+// ParaView opens these. They hold blocks, or grids that are not unstructured.
+const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti", ".vtr",
+                                                  ".vts",  ".pvti", ".pvtr",  ".pvts",   ".plt", ".tec"};
 const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
 const std::set<std::string> surfaces_of_meshio = {".obj", ".off"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
@@ -284,15 +287,28 @@ std::string by_meshio(const std::string &path, const char *format) {
   return "; meshio converts it: meshio convert " + shell_word(path) + " " + with_ending(path, format);
 }
 
+// A .msh may be of another version of gmsh, or of Ansys Fluent. A damaged one cannot be converted.
+std::string hint_for_msh(const std::string &path, const std::string &refusal) {
+  if (refusal.find("of gmsh's format;") != std::string::npos || refusal.find("is of gmsh's type") != std::string::npos)
+    return by_gmsh(path, "vtk");
+  return refusal.find("is not a mesh of gmsh") != std::string::npos ? by_meshio(path, "vtu") : "";
+}
+
 }  // namespace
 
-std::string conversion_hint(const std::string &path, Content wanted) {
+std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
   // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
   if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
   if (wanted == Content::mesh) {
+    if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
     if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+    if (meshes_of_paraview.count(ending) != 0)
+      return "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., " +
+             with_ending(path, "vtu");
+    if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
+    if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";
     return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
   }
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");

@@ -79,6 +79,6 @@ enum class Content { mesh, surface };
 
 // Returns a hint such as "; gmsh converts it: gmsh -save in.msh -format vtk -o in.vtk". Returns "" for an ending that can be
 // read or is unknown.
-std::string conversion_hint(const std::string &path, Content wanted);
+std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal);
 
 }  // namespace riis::program

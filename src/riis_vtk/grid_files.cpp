@@ -29,6 +29,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "common/array_view.hpp"
+#include "riis_vtk/other_files.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -140,13 +141,6 @@ void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
     }
     check_polyhedron(path, cell_id, locations->GetValue(cell_id), faces, grid->GetNumberOfPoints());
   }
-}
-
-void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
-  check_data_set(path, grid);
-  check_point_ids(path, grid->GetCells(), 0, grid->GetNumberOfPoints());
-  check_cell_sizes(path, grid);
-  check_polyhedra(path, grid);
 }
 
 // Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first one is kept, and rethrow() throws it
@@ -394,16 +388,33 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
 
 }  // namespace
 
+void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
+  check_data_set(path, grid);
+  check_point_ids(path, grid->GetCells(), 0, grid->GetNumberOfPoints());
+  check_cell_sizes(path, grid);
+  check_polyhedra(path, grid);
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught, Points points) {
   const std::string ending = ending_of(path);
   vtkSmartPointer<vtkUnstructuredGrid> grid;
-  if (ending == "vtu") {
+  if (is_openfoam(path)) {
+    grid = read_openfoam(path);
+  } else if (ending == "vtu") {
     check_xml(path, "UnstructuredGrid");
     grid = read_xml<GridReader, vtkUnstructuredGrid>(path, caught);
   } else if (ending == "vtk") {
     grid = read_legacy(path, caught);
+  } else if (ending == "msh") {
+    grid = read_gmsh(path);
+  } else if (ending == "xdmf" || ending == "xmf") {
+    grid = read_xdmf(path);
+  } else if (ending == "e" || ending == "exo" || ending == "ex2" || ending == "exii") {
+    grid = read_exodus(path, caught);
+  } else if (ending == "vtm") {
+    grid = read_blocks(path, caught);
   } else {
-    fail_file(path, "a mesh must be a .vtu or .vtk file");
+    fail_file(path, "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
   }
   if (points == Points::may_be_missing && grid->GetNumberOfPoints() == 0 && grid->GetNumberOfCells() == 0) return grid;
   check_grid(path, grid);

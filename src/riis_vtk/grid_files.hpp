@@ -17,10 +17,13 @@ class vtkXMLDataParser;
 
 namespace riis::vtk {
 
-// Reads an unstructured grid from a .vtu (XML) or .vtk (legacy) file. Only a piece of a mesh may be without points.
+// Reads an unstructured grid from a file of any of the formats of docs/formats.md. Only a piece of a mesh may be without points.
 enum class Points { required, may_be_missing };
 vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught,
                                                Points points = Points::required);
+
+// Fails unless the grid has points, and its cells have types, sizes and points that exist.
+void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 
 // Reads polydata with at least one point from a .vtp (XML) file. Its cells are only polygons and strips.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);

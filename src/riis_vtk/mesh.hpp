@@ -7,6 +7,8 @@
 #include <riis/riis_vtk.h>
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <vtkSmartPointer.h>
@@ -14,8 +16,26 @@
 
 class vtkUnsignedCharArray;
 
+namespace riis::vtk {
+
+// The centres of all cells, xyz(3, n_cells), and the pairs of cells that share a face, (2, n_pairs).
+struct CellCenters {
+  std::vector<double> xyz;
+  std::vector<std::int64_t> pairs;
+};
+CellCenters centers_of(vtkUnstructuredGrid *grid);
+
+}  // namespace riis::vtk
+
 struct riis_vtk_mesh {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
+  std::string notes = {};                     // what riis_vtk_mesh_get_notes gives
+  std::string foam_case = {};                 // the folder of the case that the mesh was read from, or ""
+  // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
+  std::unique_ptr<const riis::vtk::CellCenters> centers = {};
+
+  std::int64_t n_nodes() const { return centers ? grid->GetNumberOfCells() : grid->GetNumberOfPoints(); }
+  vtkDataSetAttributes *node_data() const;
 };
 
 namespace riis::vtk {

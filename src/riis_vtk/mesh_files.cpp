@@ -7,9 +7,12 @@
 #include <cmath>
 #include <memory>
 
+#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -17,8 +20,19 @@
 #include "common/array_view.hpp"
 #include "riis_vtk/grid_files.hpp"
 #include "riis_vtk/mesh.hpp"
+#include "riis_vtk/other_files.hpp"
 
 namespace riis::vtk {
+
+// Takes the note of a reader out of the grid. Files of VTK may have points in single precision.
+std::string take_note(vtkUnstructuredGrid *grid) {
+  std::string note;
+  if (auto *const array = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(note_array))) {
+    if (array->GetNumberOfValues() > 0) note = array->GetValue(0);
+    grid->GetFieldData()->RemoveArray(note_array);
+  }
+  return note.empty() && grid->GetPoints()->GetDataType() == VTK_FLOAT ? "its points have single precision" : note;
+}
 
 void make_points_double(vtkUnstructuredGrid *grid) {
   if (grid->GetPoints() && vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())) return;
@@ -81,8 +95,44 @@ void check_length(double longer_than) {
   refuse_argument("longer_than is ", longer_than, "; it must be finite and at least 0");
 }
 
-const double *points_of(vtkUnstructuredGrid *grid) {
-  return vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0);
+const double *points_of(const riis_vtk_mesh *mesh) {
+  return mesh->centers ? mesh->centers->xyz.data()
+                       : vtkDoubleArray::SafeDownCast(mesh->grid->GetPoints()->GetData())->GetPointer(0);
+}
+
+// Returns the pairs of neighbouring cells that are longer than a length and whose bounding box meets the box from lower to upper.
+std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, double longer_than, const double *lower,
+                                        const double *upper) {
+  std::vector<std::int64_t> pairs;
+  for (std::int64_t i = 0; i < view(centers.pairs).size(); i += 2) {
+    const double *const a = centers.xyz.data() + 3 * view(centers.pairs)[i];
+    const double *const b = centers.xyz.data() + 3 * view(centers.pairs)[i + 1];
+    double length_sq = 0;
+    bool meets = true;
+    for (int c = 0; c < 3; ++c) {
+      length_sq += (b[c] - a[c]) * (b[c] - a[c]);
+      meets = meets && std::min(a[c], b[c]) <= upper[c] && std::max(a[c], b[c]) >= lower[c];
+    }
+    constexpr double margin = 1 - 1e-9;
+    if (meets && std::sqrt(length_sq) > longer_than * margin)
+      pairs.insert(pairs.end(), {view(centers.pairs)[i], view(centers.pairs)[i + 1]});
+  }
+  return pairs;
+}
+
+double median_edge_of(const CellCenters &centers) {
+  constexpr std::int64_t most = 20000;
+  const std::int64_t n = view(centers.pairs).size() / 2, step = std::max<std::int64_t>(1, n / most);
+  std::vector<double> lengths;
+  for (std::int64_t i = 0; i < n; i += step) {
+    const double *const a = centers.xyz.data() + 3 * view(centers.pairs)[2 * i];
+    const double *const b = centers.xyz.data() + 3 * view(centers.pairs)[2 * i + 1];
+    lengths.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
+  }
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
 }
 
 // The functions below make point arrays of a grid. riis_vtk.h documents their names. The values come from a marking or from the
@@ -117,15 +167,15 @@ struct Within {
 
 // Adds an array that has `values` at the nodes within the limit, and `elsewhere` at the others.
 template <class Array, class Value>
-void add_field(vtkUnstructuredGrid *grid, const std::string &name, const Within &within, int n_components,
+void add_field(riis_vtk_mesh *mesh, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {
   if (!values && within.n > 0) refuse_argument("marks lack the field of ", name);
-  const auto array = named_array<Array>(name, grid->GetNumberOfPoints(), n_components);
+  const auto array = named_array<Array>(name, mesh->n_nodes(), n_components);
   Value *const to = array->GetPointer(0);
-  std::fill_n(to, n_components * grid->GetNumberOfPoints(), elsewhere);
+  std::fill_n(to, n_components * mesh->n_nodes(), elsewhere);
   for (std::int64_t i = 0; i < within.n; ++i)
     std::copy_n(values + n_components * i, n_components, to + n_components * within.node_id[i]);
-  grid->GetPointData()->AddArray(array);
+  mesh->node_data()->AddArray(array);
 }
 
 void check_fields(std::int32_t fields) {
@@ -135,9 +185,9 @@ void check_fields(std::int32_t fields) {
 }
 
 // Sets the arrays PREFIX_marked, PREFIX_distance and PREFIX_leaflet.
-void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_distance, const std::string &prefix) {
+void set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance, const std::string &prefix) {
   check_name("prefix", prefix);
-  const vtkIdType n = grid->GetNumberOfPoints();
+  const vtkIdType n = mesh->n_nodes();
   check_are_of_mesh(marks, n);
   const auto marked = named_array<vtkUnsignedCharArray>(prefix + "_marked", n);
   const auto distance = named_array<vtkDoubleArray>(prefix + "_distance", n);
@@ -152,37 +202,37 @@ void set_marks(vtkUnstructuredGrid *grid, const riis_marks *marks, double far_di
   check_core(riis_marks_get_dense(marks, &to));
   for (vtkDataArray *array : {static_cast<vtkDataArray *>(marked), static_cast<vtkDataArray *>(distance),
                               static_cast<vtkDataArray *>(leaflet)}) {
-    grid->GetPointData()->AddArray(array);
+    mesh->node_data()->AddArray(array);
   }
 }
 
 // Sets a point array. `values` is (n_components, n_nodes).
-void set_point_array(vtkUnstructuredGrid *grid, const std::string &name, std::int64_t n_nodes,
-                     std::int64_t n_components, const double *values) {
+void set_point_array(riis_vtk_mesh *mesh, const std::string &name, std::int64_t n_nodes, std::int64_t n_components,
+                     const double *values) {
   check_name("name", name);
-  const vtkIdType n = grid->GetNumberOfPoints();
+  const vtkIdType n = mesh->n_nodes();
   if (n_nodes != n) refuse_argument("n_nodes is ", n_nodes, "; the mesh has ", n, " nodes");
   if (n_components < 1 || n_components > 9)
     refuse_argument("n_components is ", n_components, "; it must be from 1 to 9");
   const auto array = named_array<vtkDoubleArray>(name, n, static_cast<int>(n_components));
   std::copy_n(values, n * n_components, array->GetPointer(0));
-  grid->GetPointData()->AddArray(array);
+  mesh->node_data()->AddArray(array);
 }
 
 // Sets an array for each of the fields, such as PREFIX_normal.
-void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
+void set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, std::int32_t fields, const std::string &prefix) {
   check_name("prefix", prefix);
   check_fields(fields);
-  check_are_of_mesh(marks, grid->GetNumberOfPoints());
+  check_are_of_mesh(marks, mesh->n_nodes());
   riis_mark_list of{};
   check_core(riis_marks_get_list(marks, RIIS_LIST_WITHIN_LIMIT, &of, sizeof of));
   const Within within{of.n_nodes, of.node_id};
   const auto add_doubles = [&](std::int32_t field, const char *name, int n_components, const double *values) {
-    if (fields & field) add_field<vtkDoubleArray>(grid, prefix + name, within, n_components, values, 0.0);
+    if (fields & field) add_field<vtkDoubleArray>(mesh, prefix + name, within, n_components, values, 0.0);
   };
   const auto add_integers = [&](std::int32_t field, const char *name, const std::int32_t *values,
                                 std::int32_t elsewhere) {
-    if (fields & field) add_field<vtkTypeInt32Array>(grid, prefix + name, within, 1, values, elsewhere);
+    if (fields & field) add_field<vtkTypeInt32Array>(mesh, prefix + name, within, 1, values, elsewhere);
   };
   add_doubles(RIIS_FIELD_POINT, "_point", 3, of.point);
   add_doubles(RIIS_FIELD_NORMAL, "_normal", 3, of.normal);
@@ -199,6 +249,10 @@ void set_fields(vtkUnstructuredGrid *grid, const riis_marks *marks, std::int32_t
 
 using namespace riis::vtk;
 
+vtkDataSetAttributes *riis_vtk_mesh::node_data() const {
+  return centers ? static_cast<vtkDataSetAttributes *>(grid->GetCellData()) : grid->GetPointData();
+}
+
 extern "C" {
 
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) {
@@ -208,9 +262,25 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
     naming(path, [&] {
       auto made = std::make_unique<riis_vtk_mesh>();
       made->grid = read_grid(path, caught);
+      made->notes = take_note(made->grid);
+      if (is_openfoam(path)) made->foam_case = foam_case_of(path);
       make_points_double(made->grid);
       *mesh = made.release();
     });
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    *require(notes, "notes") = mesh->notes.c_str();
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    if (!mesh->centers) mesh->centers = std::make_unique<const CellCenters>(centers_of(mesh->grid));
   });
 }
 
@@ -223,10 +293,10 @@ RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz) {
   return guarded([&](const CaughtOutput &) {
-    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
-    if (n_nodes) *n_nodes = grid->GetNumberOfPoints();
-    if (n_cells) *n_cells = grid->GetNumberOfCells();
-    if (xyz) *xyz = points_of(grid);
+    require(mesh, "mesh");
+    if (n_nodes) *n_nodes = mesh->n_nodes();
+    if (n_cells) *n_cells = mesh->grid->GetNumberOfCells();
+    if (xyz) *xyz = points_of(mesh);
   });
 }
 
@@ -235,7 +305,8 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(adjacency, "adjacency");
-    *adjacency = adjacency_of(mesh->grid, n_threads);
+    *adjacency = mesh->centers ? adjacency_of_edges(mesh->n_nodes(), mesh->centers->pairs, n_threads)
+                               : adjacency_of(mesh->grid, n_threads);
   });
 }
 
@@ -243,14 +314,18 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
                                                      double longer_than, int32_t n_threads, int64_t *n_cells_left_out,
                                                      riis_adjacency **adjacency) {
   return guarded([&](const CaughtOutput &) {
-    vtkUnstructuredGrid *grid = require(mesh, "mesh")->grid;
+    require(mesh, "mesh");
     require(surface, "surface");
     check_length(longer_than);
     require(adjacency, "adjacency");
     riis_surface_info info;
     check_core(riis_surface_get_info(surface, &info, sizeof info));
-    const VolumeEdges edges = long_edges_of(grid, points_of(grid), longer_than, info.lower, info.upper);
-    *adjacency = adjacency_of_edges(grid->GetNumberOfPoints(), edges.node_ids, n_threads);
+    VolumeEdges edges;
+    if (mesh->centers)
+      edges.node_ids = long_pairs_of(*mesh->centers, longer_than, info.lower, info.upper);
+    else
+      edges = long_edges_of(mesh->grid, points_of(mesh), longer_than, info.lower, info.upper);
+    *adjacency = adjacency_of_edges(mesh->n_nodes(), edges.node_ids, n_threads);
     if (n_cells_left_out) *n_cells_left_out = edges.n_cells_left_out;
   });
 }
@@ -267,14 +342,14 @@ RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_set_marks(riis_vtk_mesh *mesh, const riis_marks *marks, double far_distance,
                                              const char *prefix) {
   return guarded([&](const CaughtOutput &) {
-    set_marks(require(mesh, "mesh")->grid, require(marks, "marks"), far_distance, prefix ? prefix : default_prefix);
+    set_marks(require(mesh, "mesh"), require(marks, "marks"), far_distance, prefix ? prefix : default_prefix);
   });
 }
 
 RIIS_API riis_status riis_vtk_mesh_set_fields(riis_vtk_mesh *mesh, const riis_marks *marks, int32_t fields,
                                               const char *prefix) {
   return guarded([&](const CaughtOutput &) {
-    set_fields(require(mesh, "mesh")->grid, require(marks, "marks"), fields, require(prefix, "prefix"));
+    set_fields(require(mesh, "mesh"), require(marks, "marks"), fields, require(prefix, "prefix"));
   });
 }
 
@@ -282,7 +357,7 @@ RIIS_API riis_status riis_vtk_mesh_set_point_array(riis_vtk_mesh *mesh, const ch
                                                    int64_t n_components, const double *values) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
-    set_point_array(mesh->grid, require(name, "name"), n_nodes, n_components, require(values, "values"));
+    set_point_array(mesh, require(name, "name"), n_nodes, n_components, require(values, "values"));
   });
 }
 
@@ -290,7 +365,7 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(name, "name");
-    *require(has, "has") = mesh->grid->GetPointData()->HasArray(name) != 0;
+    *require(has, "has") = mesh->node_data()->HasArray(name) != 0;
   });
 }
 
@@ -298,7 +373,7 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");
     require(length, "length");
-    *length = median_edge_of(mesh->grid);
+    *length = mesh->centers ? median_edge_of(*mesh->centers) : median_edge_of(mesh->grid);
   });
 }
 
@@ -306,7 +381,14 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
   return guarded([&](const CaughtOutput &caught) {
     require(mesh, "mesh");
     require(path, "path");
-    naming(path, [&] { write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught); });
+    naming(path, [&] {
+      if (is_foam_time(path))
+        write_foam_fields(path, *mesh);
+      else if (ending_of(path) == "xdmf")
+        write_xdmf(path, mesh->grid);
+      else
+        write_xml<vtkXMLUnstructuredGridWriter>(path, "vtu", mesh->grid, caught);
+    });
   });
 }
 

@@ -786,6 +786,8 @@ static void test_signatures(void **state) {
             (const riis_opening_angle *, const riis_opening_angle_state *, double, double, double,
              riis_opening_angle_state *));
   SIGNATURE(riis_vtk_mesh_read, int32_t, (const char *, riis_vtk_mesh **));
+  SIGNATURE(riis_vtk_mesh_get_notes, int32_t, (const riis_vtk_mesh *, const char **));
+  SIGNATURE(riis_vtk_mesh_use_centers, int32_t, (riis_vtk_mesh *));
   SIGNATURE(riis_vtk_mesh_destroy, void, (riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_get_nodes, int32_t, (const riis_vtk_mesh *, int64_t *, int64_t *, const double **));
   SIGNATURE(riis_vtk_mesh_create_adjacency, int32_t, (const riis_vtk_mesh *, int32_t, riis_adjacency **));

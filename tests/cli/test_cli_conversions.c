@@ -13,18 +13,36 @@
 static void test_texts(void **state) {
   (void)state;
   const char *mesh = scratch_path("in.vtu");
-  RUN_REFUSED(1,
-              "dir/heart.msh: a mesh must be a .vtu or .vtk file; gmsh converts it: gmsh -save dir/heart.msh -format "
-              "vtk -o dir/heart.vtk\n",
-              "mark", "dir/heart.msh");
   RUN_REFUSED(1, "; gmsh converts it: gmsh -save heart.UNV -format vtk -o heart.vtk\n", "mark", "heart.UNV");
   RUN_REFUSED(1, "; meshio converts it: meshio convert heart.inp heart.vtu\n", "mark", "heart.inp");
-  RUN_REFUSED(1, "gmsh -save 'my heart.msh' -format vtk -o 'my heart.vtk'\n", "mark", "my heart.msh");
-  RUN_REFUSED(1, "gmsh -save 'it'\\''s.msh' -format vtk -o 'it'\\''s.vtk'\n", "mark", "it's.msh");
-  RUN_REFUSED(1, "gmsh -save ./-x.msh -format vtk -o ./-x.vtk\n", "mark", "--", "-x.msh");
-  RUN_REFUSED(1, "valve.stl: a mesh must be a .vtu or .vtk file; --surface takes a surface\n", "mark", "valve.stl");
-  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "mark", "heart.doc");
-  RUN_REFUSED(1, "a mesh must be a .vtu or .vtk file\n", "mark", "he\nart.msh");
+  RUN_REFUSED(1, "; meshio converts it: meshio convert heart.med heart.vtu\n", "mark", "heart.med");
+  const char *endings[] = {"cgns", "case", "encas", "vtkhdf", "vti", "vts", "vtr", "pvts", "tec"};
+  for (int i = 0; i < 9; ++i) {
+    char name[32];
+    snprintf(name, sizeof name, "heart.%s", endings[i]);
+    RUN_REFUSED(1,
+                "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., "
+                "heart.vtu\n",
+                "mark", name);
+  }
+  RUN_REFUSED(1, "; OpenFOAM converts it: fluentMeshToFoam heart.cas\n", "mark", "heart.cas");
+  RUN_REFUSED(1, "; give the .xdmf file that names it\n", "mark", "heart.h5");
+  scratch_write_text("fluent.msh", "(0 \"Fluent\")\n");
+  RUN_REFUSED(1, "does not begin with $MeshFormat; meshio converts it: meshio convert ", "mark",
+              scratch_path("fluent.msh"));
+  scratch_write_text("cut.msh", "$MeshFormat\n4.1 0 8\n");
+  RUN_REFUSED(1, "cut.msh: is truncated: it ends before $EndMeshFormat\n", "mark", scratch_path("cut.msh"));
+  RUN_REFUSED(1, "gmsh -save 'my heart.unv' -format vtk -o 'my heart.vtk'\n", "mark", "my heart.unv");
+  RUN_REFUSED(1, "gmsh -save 'it'\\''s.unv' -format vtk -o 'it'\\''s.vtk'\n", "mark", "it's.unv");
+  RUN_REFUSED(1, "gmsh -save ./-x.unv -format vtk -o ./-x.vtk\n", "mark", "--", "-x.unv");
+  RUN_REFUSED(1,
+              "valve.stl: a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM; "
+              "--surface takes a surface\n",
+              "mark", "valve.stl");
+  RUN_REFUSED(1, "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM\n", "mark",
+              "heart.doc");
+  RUN_REFUSED(1, "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM\n", "mark",
+              "he\nart.unv");
   RUN_REFUSED(1,
               "valve.ply: a surface must be a .vtp, .vtu or .stl file; gmsh converts it: gmsh -save valve.ply -format "
               "stl -o valve.stl\n",
@@ -64,7 +82,7 @@ static void make_by_gmsh(int dimension, const char *format, const char *path) {
 
 static void test_meshes_by_gmsh(void **state) {
   (void)state;
-  const char *formats[] = {"msh", "unv", "bdf", "mesh", "bdf"}, *endings[] = {"msh", "unv", "bdf", "mesh", "nas"};
+  const char *formats[] = {"msh40", "unv", "bdf", "mesh", "bdf"}, *endings[] = {"msh", "unv", "bdf", "mesh", "nas"};
   for (int i = 0; i < 5; ++i) {
     char name[32], path[256];
     snprintf(name, sizeof name, "cube_%d.%s", i, endings[i]);

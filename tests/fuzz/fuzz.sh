@@ -14,8 +14,8 @@ seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
 # Each harness gets its share of the time.
-declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [pvtu]=1 [json]=3 [stl]=2 [command_line]=2 [cycle]=1)
-harnesses=(api vtk vtu vtp pvd pvtu json stl command_line cycle)
+declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [pvtu]=1 [json]=3 [stl]=2 [command_line]=2 [cycle]=1 [msh]=2 [xdmf]=1)
+harnesses=(api vtk vtu vtp pvd pvtu json stl command_line cycle msh xdmf)
 
 # options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input and the
 # memory, most of which the address sanitizer keeps for itself. No input of the allowed size should reach these limits.
@@ -30,7 +30,7 @@ options() {
       max_len=1024
       echo -close_fd_mask=1 # hides the help that the harness prints
       ;;
-    vtu | vtp | pvd | pvtu) dictionary=xml ;;
+    vtu | vtp | pvd | pvtu | xdmf) dictionary=xml ;;
   esac
   # VTK's readers leak on inputs that they refuse. A check for leaks after each such input would take all the time, so leaks are
   # checked only at the end.

@@ -157,6 +157,10 @@ void read_collection() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t size) {
   file().hold(bytes, size);
   const std::string ending = RIIS_FUZZ_ENDING;
+  if (ending == "msh" || ending == "xdmf") {
+    read_mesh();
+    return 0;
+  }
   if (ending == "vtk" || ending == "vtu") read_mesh();
   if (ending == "pvd") read_collection();
   if (ending == "pvtu") read_pieces();

@@ -53,9 +53,9 @@ static void test_not_files(void **state) {
   scratch_write_text("empty.vtk", "");
   expect_file_error("empty.vtk", "is empty");
   scratch_write_text("mesh.obj", "v 0 0 0\n");
-  expect_file_error("mesh.obj", "a mesh must be a .vtu or .vtk file");
+  expect_file_error("mesh.obj", "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
   scratch_write_text("no_ending", "v 0 0 0\n");
-  expect_file_error("no_ending", "a mesh must be a .vtu or .vtk file");
+  expect_file_error("no_ending", "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
 }
 
 static void test_unreadable(void **state) {

@@ -177,7 +177,8 @@ static void test_odd_names(void **state) {
                  "a?b.vtu: cannot be read: No such file");
   static char name[4000];
   memset(name, 'x', sizeof name - 1);
-  expect_refused(riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR, "xxx: a mesh must be a .vtu or .vtk file");
+  expect_refused(riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR,
+                 "xxx: a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
 }
 
 static void test_floating_point_environment(void **state) {

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * C wrappers of VTK for tests of mesh formats. They use no code of riis. Files are .vtu or legacy .vtk files. */
+#ifndef RIIS_TESTS_FORMATS_SHIM_H
+#define RIIS_TESTS_FORMATS_SHIM_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How meshes are compared. SHIM_BITS compares the bits of coordinates, and the order of the corners of each cell.
+ * SHIM_SETS ignores the order of corners. SHIM_FLOATS does as SHIM_BITS, after rounding to single precision. */
+enum { SHIM_BITS, SHIM_SETS, SHIM_FLOATS };
+/* Compares two meshes whose nodes and cells may have different orders. counts gets the numbers of points and cells of `a`,
+ * then the numbers of points and cells that are only in one of the meshes. Returns 0 if a file cannot be read. */
+int shim_compare_meshes(const char *a, const char *b, int how, int64_t counts[4]);
+
+/* Counts the cells of each of VTK's types. Returns the largest distance of a node within a side, face or cell of second order
+ * from the place that VTK's parametric coordinates give it between the corners. Returns -1 if the file cannot be read. */
+double shim_bend(const char *path, int64_t n_of_type[100]);
+
+/* Writes the mesh in two blocks, with the even and the odd cells, each with its own points: as Exodus by VTK, or as a .vtm.
+ * If with_ids is set, the points of the blocks of a .vtm have global ids. Returns 1 on success, or 0 if VTK lacks Exodus. */
+int shim_write_exodus(const char *path, const char *mesh);
+int shim_write_vtm(const char *path, const char *mesh, int with_ids);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Meshes of other programs: gmsh, VTK's writers of Exodus and .vtm, and XDMF. Each is compared with the same mesh that gmsh or
+ * VTK wrote as a .vtk or .vtu, in exact bits and in any order of nodes and cells. test_openfoam_files has OpenFOAM's. */
+#include <math.h>
+#include <riis/riis_vtk.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include "expect.h"
+#include "formats_shim.h"
+#include "plain_mesh.h"
+#include "scratch.h"
+#include "vtk_shim.h"
+
+/* Reads a mesh and writes it again. `notes` is what the reader must say. */
+static void rewrite(const char *from, const char *to, const char *notes) {
+  riis_vtk_mesh *mesh = NULL;
+  const char *text = NULL;
+  expect_fine(riis_vtk_mesh_read(scratch_path(from), &mesh));
+  expect_fine(riis_vtk_mesh_get_notes(mesh, &text));
+  assert_string_equal(text, notes);
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path(to)));
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+static void expect_same_but(const char *a, const char *b, int how, int64_t n_least, int64_t n_other_cells) {
+  int64_t counts[4] = {0, 0, -1, -1};
+  assert_true(shim_compare_meshes(scratch_path(a), scratch_path(b), how, counts));
+  if (counts[2] != 0 || counts[3] != n_other_cells || counts[0] < n_least || counts[1] < n_least)
+    fail_msg("%s and %s: %lld points, %lld cells, of which %lld and %lld differ", a, b, (long long)counts[0],
+             (long long)counts[1], (long long)counts[2], (long long)counts[3]);
+}
+
+static void expect_same(const char *a, const char *b, int how, int64_t n_least) {
+  expect_same_but(a, b, how, n_least, 0);
+}
+
+/* Boxes of hexahedra, prisms and tetrahedra, with pyramids between hexahedra and tetrahedra. */
+static const char geometry[] =
+    "Point(1) = {-1.1, -1.2, -1.3}; Point(2) = {1.4, -1.2, -1.3}; Point(3) = {1.4, 1.5, -1.3}; Point(4) = {-1.1, 1.5, "
+    "-1.3};\n"
+    "For i In {1:4}\n  Line(i) = {i, i % 4 + 1};\nEndFor\n"
+    "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+    "Transfinite Curve {1:4} = 3; Transfinite Surface {1}; Recombine Surface {1};\n"
+    "hex[] = Extrude {0, 0, 1.7} { Surface{1}; Layers{2}; Recombine; };\n"
+    "Point(101) = {2.6, 0.1, -1.3}; Line(101) = {2, 101}; Line(102) = {101, 3};\n"
+    "Curve Loop(101) = {101, 102, -2}; Plane Surface(101) = {101};\n"
+    "prisms[] = Extrude {0, 0, 1.7} { Surface{101}; Layers{2}; Recombine; };\n"
+    "Point(201) = {0.2, 0.1, 2.9};\n"
+    "top[] = Boundary { Surface{hex[0]}; };\n"
+    "For i In {0:3}\n  ends[] = Boundary { Curve{top[i]}; };\n  Line(200 + i) = {Abs(ends[0]), 201};\nEndFor\n"
+    "For i In {0:3}\n  j = (i + 1) % 4;\n  Curve Loop(200 + i) = {top[i], 200 + j, -(200 + i)};\n"
+    "  Plane Surface(200 + i) = {200 + i};\nEndFor\n"
+    "Surface Loop(201) = {hex[0], 200:203}; Volume(201) = {201};\n"
+    "Physical Volume(7) = {hex[1]}; Physical Volume(8) = {prisms[1], 201}; Physical Surface(9) = {hex[0], 1};\n"
+    "Mesh.MeshSizeMax = 1.2; Mesh.MeshSizeMin = 0.8;\n";
+
+#ifdef RIIS_GMSH
+static void run_gmsh(const char *options, const char *output) {
+  char command[1024];
+  snprintf(command, sizeof command, RIIS_GMSH " -v 1 -nt 1 %s -o %s > %s 2>&1", options, scratch_path(output),
+           scratch_path("gmsh.log"));
+  if (system(command) != 0) fail_msg("%s\n%s", command, scratch_read(scratch_path("gmsh.log"), NULL));
+}
+
+static void test_gmsh(void **state) {
+  (void)state;
+  scratch_write_text("mix.geo", geometry);
+  const char *orders[] = {"-order 1", "-order 2", "-order 2 -setnumber Mesh.SecondOrderIncomplete 1"};
+  const char *formats[] = {"msh22", "msh22 -bin", "msh41", "msh41 -bin"};
+  /* The cells of volume of each order: tetrahedra, hexahedra, prisms, pyramids. */
+  const int types[3][4] = {{10, 12, 13, 14}, {24, 29, 32, 27}, {24, 25, 26, 27}};
+  for (int order = 0; order < 3; ++order) {
+    char options[256];
+    snprintf(options, sizeof options, "-3 %s -format msh41 -bin %s", orders[order], scratch_path("mix.geo"));
+    run_gmsh(options, "made.msh");
+    for (int format = 0; format < 4; ++format) {
+      snprintf(options, sizeof options, "-save %s -format %s", scratch_path("made.msh"), formats[format]);
+      run_gmsh(options, "mix.msh");
+      rewrite("mix.msh", "mix.vtu", "");
+      int64_t n_of_type[100];
+      const double bend = shim_bend(scratch_path("mix.vtu"), n_of_type);
+      assert_true(bend >= 0 && bend < 1e-10);
+      for (int i = 0; i < 4; ++i)
+        if (n_of_type[types[order][i]] < 2)
+          fail_msg("%s, %s: %lld cells of type %d", orders[order], formats[format],
+                   (long long)n_of_type[types[order][i]], types[order][i]);
+      /* gmsh writes text with 16 digits, and so a text file is compared with a text file. */
+      snprintf(options, sizeof options, "-save %s -format vtk%s", scratch_path("mix.msh"), format % 2 ? " -bin" : "");
+      run_gmsh(options, "mix.vtk");
+      /* gmsh 4.8 writes linear pyramids in place of quadratic ones, and prisms of second order with a base that is seen from
+       * inside. */
+      if (order == 0) expect_same("mix.vtu", "mix.vtk", SHIM_BITS, 30);
+      if (order == 2) expect_same_but("mix.vtu", "mix.vtk", SHIM_SETS, 30, 2 * n_of_type[27]);
+      char type[32];
+      int64_t n_components = 0, n_cells = 0;
+      double groups[4096];
+      assert_true(shim_read_array(scratch_path("mix.vtu"), 'c', "gmsh:physical", type, &n_components, &n_cells, NULL));
+      assert_true(n_cells > 30 && n_cells < 4096 && n_components == 1);
+      shim_read_array(scratch_path("mix.vtu"), 'c', "gmsh:physical", type, &n_components, &n_cells, groups);
+      for (int64_t i = 0; i < n_cells; ++i) assert_true(groups[i] >= 7 && groups[i] <= 9);
+    }
+  }
+}
+#else
+static void test_gmsh(void **state) {
+  (void)state;
+  (void)geometry;
+  skip();
+}
+#endif
+
+/* Writes a mesh of hexahedra or of quadratic tetrahedra. */
+static void write_plain(const char *name, int quadratic) {
+  const double lower[3] = {-1.1, -1.2, -1.3}, upper[3] = {1.4, 1.3, 1.7};
+  plain_mesh hexahedra = plain_hexahedra(4, lower, upper);
+  plain_mesh tetrahedra = plain_quadratic_tetrahedra(&hexahedra);
+  plain_write(name, quadratic ? &tetrahedra : &hexahedra, PLAIN_CELLS, 1);
+  plain_free(&hexahedra);
+  plain_free(&tetrahedra);
+}
+
+static void test_vtm(void **state) {
+  (void)state;
+  for (int kind = 0; kind < 4; ++kind) {
+    write_plain("plain.vtu", kind / 2);
+    assert_true(shim_write_vtm(scratch_path("blocks.vtm"), scratch_path("plain.vtu"), kind % 2));
+    rewrite("blocks.vtm", "joined.vtu", "");
+    expect_same("joined.vtu", "plain.vtu", SHIM_BITS, 27);
+  }
+}
+
+static void test_exodus(void **state) {
+  (void)state;
+  for (int quadratic = 0; quadratic < 2; ++quadratic) {
+    write_plain("plain.vtu", quadratic);
+    if (!shim_write_exodus(scratch_path("blocks.exo"), scratch_path("plain.vtu"))) skip();
+    rewrite("blocks.exo", "joined.vtu", "");
+    expect_same("joined.vtu", "plain.vtu", SHIM_BITS, 27);
+  }
+}
+
+/* Writes a mesh as XDMF and reads it again, with one type of cells and with several. */
+static void test_xdmf(void **state) {
+  (void)state;
+  write_plain("plain.vtu", 0);
+  rewrite("plain.vtu", "plain.xdmf", "");
+  rewrite("plain.xdmf", "again.vtu", "");
+  expect_same("again.vtu", "plain.vtu", SHIM_BITS, 27);
+  write_plain("curved.vtu", 1);
+  rewrite("curved.vtu", "curved.xdmf", "");
+  rewrite("curved.xdmf", "again.vtu", "");
+  expect_same("again.vtu", "curved.vtu", SHIM_BITS, 27);
+#ifdef RIIS_GMSH
+  char options[256];
+  scratch_write_text("mix.geo", geometry);
+  snprintf(options, sizeof options, "-3 -format msh41 -bin %s", scratch_path("mix.geo"));
+  run_gmsh(options, "mix.msh");
+  rewrite("mix.msh", "mix.vtu", "");
+  rewrite("mix.msh", "mix.xdmf", "");
+  rewrite("mix.xdmf", "again.vtu", "");
+  expect_same("again.vtu", "mix.vtu", SHIM_BITS, 30);
+#endif
+}
+
+#ifdef RIIS_MESHIO_PYTHON
+/* Lets meshio write every format, and read what riis writes. */
+static void test_meshio(void **state) {
+  (void)state;
+  write_plain("plain.vtu", 0);
+  scratch_write_text("convert.py",
+                     "import os, sys, meshio, numpy\n"
+                     "def same(a, b):\n"
+                     "    assert numpy.array_equal(a.points, b.points)\n"
+                     "    assert [c.type for c in a.cells] == [c.type for c in b.cells]\n"
+                     "    assert all(numpy.array_equal(c.data, d.data) for c, d in zip(a.cells, b.cells))\n"
+                     "os.chdir(sys.argv[1])\n"
+                     "mesh = meshio.read('plain.vtu')\n"
+                     "mesh.point_data = {'p': mesh.points[:, 0].copy(), 'v': 2 * mesh.points}\n"
+                     "for how in ['HDF', 'XML', 'Binary']:\n"
+                     "    mesh.write(how + '.xdmf', data_format=how)\n"
+                     "mesh.write('meshio.e')\n"
+                     "mesh.write('meshio22.msh', file_format='gmsh22')\n"
+                     "mesh.write('meshio41.msh', file_format='gmsh')\n"
+                     "same(mesh, meshio.read('plain.xdmf'))\n"
+                     "single = meshio.Mesh(mesh.points.astype('f4'), mesh.cells)\n"
+                     "single.write('single.xdmf')\n");
+  rewrite("plain.vtu", "plain.xdmf", "");
+  char command[1024];
+  snprintf(command, sizeof command, RIIS_MESHIO_PYTHON " %s %s > %s 2>&1", scratch_path("convert.py"),
+           scratch_path("."), scratch_path("log.txt"));
+  if (system(command) != 0) fail_msg("%s\n%s", command, scratch_read(scratch_path("log.txt"), NULL));
+  const char *names[] = {"HDF.xdmf", "XML.xdmf", "Binary.xdmf", "meshio.e", "meshio22.msh", "meshio41.msh"};
+  for (int i = 0; i < 6; ++i) {
+    rewrite(names[i], "again.vtu", "");
+    expect_same("again.vtu", "plain.vtu", SHIM_BITS, 27);
+  }
+  rewrite("single.xdmf", "again.vtu", "its points have single precision");
+  expect_same("again.vtu", "plain.vtu", SHIM_FLOATS, 27);
+}
+#else
+static void test_meshio(void **state) {
+  (void)state;
+  skip();
+}
+#endif
+
+/* ---- Files that cannot be read ---- */
+
+static const char msh22[] =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+    "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n";
+static const char msh41[] =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 5 0\n$EndEntities\n"
+    "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
+    "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
+static const char xdmf[] =
+    "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+    "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">\n"
+    "<DataItem Dimensions=\"1 4\" NumberType=\"Int\" Format=\"XML\">0 1 2 3</DataItem>\n</Topology>\n"
+    "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1</DataItem>\n"
+    "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
+    "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
+static const char vtm[] =
+    "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>\n"
+    "<Block index=\"0\"><DataSet index=\"0\" file=\"plain.vtu\"/></Block>\n</vtkMultiBlockDataSet></VTKFile>\n";
+
+/* A file that is broken in one place: the first `from` becomes `to`. */
+typedef struct broken {
+  const char *name, *whole, *from, *to, *text;
+} broken;
+
+static const broken faults[] = {
+    {"a.msh", msh22, "$MeshFormat", "(0 \"Fluent\")", "is not a mesh of gmsh: it does not begin with $MeshFormat"},
+    {"a.msh", msh22, "2.2 0 8", "1.0 0 8", "is of version 1.0 of gmsh's format; versions 2 and 4.1 are read"},
+    {"a.msh", msh41, "4.1 0 8", "4.0 0 8", "is of version 4.0 of gmsh's format"},
+    {"a.msh", msh22, "2.2 0 8", "2.2 7 8", "line 2: the file type is 7; it must be 0 or 1"},
+    {"a.msh", msh22, "2.2 0 8", "2.2 0 4", "line 2: the data size is 4; only 8 is read"},
+    {"a.msh", msh22, "2.2 0 8", "2.2 1 8", "byte 24: the number that tells the byte order is"},
+    {"a.msh", msh22, "$Nodes\n4", "$Nodes\n1000000000000", "line 5: claims 1000000000000 nodes, but only"},
+    {"a.msh", msh22, "$Nodes\n4", "$Nodes\n-4", "claims -4 nodes"},
+    {"a.msh", msh22, "$Nodes\n4", "$Nodes\n99999999999999999999999",
+     "\"99999999999999999999999\" is not a whole number"},
+    {"a.msh", msh22, "$Nodes\n4", "$Nodes\n5", "line 10: \"$EndNodes\" is not a whole number"},
+    {"a.msh", msh22, "$Nodes\n4", "$Nodes\n3", "line 9: holds more than $Nodes claims; $EndNodes must be here"},
+    {"a.msh", msh22, "2 1 0 0", "2 nan 0 0", "x of node 1 is nan"},
+    {"a.msh", msh22, "2 1 0 0", "2 1 -inf 0", "y of node 1 is -inf"},
+    {"a.msh", msh22, "2 1 0 0", "2 1 0 1e999", "\"1e999\" is not a number"},
+    {"a.msh", msh22, "2 1 0 0", "2 1 0,5 0", "line 7: \"0,5\" is not a number"},
+    {"a.msh", msh22, "2 1 0 0", "3 1 0 0", "has two nodes with the tag 3"},
+    {"a.msh", msh22, "1 2 3 4\n", "1 2 3 5\n", "element 1 has the node 5, which $Nodes lacks"},
+    {"a.msh", msh22, "1 2 3 4\n", "1 2 3 -9\n", "element 1 has the node -9, which $Nodes lacks"},
+    {"a.msh", msh22, "1 4 2 0 1", "1 29 2 0 1", "element 1 is of gmsh's type 29; elements of orders 1 and 2 are read"},
+    {"a.msh", msh22, "1 4 2 0 1", "1 4 1000000000000 0 1", "claims 1000000000000 tags of an element"},
+    {"a.msh", msh22, "$Elements\n1", "$Elements\n800000000000", "claims 800000000000 elements"},
+    {"a.msh", msh22, "$Nodes", "$Other", "is truncated: it ends before $EndOther"},
+    {"a.msh", msh22, "$EndNodes", "$EndNode", "$EndNodes must be here"},
+    {"a.msh", msh41, "1 4 1 4", "1 4000000000000 1 4", "claims 4000000000000 nodes"},
+    {"a.msh", msh41, "3 1 0 4", "3 1 0 1000000000000", "a block has 1000000000000 nodes; 4 are left"},
+    {"a.msh", msh41, "1 4 1 4", "0 4 1 4", "$Nodes has 0 of the 4 nodes that it claims"},
+    {"a.msh", msh41, "3 1 4 1", "3 1 4 77", "a block has 77 elements; 1 are left"},
+    {"a.msh", msh41, "0 0 0 1", "0 0 0 1000000000", "claims 1000000000 entities"},
+    {"a.xdmf", xdmf, "</Xdmf>", "", "is truncated: its XML has no end"},
+    {"a.xdmf", xdmf, "</Domain>", "</Grid>", "</Grid> is in the place of </Domain>"},
+    {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"1000000000000 3\"", "claims 3000000000000 numbers"},
+    {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"99999999999 99999999999\"", "has a DataItem with"},
+    {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"-4 3\"", "has a DataItem with the dimensions \"-4 3\""},
+    {"a.xdmf", xdmf, "Dimensions=\"4 3\"", "Dimensions=\"6 2\"", "has a Geometry of 6 x 2 numbers; a node has 3"},
+    {"a.xdmf", xdmf, "0 0 0 1 0", "0 0 nan 1 0", "z of node 0 is nan"},
+    {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2 4<", "cell 0 names point 4 of 4"},
+    {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2 -1<", "cell 0 names point -1 of 4"},
+    {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2<", "a DataItem has 3 of its 4 numbers"},
+    {"a.xdmf", xdmf, "0 1 2 3<", "0 1 2 3 4<", "more than 4 numbers are in a DataItem"},
+    {"a.xdmf", xdmf, "Tetrahedron", "Dodecahedron", "has a Topology of the type Dodecahedron, which is not read"},
+    {"a.xdmf", xdmf, "Tetrahedron", "Mixed", "cell 0 is of XDMF's type 0, which is not read"},
+    {"a.xdmf", xdmf, "Format=\"XML\">0 0", "Format=\"HDF\">none.h5:/x</DataItem><DataItem Dimensions=\"1\">0 0",
+     "none.h5: cannot be read"},
+    {"a.xdmf", xdmf, "Format=\"XML\">0 0", "Format=\"HDF\">a.xdmf:/x</DataItem><DataItem Dimensions=\"1\">0 0", "HDF5"},
+    {"a.xdmf", xdmf, "Format=\"XML\">0 0",
+     "Format=\"Binary\" Seek=\"9999\">a.xdmf</DataItem><DataItem Dimensions=\"1\">0 0",
+     "has a DataItem with Seek=\"9999\""},
+    {"a.xdmf", xdmf, "Dimensions=\"4\"", "Dimensions=\"5\"", "attribute p has 5 x 1 values for 4 nodes"},
+    {"a.vtm", vtm, "vtkMultiBlockDataSet\"", "Collection\"", "is not a list of blocks"},
+    {"a.vtm", vtm, "plain.vtu", "missing.vtu", "missing.vtu: cannot be read: No such file"},
+    {"a.vtm", vtm, "plain.vtu", "a.vtp", "lists no .vtu file"},
+    {"a.exo", xdmf, "", "", "is not an Exodus file: it is neither NetCDF nor HDF5"},
+};
+
+static void write_broken(const broken *fault) {
+  char text[4096];
+  const char *at = strstr(fault->whole, fault->from);
+  if (!at) fail_msg("no \"%s\" in %s", fault->from, fault->name);
+  snprintf(text, sizeof text, "%.*s%s%s", (int)(at - fault->whole), fault->whole, fault->to, at + strlen(fault->from));
+  scratch_write_text(fault->name, text);
+}
+
+static void test_broken(void **state) {
+  (void)state;
+  write_plain("plain.vtu", 0);
+  for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
+    riis_vtk_mesh *mesh = NULL;
+    write_broken(&faults[i]);
+    scratch_watch_output();
+    const riis_status status = riis_vtk_mesh_read(scratch_path(faults[i].name), &mesh);
+    const long n_printed = scratch_end_watch();
+    expect_refused(status, RIIS_FILE_ERROR, faults[i].text);
+    assert_null(mesh);
+    assert_int_equal(n_printed, 0);
+  }
+}
+
+/* Every beginning of a file is refused. So is a file with a wrong byte, or it is read. */
+static void test_cut_and_changed(void **state) {
+  (void)state;
+  const char *wholes[] = {msh22, msh41, xdmf, vtm}, *names[] = {"a.msh", "a.msh", "a.xdmf", "a.vtm"};
+  const char *seed_text = getenv("RIIS_TEST_SEED");
+  uint64_t random = seed_text ? strtoull(seed_text, NULL, 10) : 20261125;
+  printf("seed %llu\n", (unsigned long long)random);
+  write_plain("plain.vtu", 0);
+  for (int kind = 0; kind < 4; ++kind) {
+    const size_t n = strlen(wholes[kind]);
+    char text[4096];
+    riis_vtk_mesh *mesh = NULL;
+    scratch_write(names[kind], wholes[kind], n);
+    expect_fine(riis_vtk_mesh_read(scratch_path(names[kind]), &mesh));
+    riis_vtk_mesh_destroy(&mesh);
+    for (size_t length = 0; length + 1 < n; ++length) {
+      scratch_write(names[kind], wholes[kind], length);
+      expect_refused(riis_vtk_mesh_read(scratch_path(names[kind]), &mesh), RIIS_FILE_ERROR, names[kind]);
+    }
+    for (int trial = 0; trial < 300; ++trial) {
+      memcpy(text, wholes[kind], n);
+      for (int k = 0; k < 1 + trial % 3; ++k) {
+        random = random * 6364136223846793005u + 1442695040888963407u;
+        const char letters[] = "0123456789-.e <>/\"$\n\0x";
+        text[(random >> 33) % n] = letters[(random >> 20) % sizeof letters];
+      }
+      scratch_write(names[kind], text, n);
+      const riis_status status = riis_vtk_mesh_read(scratch_path(names[kind]), &mesh);
+      if (status != RIIS_OK) expect_refused(status, RIIS_FILE_ERROR, ": ");
+      riis_vtk_mesh_destroy(&mesh);
+    }
+  }
+}
+
+static int64_t number_at(const void *numbers, int32_t n_bits, int64_t i) {
+  return n_bits == 32 ? ((const int32_t *)numbers)[i] : ((const int64_t *)numbers)[i];
+}
+
+/* Centres are the means of corners of boxes. Cells that share a face are neighbours, and arrays are arrays of cells. */
+static void test_centers(void **state) {
+  (void)state;
+  riis_vtk_mesh *mesh = NULL;
+  int64_t n = 0, n_cells = 0;
+  const double *xyz = NULL;
+  const double lower[3] = {-1, -2, -3}, upper[3] = {1, 2, 3};
+  plain_mesh hexahedra = plain_hexahedra(4, lower, upper);
+  for (int layout = PLAIN_CELLS; layout <= PLAIN_LISTS; ++layout) {
+    plain_write("plain.vtu", &hexahedra, (enum plain_layout)layout, 1);
+    expect_fine(riis_vtk_mesh_read(scratch_path("plain.vtu"), &mesh));
+    expect_fine(riis_vtk_mesh_use_centers(mesh));
+    expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, &n_cells, &xyz));
+    assert_true(n == 27 && n_cells == 27);
+    for (int64_t cell = 0; cell < n; ++cell)
+      for (int c = 0; c < 3; ++c) {
+        double mean = 0;
+        for (int i = 0; i < 8; ++i) mean += hexahedra.xyz[3 * hexahedra.ids[8 * cell + i] + c] / 8;
+        assert_true(fabs(xyz[3 * cell + c] - mean) < 1e-14);
+      }
+    /* Cells that share a face are neighbours: a box of 3 x 3 x 3 cells has 3 x 2 x 9 faces inside. */
+    riis_adjacency *adjacency = NULL;
+    riis_csr rows;
+    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_get_csr(adjacency, &rows, sizeof rows));
+    assert_true(rows.n_rows == 27);
+    assert_int_equal(number_at(rows.offsets, rows.offset_bits, 27) - rows.index_base, 2 * 3 * 2 * 9);
+    for (int64_t a = 0; a < n; ++a) {
+      const int64_t begin = number_at(rows.offsets, rows.offset_bits, a) - rows.index_base;
+      const int64_t end = number_at(rows.offsets, rows.offset_bits, a + 1) - rows.index_base;
+      for (int64_t i = begin; i < end; ++i) {
+        const int64_t b = number_at(rows.columns, rows.column_bits, i) - rows.index_base;
+        double steps = 0;
+        for (int c = 0; c < 3; ++c) steps += fabs(xyz[3 * a + c] - xyz[3 * b + c]) / ((upper[c] - lower[c]) / 3);
+        assert_true(steps > 0.99 && steps < 1.01);
+      }
+    }
+    riis_adjacency_destroy(&adjacency);
+    double length = 0;
+    expect_fine(riis_vtk_mesh_get_median_edge(mesh, &length));
+    assert_true(length > 0.66 && length < 2.01);
+    double values[27];
+    for (int i = 0; i < 27; ++i) values[i] = i;
+    expect_fine(riis_vtk_mesh_set_point_array(mesh, "of_cells", 27, 1, values));
+    expect_fine(riis_vtk_mesh_write(mesh, scratch_path("out.vtu")));
+    char type[32];
+    int64_t n_components = 0, n_tuples = 0;
+    double found[27];
+    assert_true(shim_read_array(scratch_path("out.vtu"), 'c', "of_cells", type, &n_components, &n_tuples, found));
+    assert_true(n_tuples == 27 && found[26] == 26);
+    riis_vtk_mesh *part = NULL;
+    const int64_t first = 0;
+    expect_refused(riis_vtk_mesh_extract(mesh, 1, &first, &part), RIIS_INVALID_ARGUMENT, "centres of cells");
+    riis_vtk_mesh_destroy(&mesh);
+  }
+  plain_free(&hexahedra);
+  scratch_write_text(
+      "voxel.vtk",
+      "# vtk DataFile Version 2.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
+      "0 0 0 2 0 0 0 4 0 2 4 0 0 0 6 2 0 6 0 4 6 2 4 6\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n11\n");
+  expect_fine(riis_vtk_mesh_read(scratch_path("voxel.vtk"), &mesh));
+  expect_fine(riis_vtk_mesh_use_centers(mesh));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, &xyz));
+  for (int c = 0; c < 3; ++c) assert_true(n == 1 && fabs(xyz[c] - (c + 1)) < 1e-14);
+  riis_vtk_mesh_destroy(&mesh);
+  write_plain("curved.vtu", 1);
+  expect_fine(riis_vtk_mesh_read(scratch_path("curved.vtu"), &mesh));
+  expect_refused(riis_vtk_mesh_use_centers(mesh), RIIS_INVALID_ARGUMENT, "cell 0 is a vtkQuadraticTetra");
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, &n, NULL, NULL));
+  assert_true(n > 100);
+  riis_vtk_mesh_destroy(&mesh);
+  expect_refused(riis_vtk_mesh_use_centers(NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  expect_refused(riis_vtk_mesh_get_notes(NULL, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_gmsh),
+      cmocka_unit_test(test_vtm),
+      cmocka_unit_test(test_exodus),
+      cmocka_unit_test(test_xdmf),
+      cmocka_unit_test(test_meshio),
+      cmocka_unit_test(test_broken),
+      cmocka_unit_test(test_cut_and_changed),
+      cmocka_unit_test(test_centers),
+  };
+  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+}
