@@ -17,8 +17,8 @@ Reals = NDArray[numpy.float64]
 
 # Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The steps of finite differences, as fractions of a parameter's bounds. They are so small that a moved valve almost always has the
-# same triangles. If it has others, a smaller step is tried.
+# The steps of finite differences, as fractions of a parameter's bounds. They are so small that a moved valve almost always has
+# the same triangles. If it has others, a smaller step is tried.
 _STEPS = (1e-5, 1e-6, 1e-7)
 # Threads are used for more points than this. A fit makes many small surfaces, each in a few milliseconds. For these, threads cost
 # more than they gain.

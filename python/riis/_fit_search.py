@@ -244,7 +244,7 @@ class Judge:
         full[:n, :n] = precision
         alone = full[n:, n:] - full[n:, :n] @ numpy.linalg.solve(precision, full[:n, n:])
         pull = -columns.T @ (weights * seen.residual) - n_area * area
-        # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel the rest.
+        # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
         left = -jacobian.T @ (weights * seen.residual) - n_area * free_area
         pull -= full[n:, :n] @ numpy.linalg.solve(precision, left)
         # The spread of the sizes is the likeliest one, if it is much likelier than none.

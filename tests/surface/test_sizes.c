@@ -651,8 +651,8 @@ static int power_is_above(const riis_valve *valve) {
   return is_above;
 }
 
-/* Writes points of a cusp's closed free edge. Coordinates are along the plane through the axis and its commissure, and beyond this
- * plane. Both halves of the edge have the same coordinates. */
+/* Writes points of a cusp's closed free edge. Coordinates are along the plane through the axis and the commissure, and beyond
+ * this plane. Both halves of the edge have the same coordinates. */
 enum { n_edge_points = 300 };
 static void free_edge(const riis_valve *valve, int k, double (*points)[2]) {
   double starts[3], ends[3];
