@@ -250,9 +250,9 @@ class Judge:
         # The spread of the sizes is the likeliest one, if it is much likelier than none.
         values, vectors = numpy.linalg.eigh(alone)
         values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
-        # A pull that asks for far larger differences is not from these sizes.
-        possible = squares <= 9.0 * values * (1.0 + values)
-        values, vectors, squares = values[possible], vectors[:, possible], squares[possible]
+        if problem.whole:  # a pull for far larger differences is from edges, where the area's term is right only on average
+            possible = squares <= 9.0 * values * (1.0 + values)
+            values, vectors, squares = values[possible], vectors[:, possible], squares[possible]
         spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
         evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
         if evidence.max() < _LEAST_EVIDENCE:
