@@ -30,6 +30,8 @@ _N_ROUGH = 400
 _LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
 # The tables of the kinds are in centimetres.
 _UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
+# A fit with one of these doubts may be a wrong end, so more starts follow.
+_OF_ENDS = ("starts:", "outliers:", "noise:", "misfit:", "cover:")
 # A fit whose measures exceed these limits gets a doubt in its result.
 _MOST_OUTLIERS = 0.3
 _LEAST_COVERED = 0.9
@@ -318,7 +320,8 @@ def fit(
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
     n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
                random values within the bounds and, if start has no rotation, any rotation. After at least four
-               starts, or eight for a part of a valve, they end when two reached the best fit
+               starts, or eight for a part of a valve, they end when two reached the best fit. If this fit has doubts
+               that a wrong end explains, the other starts follow
     seed       the seed of the random starts
     noise      the standard deviation of the points from the surface, in the points' unit. Larger residuals are doubted, and
                smaller ones do not reduce the standard errors
@@ -391,7 +394,11 @@ def fit(
     any_rotation = "rotation" in moves and "rotation_angle" not in given
     n_least = min(_LEAST_STARTS if whole else _LEAST_STARTS_OF_PART, n_most)
     ends, n_done = search(rough, pose, x, middle, any_rotation, n_least, n_most, random)
-    return _finish(problem, ends, n_done, stated, len(used), random)
+    found = _finish(problem, ends, n_done, stated, len(used), random)
+    if n_done < n_most and any(doubt.startswith(_OF_ENDS) for doubt in found.doubts):  # the starts may agree in a wrong end
+        ends, n_done = search(rough, pose, x, middle, any_rotation, n_most, n_most, random)
+        found = _finish(problem, ends, n_done, stated, len(used), random)
+    return found
 
 
 def _extent(points: Reals, weights: Reals) -> float:
@@ -445,9 +452,10 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         judged = Judge(problem, x, mixture, stated).judge()
         if judged.better is None or attempt == 3:
             break
+        before = x
         x, mixture = problem.refine(judged.better, 8, 1e-4)
-        there = problem.at(x)
-        if there is not None and not is_same(problem, x, there.log_area, here):
+        there, is_near = problem.at(x), bool((numpy.abs(x - before) <= 3.0 * judged.errors).all())
+        if not is_near and there is not None and not is_same(problem, x, there.log_area, here):
             best = replace(best, n_starts=0)  # the profile found this end, and no start has reached it
     return _result(problem, x, mixture, judged, found, best, n_done, stated, random)
 

@@ -17,9 +17,9 @@ Reals = NDArray[numpy.float64]
 
 # Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The step of finite differences, as a fraction of the width of a parameter's bounds. The step is so small that the changed valve
-# almost always has the same triangles.
-_STEP = 1e-5
+# The steps of finite differences, as fractions of a parameter's bounds. They are so small that a moved valve almost always has
+# the same triangles. If it has others, a smaller step is tried.
+_STEPS = (1e-5, 1e-6, 1e-7)
 # Above this number of points, several threads are used. For fewer points a surface takes a few milliseconds, and threads would
 # cost more than they gain.
 _MANY = 20_000
@@ -260,11 +260,12 @@ class Problem:
         result, area = numpy.zeros((len(self.points), self.n)), numpy.zeros(self.n)
         pose = self.pose(x)
         for i in range(len(self.names)):
-            for step in (_STEP, -_STEP) if x[i] < 0.5 else (-_STEP, _STEP):
+            towards = 1.0 if x[i] < 0.5 else -1.0
+            for step in (sign * length for length in _STEPS for sign in (towards, -towards)):
                 moved = x.copy()
                 moved[i] += step
                 found = self.change(seen, moved, step, pose, {})
-                if found is not None:  # if this side is not possible, tries the other side
+                if found is not None:  # if this step is not possible, tries the other side
                     result[:, i], area[i] = found
                     break
         at, turned = len(self.names), pose.scale * seen.local @ pose.rotation.T
@@ -295,7 +296,7 @@ class Problem:
             if name in self.names or parameter.n_values != 1 or name == "opening" or value == 0.0:
                 continue
             whole = numpy.degrees(1.0) if parameter.unit == "degree" else value
-            for step in (_STEP, -_STEP):
+            for step in (sign * length for length in _STEPS for sign in (1.0, -1.0)):
                 found = self.change(seen, x, step, pose, {name: value + step * whole})
                 self.valve.update(**{name: value})
                 if found is not None:

@@ -33,6 +33,8 @@ _N_PARTS = 40
 _FIXED_SPREAD = 0.1
 # A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
+# A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
+_LEAST_GAIN = 0.1
 
 
 @dataclass
@@ -221,13 +223,13 @@ class Judge:
             misfit = float((mean**2).sum() / (alone.sum() * mixture.noise**2)) * n_parts / (n_parts - problem.n)
             robust = covariance @ (forces.T @ forces) @ covariance * n_parts / (n_parts - problem.n)
             variances = numpy.maximum(variances, numpy.diag(robust))
-        variances = variances + self._of_fixed(precision, jacobian, inlier, share / scatter**2)
+        variances = variances + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2)
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
         errors, better = self._profile(errors, covariance, ratio)
         return Judged(errors, s / problem.size, misfit, most_misfit, better)
 
-    def _of_fixed(self, precision: Reals, jacobian: Reals, inlier: Reals, factor: float) -> Reals:
+    def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float) -> Reals:
         """Returns the share of the squared errors that comes from sizes that are not free. It is 0 unless other values of these
         sizes would fit better than chance allows. It consists of the shift of the unknowns in a fit with all sizes, and of the
         variance that this fit adds."""
@@ -238,14 +240,21 @@ class Judge:
         if columns.shape[1] == 0:
             return numpy.zeros(n)
         both = numpy.hstack([jacobian, columns])
-        full = both.T @ (both * weights[:, None])
+        n_area = self.mixture.loss(problem.whole).area * problem.weights.sum() * self.mixture.noise**2 * factor
+        both_areas = numpy.concatenate([free_area, area])
+        full = both.T @ (both * weights[:, None]) + 0.125 * n_area * numpy.outer(both_areas, both_areas)
         full[:n, :n] = precision
         alone = full[n:, n:] - full[n:, :n] @ numpy.linalg.solve(precision, full[:n, n:])
-        n_area = self.mixture.loss(problem.whole).area * problem.weights.sum() * self.mixture.noise**2 * factor
-        pull = -columns.T @ (weights * seen.residual) - n_area * area  # for the free unknowns it is 0 at the minimum
+        pull = -columns.T @ (weights * seen.residual) - n_area * area
+        # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
+        left = -jacobian.T @ (weights * seen.residual) - n_area * free_area
+        pull -= full[n:, :n] @ numpy.linalg.solve(precision, left)
         # Takes the likeliest spread of the sizes, if it is much likelier than no spread.
         values, vectors = numpy.linalg.eigh(alone)
         values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
+        if problem.whole:  # a pull for far larger differences is from edges, where the area's term is right only on average
+            possible = squares <= 9.0 * values * (1.0 + values)
+            values, vectors, squares = values[possible], vectors[:, possible], squares[possible]
         spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
         evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
         if evidence.max() < _LEAST_EVIDENCE:
@@ -260,7 +269,7 @@ class Judge:
         rises less than this error implies."""
         problem, loss = self.problem, self.mixture.loss(self.problem.whole)
         best = problem.cost(self.x, loss)
-        errors, better, least = errors.copy(), None, -1.0
+        errors, better, least = errors.copy(), None, -_LEAST_GAIN
         for i in range(len(problem.names)):
             if not 3e-3 < errors[i] < UNDETERMINED:
                 continue

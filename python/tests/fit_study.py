@@ -5,17 +5,31 @@ import multiprocessing
 import sys
 import time
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy
 
 import riis
 
-# For each kind the free sizes, by how much of its default each varies, and the largest opening.
+
+class Studied(NamedTuple):
+    """How a kind of valve is studied."""
+
+    spreads: dict  # the free sizes, and by how much of its default each varies
+    most_open: float
+    known: dict  # the valve of fit_table.py
+
+
 KINDS = {
-    "aortic": ({"root_radius": 0.1, "leaflet_height": 0.1, "bending_height": 0.1}, 0.8),
-    "trileaflet": ({"root_radius": 0.2, "leaflet_radius_out": 0.2, "leaflet_height": 0.2}, 0.8),
-    "mitral": ({"AP_diameter": 0.2, "ALPM_diameter": 0.2, "anterior_length": 0.2, "posterior_scallop_length1": 0.2}, 0.8),
-    "bileaflet": ({"radius": 0.2}, 1.0),
+    "aortic": Studied({"root_radius": 0.1, "leaflet_height": 0.1, "bending_height": 0.1}, 0.8,
+                      {"leaflet_height": 1.1, "bending_height": 0.65, "right.leaflet_radius_in": 0.3}),
+    "coapting": Studied({"root_radius": 0.2, "commissure_radius": 0.2, "effective_height": 0.15}, 0.8,
+                        {"root_radius": 1.2, "effective_height": 0.95, "opening": 0.35}),
+    "trileaflet": Studied({"root_radius": 0.2, "leaflet_radius_out": 0.2, "leaflet_height": 0.2}, 0.8,
+                          {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.35}),
+    "mitral": Studied({"AP_diameter": 0.2, "ALPM_diameter": 0.2, "anterior_length": 0.2, "posterior_scallop_length1": 0.2}, 0.8,
+                      {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "anterior_length": 2.3, "opening": 0.3}),
+    "bileaflet": Studied({"radius": 0.2}, 1.0, {"radius": 1.2, "opening": 0.3}),
 }
 CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millimetres", "other shape")
 WHOLE = ("whole", "outliers", "thick", "millimetres")  # the points cover the valve, and its shape is that of the kind
@@ -91,7 +105,7 @@ def patient(seed):
     """Returns the patient of a seed. Consecutive seeds take the kinds and the cases in turn."""
     random = numpy.random.default_rng(seed)
     kind, case = list(KINDS)[seed % len(KINDS)], CASES[(seed + seed // len(KINDS)) % len(CASES)]
-    spreads, most_open = KINDS[kind]
+    spreads, most_open, _ = KINDS[kind]
     while True:
         valve = riis.Valve(kind)
         true = {name: valve[name] * random.uniform(1.0 - spread, 1.0 + spread) for name, spread in spreads.items()}
@@ -204,7 +218,7 @@ def examined(seed):
     return examine(patient(seed))
 
 
-def main(n_patients=300, first=1000):
+def main(n_patients=300, first=7000):
     patients = []
     with multiprocessing.get_context("spawn").Pool() as pool:
         for one in pool.imap(examined, range(first, first + n_patients)):

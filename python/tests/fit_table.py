@@ -5,16 +5,11 @@ import sys
 
 import numpy
 
+import fit_study
 import riis
 
 PLACEMENT = {"rotation_axis": (1.0, 2.0, 3.0), "rotation_angle": 12.0, "translation": (0.2, -0.1, 0.3)}
-VALVES = {
-    "mitral": {"AP_diameter": 3.3, "ALPM_diameter": 3.6, "anterior_length": 2.3, "opening": 0.3},
-    "aortic": {"leaflet_height": 1.1, "bending_height": 0.65, "right.leaflet_radius_in": 0.3},
-    "coapting": {"root_radius": 1.2, "effective_height": 0.95, "opening": 0.35},
-    "trileaflet": {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.35},
-    "bileaflet": {"radius": 1.2, "opening": 0.3},
-}
+VALVES = {kind: studied.known for kind, studied in fit_study.KINDS.items()}
 # Noise, number of gaps, fraction of outliers.
 CASES = ((0.0, 0, 0.0), (0.01, 0, 0.0), (0.02, 0, 0.0), (0.05, 0, 0.0), (0.02, 2, 0.05))
 

@@ -347,7 +347,7 @@ def test_every_kind_is_studied():
         riis.Valve("none")
     kinds = set(str(refused.value).split("there are: ")[1].split(", "))
     assert set(fit_table.VALVES) == kinds
-    assert set(fit_study.KINDS) == kinds - {"coapting"}, "docs/python.md says which kinds the study has"
+    assert set(fit_study.KINDS) == kinds
 
 
 def test_points_on_both_faces_lie_at_half_the_thickness():

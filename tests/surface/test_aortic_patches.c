@@ -141,7 +141,7 @@ static void parameters_that_do_not_go_together_are_refused(void **state) {
   IS_REFUSED("root_radius", 200, "leaflet_height is 1.02|root_radius, which is 200");
   /* Each of these values is valid alone, but the combination is absurd. The message names the curve, its extent and its
    * parameters. */
-  IS_REFUSED("leaflet_angle", 5, "left cusp's leaflet curve reaches|leaflet_angle");
+  IS_REFUSED("leaflet_radius_in", 10, "right cusp's leaflet curve reaches 10|leaflet_angle|leaflet_radius_");
   IS_REFUSED("bending_height", 0.06, "right cusp's symmetry curve reaches|bending_height, leaflet_height, xq, zq");
   IS_REFUSED("non_coronary.bending_radius_out", 12, "non_coronary cusp's|reaches");
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The aortic valve. It has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
+#include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -53,6 +55,35 @@ const ParameterRule rotation_rules[n_cusps] = {
     {"0, 0, -(right.leaflet_angle + non_coronary.leaflet_angle) - 2/3 (180 - sum of all leaflet_angle)",
      non_coronary_rotation}};
 
+// The paper's values of the cusps. The translation is along the axis.
+constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.390, 47.30, 1.82, 0.0, -1},
+                                              {0.49, 1.495, 58.5, 2.77, 0.74, 1.355, 43.00, 4.12, 119.5, -1},
+                                              {0.20, 1.380, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5, -1}};
+
+// The rules of exponents that were not set. With an exponent above the bound, the free edge reaches beyond the plane through the
+// axis and its commissure, into the next cusp. The paper's right and left exponents are above it, and keep their ratio to it.
+double power_bound(double radius_in, double radius_out, double angle) {
+  const double x = radius_out * sine_cosine_degrees(angle).cosine;
+  return x > radius_in ? x / (x - radius_in) : std::numeric_limits<double>::infinity();
+}
+template <std::size_t cusp>
+std::array<double, 3> power_rule(const ParameterValues &values) {
+  const double(&own)[n_of_cusp] = view(table)[cusp];
+  const auto value = [&](OfCusp parameter) { return values[position_of(cusp, parameter)][0]; };
+  const double of_paper = power_bound(own[leaflet_radius_in], own[leaflet_radius_out], own[leaflet_angle]);
+  const double bound = power_bound(value(leaflet_radius_in), value(leaflet_radius_out), value(leaflet_angle));
+  return {own[leaflet_power] * std::min(1.0, bound / std::min(own[leaflet_power], of_paper))};
+}
+const ParameterRule power_rules[n_cusps] = {{"1.58 min(1, b / 1.569), b = x / (x - right.leaflet_radius_in), x = "
+                                             "right.leaflet_radius_out cos(right.leaflet_angle)",
+                                             power_rule<0>},
+                                            {"2.77 min(1, b / 2.683), b = x / (x - left.leaflet_radius_in), x = "
+                                             "left.leaflet_radius_out cos(left.leaflet_angle)",
+                                             power_rule<1>},
+                                            {"min(1.19, x / (x - non_coronary.leaflet_radius_in)), x = "
+                                             "non_coronary.leaflet_radius_out cos(non_coronary.leaflet_angle)",
+                                             power_rule<2>}};
+
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
@@ -76,10 +107,6 @@ ValveKind make_kind() {
     {"zq", number, "vertical place of the symmetry curve's first inner control point", 1, {-0.2}, -10, 10},
     opening_spec("0: this state, to 1: the open state, which riis_valve_set_open_state or the last two parameters define", 0),
   }, opening, true, check_values, make_patches, nullptr};
-  const double table[n_cusps][n_of_cusp] = {
-    {0.24, 1.365, 61.0, 1.58,   0.40, 1.390, 47.30, 1.82,      0.0, -1},
-    {0.49, 1.495, 58.5, 2.77,   0.74, 1.355, 43.00, 4.12,    119.5, -1},
-    {0.20, 1.380, 60.5, 1.19,   0.67, 1.435, 42.75, 2.54,   -121.5, -1}};
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const std::string of = std::string(cusp_names[cusp]) + ".";
     const double *value = table[cusp];
@@ -89,7 +116,8 @@ ValveKind make_kind() {
       {of + "leaflet_radius_out", length, "radius of the free edge's end, at the commissure",
        1, {value[leaflet_radius_out]}, shortest, longest, {}, {"stj", 2}},
       {of + "leaflet_angle", degree, "angle from the symmetry plane to the free edge's end", 1, {value[leaflet_angle]}, 5, 175},
-      {of + "leaflet_power", number, "exponent of the free edge's profile", 1, {value[leaflet_power]}, 1, 20},
+      {of + "leaflet_power", number, "exponent of the free edge's profile", 1, {value[leaflet_power]}, 1, 20,
+       power_rules[cusp]},
       {of + "bending_radius_in", length, "radius of the bending curve at the symmetry plane",
        1, {value[bending_radius_in]}, 0, longest},
       {of + "bending_radius_out", length, "radius of the bending curve's end, at the sinus",
