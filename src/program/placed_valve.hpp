@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "program/json.hpp"
 #include "program/options.hpp"
@@ -13,6 +14,7 @@ namespace riis::program {
 // If --valve is the file of a placed valve, replaces the options for kind and placement by those of the file. The file's
 // parameters are set by set_placed_parameters. Refuses options that the file has already. Leaves other valves as they are.
 void use_placed_valve(ValveOptions &options);
+const std::vector<std::string> &placed_keys();
 void set_placed_parameters(const ValveOptions &options, riis_valve *valve);
 
 }  // namespace riis::program

@@ -55,9 +55,10 @@ struct Pose {
 struct LandmarkFit {
   Pose pose;
   std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
-  double noise;                   // on which standard errors rest, in centimetres
-  double rotation_error;          // degrees
-  double position_error;          // of the landmarks' mean, in centimetres
+  std::vector<Vec3> places;  // of the landmarks on the valve, in its frame; the mean place if there are several offsets
+  double noise;              // on which standard errors rest, in centimetres
+  double rotation_error;     // degrees
+  double position_error;     // of the landmarks' mean, in centimetres
 };
 
 // Changes the model's sizes. Begins at each of the poses, with the model's values, and keeps the better end.
@@ -65,7 +66,6 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
 
 // Returns the rotation whose columns are unit vectors along x, y and z. `x` is first made perpendicular to z.
 Rotation rotation_to(Vec3 x, Vec3 z);
-Rotation transposed(const Rotation &a);
 Rotation operator*(const Rotation &a, const Rotation &b);
 inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 

@@ -19,10 +19,7 @@ namespace {
 constexpr std::size_t n_even_parts = 8;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
-  const Rotation &r = image.rotation;
-  const Vec3 turned{r.row_x.x * p.x + r.row_y.x * p.y + r.row_z.x * p.z,
-                    r.row_x.y * p.x + r.row_y.y * p.y + r.row_z.y * p.z,
-                    r.row_x.z * p.x + r.row_y.z * p.y + r.row_z.z * p.z};
+  const Vec3 turned = transposed(image.rotation) * p;
   return {image.mirror == Mirror::in_x ? -turned.x : turned.x, image.mirror == Mirror::in_y ? -turned.y : turned.y,
           turned.z};
 }
