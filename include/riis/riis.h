@@ -609,7 +609,7 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
 /* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt. At each point of the
  * attachment of the closed valve, the length is the gap. These lengths stay while the valve opens. The parameter
  * "skirt_length" becomes the largest of them, before placement. Setting that parameter removes the lengths. Where the gap
- * is below 0.005 of the attachment's mean distance from the axis, the length is that limit.
+ * is below 0.01 of the attachment's mean distance from the axis, the length is that limit.
  *   wall     as in riis_surface_get_gap
  *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
  *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults

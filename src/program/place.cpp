@@ -466,7 +466,7 @@ std::string fortran_of(const std::string &kind, const Placed &placed) {
                             numbers_text(at.translation, 3, ", ", in_fortran) + "])\n";
   if (placed.warp) {
     const auto array = [](const std::vector<double> &xyz) {
-      std::string made = "reshape([real(c_double) :: &\n";
+      std::string made = "reshape([ &\n";
       for (std::size_t i = 0; i < xyz.size(); i += 3)
         made += "  " + numbers_text(xyz.data() + i, 3, ", ", in_fortran) + (i + 3 < xyz.size() ? ", &\n" : "");
       return made + "], [3, " + std::to_string(xyz.size() / 3) + "])";

@@ -62,7 +62,7 @@ double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
 // A skirt to a wall is at least this many such distances long. Its outer edge has its vertices at even shares of its own length,
 // so they are not exactly beside those of the attachment. A thinner strip along a round attachment would go through itself.
-inline constexpr double least_skirt_to_wall = 0.005;
+inline constexpr double least_skirt_to_wall = 0.01;
 
 // Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
