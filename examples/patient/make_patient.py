@@ -127,7 +127,7 @@ class Root:
         degrees, z = first + 0.5 * (place + 1) * width, self.attachment_height(cusp, place)
         return self.placed(degrees, self.tube_radius(degrees, z), z)
 
-    def half_attachment(self, cusp, side, n=400):
+    def half_attachment(self, cusp, side, n=120):
         """Returns n + 1 points of half a cusp's attachment, evenly by length from its nadir to a commissure."""
         # The curve is steep at the commissure, so places lie close together there.
         points = [self.on_attachment(cusp, side * (1 - (1 - i / 2000) ** 3)) for i in range(2001)]
