@@ -16,8 +16,8 @@ namespace riis::program {
 // Landmarks on the valve, and their targets at one time or at several.
 class LandmarkPairs {
  public:
-  // The landmarks are in the mesh's coordinates if the placement is given, and in the valve's own if it is NULL. `factor` converts
-  // lengths of the file to the mesh's unit.
+  // The landmarks are in the mesh's coordinates if the placement is given, and in the valve's own if it is NULL. `factor`
+  // converts lengths of the file to the mesh's unit.
   LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement, double factor);
 
   bool moves() const { return times_.size() > 1; }

@@ -36,8 +36,8 @@ Vector<HeldSide> held_sides(const PatchSet &set);
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // of each side with such lengths
 
-// The direction in which a skirt leads away from its attachment: outwards from the axis. Where neighbouring cusps end side by side
-// but are not joined, as those of a warped aortic valve, both skirts end in one plane. So neither goes through the other.
+// The direction in which a skirt leads away from its attachment: outwards from the axis. Where neighbouring cusps end side by
+// side but are not joined, as those of a warped aortic valve, both skirts end in one plane. So neither goes through the other.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
