@@ -1359,8 +1359,9 @@ typedef struct riis_landmarks {
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
   const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir or a point of the attachment, its cusp and -1; of a
-                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. Enough of an aortic valve's must be known
-                                to name all. Without names, cusp 0 of three equal cusps is at the first nadir */
+                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. Enough of
+                                an aortic valve's must be known to name all. Without names, cusp 0 of three equal cusps
+                                is at the first nadir */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
   double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */

@@ -181,12 +181,17 @@ class _Landmarks:
             raise _refuse(
                 self.where,
                 f"{name!r} is not the name of a landmark; there are {', '.join(_ROLES)}, flow_from and flow_to; a nadir may name "
-                "its cusp, as in nadir_left, a commissure its two, as in commissure_left_right, and a point of the attachment its "
-                "cusp and a number, as in attachment_left_2",
+                "its cusp, as in nadir_left, a commissure its two, as in commissure_left_right, and a point of the attachment "
+                "its cusp and a number, as in attachment_left_2",
             )
         role, leaflets, may_repeat = place
         is_known = any(
-            role == other and (set(leaflets) == set(ids) if leaflets[0] >= 0 and role != _ATTACHMENT else text == re.sub(r"[ -]", "_", known.lower()))
+            role == other
+            and (
+                set(leaflets) == set(ids)
+                if leaflets[0] >= 0 and role != _ATTACHMENT
+                else text == re.sub(r"[ -]", "_", known.lower())
+            )
             for other, ids, known in zip(self.roles, self.leaflets, self.names, strict=True)
         )
         if is_known and not may_repeat:
