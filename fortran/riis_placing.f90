@@ -24,20 +24,23 @@ contains
   !! mirrored or not those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do
   !! not fit together.
   subroutine place(valve, xyz, role, scale, placement, leaflet_id, flow, noise, held, residual, standard_error, &
-      size_state, status)
+      size_state, places, status)
     class(riis_valve), intent(inout) :: valve               !< Must be created; a kind of valve. Unchanged on an error.
     real(c_double), intent(in), target :: xyz(:, :)         !< (3, n_landmarks), in mesh units.
     integer(int32), intent(in), contiguous, target :: role(:) !< (n_landmarks): RIIS_LANDMARK_*.
     real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 0.01 for metres.
     type(riis_placement), intent(inout) :: placement        !< Unchanged on an error. worst_landmark_id counts from 0.
-    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:, :) !< (2, n_landmarks): of a nadir, its cusp and
-                                                            !! -1; of a commissure, its two cusps. Default -1: not known.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:, :) !< (2, n_landmarks): of a nadir or a point
+                                                            !! of the attachment, its cusp and -1; of a commissure, its two cusps.
+                                                            !! Default -1: not known.
     real(c_double), intent(in), optional :: flow(:)         !< (3), the direction of flow. Default: not known.
     real(c_double), intent(in), optional :: noise           !< Standard deviation of each coordinate. Default 0.03 * scale.
     character(len=*), intent(in), optional :: held          !< Parameters that keep their values, separated by blanks.
     real(c_double), intent(inout), contiguous, optional, target :: residual(:) !< (n_landmarks), mesh units.
     real(c_double), intent(inout), contiguous, optional, target :: standard_error(:) !< (number of parameters).
     integer(int32), intent(inout), contiguous, optional, target :: size_state(:) !< (number of parameters): RIIS_SIZE_*.
+    real(c_double), intent(inout), contiguous, optional, target :: places(:, :) !< (3, n_landmarks): the landmarks' places on the
+                                                            !! valve, mesh units: the sources of a warp to the landmarks.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
     type(riis_landmarks) :: landmarks
     type(riis_placement_arrays) :: arrays
@@ -60,6 +63,8 @@ contains
       code = check_size(size(standard_error, kind=int64), n_parameters, 'standard_error', 'one for each parameter')
     if (present(size_state) .and. code == RIIS_OK) &
       code = check_size(size(size_state, kind=int64), n_parameters, 'size_state', 'one for each parameter')
+    if (present(places) .and. code == RIIS_OK) &
+      code = check_size(size(places, kind=int64), 3 * points%n, 'places', 'three for each landmark')
     if (code == RIIS_OK) then
       landmarks%n_landmarks = points%n
       landmarks%x = points%x
@@ -76,6 +81,7 @@ contains
       if (present(residual) .and. points%n > 0) arrays%residual = c_loc(residual)
       if (present(standard_error)) arrays%standard_error = c_loc(standard_error)
       if (present(size_state)) arrays%size_state = c_loc(size_state)
+      if (present(places) .and. points%n > 0) arrays%place = c_loc(places)
       code = c_place(valve%c_handle(), landmarks, names, arrays, placement, c_sizeof(placement))
     end if
     call finish(code, status)

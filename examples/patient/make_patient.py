@@ -2,20 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes a synthetic patient: a segmented aortic root and the landmarks that a clinician would set in it.
 
-make_patient.py FOLDER [--seed N] [--random] [--noise MM]
+make_patient.py FOLDER [--seed N] [--random] [--noise MM] [--attachment N] [--measure FILE.vtp]
 
 Writes three files into FOLDER. root.stl is a closed surface in millimetres with flat ends. landmarks.mrk.json has three
 commissures and three nadirs, as 3D Slicer writes them. sides.txt has a point before the valve and a point after it. Axes are LPS:
 x to the left, y to the back, z upwards. The root lies obliquely, and no cusp is like another. The seed determines the landmarks'
-noise and the waves of the wall. With --random the seed also determines everything else. Curves of riis have no part in this root,
-so it tests
-whether a valve of riis fits. Needs only Python's own modules.
+noise and the waves of the wall. With --random the seed also determines everything else. With --attachment there are also landmarks
+along the attachment. Curves of riis have no part in this root, so it tests whether a valve of riis fits. With --measure the script
+writes no file, and prints a distance in millimetres. 95 % of a valve's attachment lie within this distance of the patient's
+attachment. The valve is a file of riis surface --output without a skirt. Needs only Python's own modules.
 """
 import argparse
 import json
 import math
 import os
 import random
+import re
 import struct
 
 ROUGHNESS = 0.3  # largest height of the waves on the segmented wall, in millimetres
@@ -119,8 +121,28 @@ class Root:
             return 0.0
         return self.sinus_depth * (1 - place ** 4) ** 2 * math.sin(math.pi * share ** 0.7)
 
-    def landmarks(self):
-        """Returns the landmarks without noise, as pairs of name and point."""
+    def on_attachment(self, cusp, place):
+        """Returns the point of a cusp's attachment at a place in its sector."""
+        first, width = self.sector(cusp)
+        degrees, z = first + 0.5 * (place + 1) * width, self.attachment_height(cusp, place)
+        return self.placed(degrees, self.tube_radius(degrees, z), z)
+
+    def half_attachment(self, cusp, side, n=120):
+        """Returns n + 1 points of half a cusp's attachment, evenly by length from its nadir to a commissure."""
+        # The curve is steep at the commissure, so places lie close together there.
+        points = [self.on_attachment(cusp, side * (1 - (1 - i / 2000) ** 3)) for i in range(2001)]
+        behind = [0.0]
+        for p, q in zip(points, points[1:]):
+            behind.append(behind[-1] + math.dist(p, q))
+        made, k = [], 0
+        for i in range(n + 1):
+            while k + 1 < len(points) and behind[k] < behind[-1] * i / n - 1e-12:
+                k += 1
+            made.append(points[k])
+        return made
+
+    def landmarks(self, n_attachment=0):
+        """Returns the landmarks without noise, as pairs of name and point: n_attachment of them inside each half attachment."""
         made = []
         for cusp, name in enumerate(CUSPS):
             first, width = self.sector(cusp)
@@ -129,7 +151,41 @@ class Root:
         for cusp, (degrees, z) in enumerate(self.commissures):
             name = "commissure_" + CUSPS[cusp] + "_" + CUSPS[(cusp + 1) % 3]
             made.append((name, self.placed(degrees, self.tube_radius(degrees, z), z)))
+        for cusp, name in enumerate(CUSPS):
+            for side in 1, -1:
+                half = self.half_attachment(cusp, side, n_attachment + 1)
+                for number in range(1, n_attachment + 1):
+                    at = number if side > 0 else n_attachment + number
+                    made.append((f"attachment_{name}_{at}", half[number]))
         return made
+
+    def distance_from_attachment(self, cloud):
+        """Returns the distances of points from the attachment."""
+        lines = [self.half_attachment(cusp, side) for cusp in range(3) for side in (1, -1)]
+        return [min(distance_from_segment(p, a, b) for line in lines for a, b in zip(line, line[1:])) for p in cloud]
+
+
+def distance_from_segment(p, a, b):
+    along, to = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, p)]
+    size = sum(x * x for x in along)
+    t = min(1.0, max(0.0, sum(x * y for x, y in zip(along, to)) / size)) if size > 0 else 0.0
+    return math.dist(p, [x + t * y for x, y in zip(a, along)])
+
+
+def attachment_of(path):
+    """Returns the vertices of a valve's surface that lie on its attachment, where u = 1. The file is that of riis surface."""
+    with open(path, "rb") as file:
+        data = file.read()
+    start = data.index(b"_", data.index(b"<AppendedData")) + 1
+
+    def array(name):
+        element = re.search(rb'<DataArray type="Float64" Name="' + name + rb'"[^>]*offset="(\d+)"', data)
+        at = start + int(element[1])
+        size, = struct.unpack_from("<Q", data, at)
+        return struct.unpack_from(f"<{size // 8}d", data, at + 8)
+
+    uv, xyz = array(b"riis_uv"), array(b"Points")
+    return [xyz[3 * i:3 * i + 3] for i in range(len(uv) // 2) if uv[2 * i] == 1]
 
 
 def waves(rng):
@@ -167,9 +223,9 @@ def write_stl(path, triangles):
             file.write(struct.pack("<12fH", *normal, *a, *b, *c, 0))
 
 
-def write_landmarks(path, root, rng, noise):
+def write_landmarks(path, root, rng, noise, n_attachment):
     points = [{"id": str(i + 1), "label": name, "position": [round(x + rng.gauss(0, noise), 3) for x in place],
-               "positionStatus": "defined"} for i, (name, place) in enumerate(root.landmarks())]
+               "positionStatus": "defined"} for i, (name, place) in enumerate(root.landmarks(n_attachment))]
     markups = {"type": "Fiducial", "coordinateSystem": "LPS", "coordinateUnits": "mm", "controlPoints": points}
     with open(path, "w", encoding="utf-8") as file:
         json.dump({"markups": [markups]}, file, indent=1)
@@ -188,13 +244,20 @@ def main():
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--random", action="store_true", help="draw the root and its place also")
     arguments.add_argument("--noise", type=float, default=0.3, help="of the landmarks' coordinates, in millimetres (default 0.3)")
+    arguments.add_argument("--attachment", type=int, default=0, help="points of the attachment in each half cusp (default 0)")
+    arguments.add_argument("--measure", help="compare the attachment of this valve's surface with the patient's")
     options = arguments.parse_args()
-    os.makedirs(options.folder, exist_ok=True)
     rng = random.Random(options.seed)
     root = Root.drawn(rng) if options.random else Root()
+    if options.measure:
+        off = sorted(root.distance_from_attachment(attachment_of(options.measure)))
+        print(f"{off[math.ceil(0.95 * len(off)) - 1]:.3f}")
+        return
+    os.makedirs(options.folder, exist_ok=True)
     write_sides(os.path.join(options.folder, "sides.txt"), root)
     write_stl(os.path.join(options.folder, "root.stl"), wall_triangles(root, waves(rng)))
-    write_landmarks(os.path.join(options.folder, "landmarks.mrk.json"), root, rng, options.noise)
+    write_landmarks(os.path.join(options.folder, "landmarks.mrk.json"), root, rng, options.noise,
+                    options.attachment)
 
 
 if __name__ == "__main__":

@@ -133,6 +133,7 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_LANDMARK_POSTEROMEDIAL = 7
   integer(c_int32_t), parameter :: RIIS_LANDMARK_ANTEROLATERAL = 8
   integer(c_int32_t), parameter :: RIIS_LANDMARK_HINGE = 9
+  integer(c_int32_t), parameter :: RIIS_LANDMARK_ATTACHMENT = 10
 
   integer(c_int32_t), parameter :: RIIS_SIZE_KEPT = 0
   integer(c_int32_t), parameter :: RIIS_SIZE_DETERMINED = 1
@@ -674,6 +675,7 @@ module riis_c
     type(c_ptr) :: residual       !< real(c_double), (n_landmarks)
     type(c_ptr) :: standard_error !< real(c_double), (n_parameters)
     type(c_ptr) :: size_state     !< integer(c_int32_t), (n_parameters)
+    type(c_ptr) :: place          !< real(c_double), (3, n_landmarks)
   end type riis_placement_arrays
 
   type, bind(c) :: riis_opening_table

@@ -612,7 +612,7 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
 /* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt. At each point of the
  * attachment of the closed valve, the length is the gap. These lengths stay while the valve opens. The parameter
  * "skirt_length" becomes the largest of them, before placement. Setting that parameter removes the lengths. Where the gap
- * is below 1e-4 of the attachment's mean distance from the axis, the length is that limit.
+ * is below 0.01 of the attachment's mean distance from the axis, the length is that limit.
  *   wall     as in riis_surface_get_gap
  *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
  *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
@@ -1350,7 +1350,9 @@ enum {
   RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2 */
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
-  RIIS_LANDMARK_HINGE = 9           /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
+  RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
+  RIIS_LANDMARK_ATTACHMENT = 10     /* three cusps: a further point of the attachment; at most 900. The sizes and the
+                                       placement do not depend on it: it is for a warp, by riis_placement_arrays.place */
 };
 /* Landmarks of a patient, in the caller's arrays. */
 typedef struct riis_landmarks {
@@ -1359,9 +1361,10 @@ typedef struct riis_landmarks {
   const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
-  const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir, its cusp and -1; of a commissure, its two cusps, in any
-                                order. -1 and -1: not known. NULL: all -1. Enough of an aortic valve's must be known
-                                to name all. Without names, cusp 0 of three equal cusps is at the first nadir */
+  const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir or a point of the attachment, its cusp and -1; of a
+                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. Enough of
+                                an aortic valve's must be known to name all. Without names, cusp 0 of three equal cusps
+                                is at the first nadir */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
   double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */
@@ -1402,6 +1405,10 @@ typedef struct riis_placement_arrays {
   double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter), in the parameter's
                                 unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
+  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a
+                                warp whose targets are the landmarks. A commissure's place is the mean of its cusps' ends.
+                                A point of the attachment has the place that this warp, smoothed by the noise, takes
+                                nearest to it */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement: least squares of the distances

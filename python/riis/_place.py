@@ -16,7 +16,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import Error, InvalidArgumentError, InvalidParameterError
-from riis._riis import Valve, place_landmarks
+from riis._riis import Surface, Valve, Warp, place_landmarks
 
 Reals = NDArray[numpy.float64]
 
@@ -33,7 +33,9 @@ _ROLES = {
     "posteromedial_commissure": False,
     "anterolateral_commissure": False,
     "hinge": True,
+    "attachment": True,
 }
+_ATTACHMENT = list(_ROLES).index("attachment")
 _SCALES = {"mm": 10.0, "cm": 1.0, "m": 0.01}
 _AXES = ("LPS", "RAS", "mesh")
 _WHY_AXES = "; LPS and RAS differ by half a turn about z, which the landmarks themselves cannot show"
@@ -62,6 +64,10 @@ class PlaceResult:
     undetermined: tuple[str, ...]  #: parameters that landmarks bear on but do not determine
     in_proportion: tuple[str, ...]  #: parameters that follow from others, by the valve's proportions
     points: Reals = field(repr=False)  #: (n_landmarks, 3)
+    places: Reals = field(repr=False)  #: (n_landmarks, 3), the landmarks' places on the closed valve before a warp
+    warp: Warp | None = field(default=None, repr=False)  #: the valve's warp, which takes the places to the points
+    warp_noise: float = 0.0  #: by which the warp is smoothed
+    warped_residuals: Reals | None = None  #: (n_landmarks,), the distances from the landmarks to their warped places
 
     def report(self) -> str:
         """Returns a table of the parameters with their standard errors, followed by the residuals."""
@@ -76,8 +82,9 @@ class PlaceResult:
         lines.append("in proportion: " + ", ".join(self.in_proportion))
         for key, value in self.placement.items():
             lines.append(f"{key:32} " + " ".join(f"{number:.4f}" for number in numpy.atleast_1d(value)))
-        for name, residual in zip(self.names, self.residuals, strict=True):
-            lines.append(f"{name:32} residual {residual:.3g} {self.unit}")
+        for number, (name, residual) in enumerate(zip(self.names, self.residuals, strict=True)):
+            warped = "" if self.warped_residuals is None else f", warped {self.warped_residuals[number]:.3g}"
+            lines.append(f"{name:32} residual {residual:.3g}{warped} {self.unit}")
         lines.append(f"rms {self.rms:.3g}, worst {self.worst:.3g} {self.unit} at {self.worst_landmark}")
         return "\n".join(lines)
 
@@ -100,6 +107,8 @@ class PlaceResult:
             "translate": list(at["translation"]),
             "parameters": parameters,
         }
+        if self.warp is not None:
+            content["warp"] = {"sources": self.places.tolist(), "targets": self.points.tolist(), "noise": self.warp_noise}
         Path(path).write_text(json.dumps(content, indent=2) + "\n")
 
 
@@ -118,6 +127,11 @@ def _place_of(name: str) -> tuple[int, tuple[int, int], bool] | None:
             continue
         if re.fullmatch("[0-9]+", rest) and is_repeated:
             return role, (-1, -1), False
+        cusp = re.fullmatch("(right|left|non_coronary|non)(_[0-9]+)?", rest)
+        if word == "attachment":
+            if cusp:
+                return role, (_CUSPS[cusp[1]], -1), cusp[2] is None
+            continue
         found = re.fullmatch("(right|left|non_coronary|non)(?:_(right|left|non_coronary|non))?", rest)
         if not found:
             continue
@@ -167,11 +181,17 @@ class _Landmarks:
             raise _refuse(
                 self.where,
                 f"{name!r} is not the name of a landmark; there are {', '.join(_ROLES)}, flow_from and flow_to; a nadir may name "
-                "its cusp, as in nadir_left, and a commissure its two, as in commissure_left_right",
+                "its cusp, as in nadir_left, a commissure its two, as in commissure_left_right, and a point of the attachment "
+                "its cusp and a number, as in attachment_left_2",
             )
         role, leaflets, may_repeat = place
         is_known = any(
-            role == other and (set(leaflets) == set(ids) if leaflets[0] >= 0 else text == re.sub(r"[ -]", "_", known.lower()))
+            role == other
+            and (
+                set(leaflets) == set(ids)
+                if leaflets[0] >= 0 and role != _ATTACHMENT
+                else text == re.sub(r"[ -]", "_", known.lower())
+            )
             for other, ids, known in zip(self.roles, self.leaflets, self.names, strict=True)
         )
         if is_known and not may_repeat:
@@ -328,6 +348,7 @@ def place(
     flow: Any = None,
     noise: float | None = None,
     held: Any = (),
+    warp: Literal["none", "exact", "smoothed"] = "none",
 ) -> PlaceResult:
     """Finds a valve's sizes and placement from a patient's landmarks.
 
@@ -339,10 +360,14 @@ def place(
     flow       (3,), the direction of flow; needed for bileaflet valves, and for mitral ones without commissures and saddle
     noise      standard deviation of each coordinate, in the unit; default 0.3 mm
     held       names of parameters that keep the valve's values
+    warp       "exact" warps the valve to the landmarks, and "smoothed" as near to them as their noise
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
-    of the size of a heart valve in this unit.
+    of the size of a heart valve in this unit. Raises InvalidParameterError for a warp that folds, and for a warp of a bileaflet
+    valve, which is rigid.
     """
+    if warp not in ("none", "exact", "smoothed"):
+        raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")
     read = _read(landmarks)
     is_file = not isinstance(landmarks, Mapping)
     if not is_file:
@@ -408,7 +433,13 @@ def place(
         )
     except Error as error:
         raise type(error)(_in_words_of_file(str(error), read)) from None
-    placement, residuals, errors, states, rms, worst, shown, rotation_error, position_error, worst_id = result
+    placement, residuals, errors, states, rms, worst, shown, rotation_error, position_error, worst_id, places = result
+    made, warped_residuals, smoothing = None, None, 0.0
+    if warp != "none":
+        usual_noise = 0.03 * _SCALES[read.unit]
+        smoothing = 0.0 if warp == "exact" else usual_noise if scatter is None else scatter
+        made = _warped(placed, placement, places, points, smoothing, read)
+        warped_residuals = numpy.linalg.norm(made.map(places) - points, axis=1)
     by_source: dict[str, list[str]] = {source: [] for source in _SOURCES}
     for name, state in zip(table, states, strict=True):
         by_source[_SOURCES[state]].append(name)
@@ -432,4 +463,23 @@ def place(
         undetermined=tuple(by_source["undetermined"]),
         in_proportion=tuple(by_source["proportion"]),
         points=points,
+        places=places,
+        warp=made,
+        warp_noise=smoothing,
+        warped_residuals=warped_residuals,
     )
+
+
+def _warped(valve: Valve, placement: dict[str, Any], places: Reals, points: Reals, noise: float, read: _Landmarks) -> Warp:
+    """Warps the valve to the landmarks, and returns the warp. Refuses a warp that folds at whatever opening it does."""
+    try:
+        warp = Warp(places, noise=noise, placement=placement)
+        warp.set_targets(points)
+        valve.set_warp(warp)
+        trial = valve.copy()
+        for opening in (0.0, 0.5, 1.0):
+            trial["opening"] = opening
+            Surface(trial, half_thickness=0.1 * placement["scale"], **placement).close()
+    except Error as error:
+        raise type(error)(_in_words_of_file(str(error), read)) from None
+    return warp

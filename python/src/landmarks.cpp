@@ -35,7 +35,7 @@ nb::tuple place_landmarks(nb::handle valve_, nb::handle xyz_, nb::handle role_, 
   std::int64_t n_parameters = 0;
   call_shortly(riis_valve_get_n_parameters(valve.handle, &n_parameters));
   const auto n = static_cast<std::size_t>(n_parameters), n_points = static_cast<std::size_t>(xyz.size(0));
-  std::vector<double> residual(n_points), error(n);
+  std::vector<double> residual(n_points), error(n), place(3 * n_points);
   std::vector<std::int32_t> state(n);
   riis_placement at;
   riis_placement_arrays arrays;
@@ -43,6 +43,7 @@ nb::tuple place_landmarks(nb::handle valve_, nb::handle xyz_, nb::handle role_, 
   arrays.residual = residual.data();
   arrays.standard_error = error.data();
   arrays.size_state = state.data();
+  arrays.place = place.data();
   call_to_write(valve.usage,
                 [&] { return riis_place(valve.handle, &landmarks, held.c_str(), &arrays, &at, sizeof at); });
   nb::dict placement;
@@ -52,7 +53,7 @@ nb::tuple place_landmarks(nb::handle valve_, nb::handle xyz_, nb::handle role_, 
   placement["translation"] = nb::make_tuple(at.translation[0], at.translation[1], at.translation[2]);
   return nb::make_tuple(placement, copy_of(residual.data(), {n_points}), copy_of(error.data(), {n}),
                         copy_of(state.data(), {n}), at.rms, at.worst, at.noise, at.rotation_error, at.position_error,
-                        at.worst_landmark_id);
+                        at.worst_landmark_id, copy_of(place.data(), {n_points, 3}));
 }
 
 }  // namespace

@@ -144,3 +144,35 @@ def test_refused(tmp_path):
     ):
         (tmp_path / name).write_text(text)
         refused(words, tmp_path / name, "trileaflet")
+
+
+@pytest.mark.parametrize("kind", ["trileaflet", "coapting"])
+def test_warps(kind, tmp_path):
+    _, _, points = patient(7, noise=0.8)
+    named = dict(zip(NAMES, points, strict=True))
+    exact = riis.place(named, kind, unit="mm", warp="exact")
+    assert exact.rms > 0.2 and exact.warped_residuals.max() < 1e-9
+    surface = riis.Surface(exact.valve, **exact.placement)
+    nearest = numpy.linalg.norm(surface.vertices[:, None] - points, axis=2).min(0)
+    assert nearest.max() < 1e-9
+    # The places are on the valve before the warp, as far from the landmarks as the residuals say.
+    numpy.testing.assert_allclose(numpy.linalg.norm(exact.places - points, axis=1), exact.residuals, atol=1e-9)
+    smoothed = riis.place(named, kind, unit="mm", warp="smoothed", noise=0.3)
+    assert 0.05 < numpy.sqrt((smoothed.warped_residuals**2).mean()) < 0.6 and smoothed.warp_noise == 0.3
+    smoothed.save(tmp_path / "placed.json")
+    saved = json.loads((tmp_path / "placed.json").read_text())["warp"]
+    assert saved["noise"] == 0.3 and saved["targets"] == points.tolist() and saved["sources"] == smoothed.places.tolist()
+    # A point of the attachment between two landmarks is met also, and does not move the placement.
+    edges = surface.attachment.edges.reshape(-1, 3)
+    apart = numpy.linalg.norm(edges[:, None] - points, axis=2).min(1)
+    further = {**named, "attachment": [edges[apart.argmax()] + (0.3, 0.2, -0.1)]}
+    more = riis.place(further, kind, unit="mm", warp="exact")
+    assert more.warped_residuals.max() < 1e-9
+    for key, value in exact.placement.items():
+        numpy.testing.assert_allclose(more.placement[key], value, rtol=1e-7, atol=1e-7)
+    attachment = riis.Surface(more.valve, tolerance=0.005, **more.placement).attachment.edges.reshape(-1, 3)
+    assert numpy.linalg.norm(attachment - further["attachment"][0], axis=1).min() < 0.5
+    with pytest.raises(riis.InvalidArgumentError, match="it must be none, exact or smoothed"):
+        riis.place(named, kind, unit="mm", warp="yes")
+    with pytest.raises(riis.InvalidArgumentError, match="'commissure_left_non' and 'attachment_1' are in one place on"):
+        riis.place({**named, "attachment": [named["commissure_left_non"]]}, kind, unit="mm")

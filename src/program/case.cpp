@@ -228,7 +228,7 @@ Case case_of_command_line(const MarkOptions &options) {
     source.law = law_of_command_line(options);
     // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
     source.options.opening = largest_opening(source.law, options.series.times);
-    source.valve = make_valve(source.options);
+    source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
     source.has_open_state = !options.params_open.empty();
   } else {
     Seconds seconds;

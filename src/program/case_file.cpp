@@ -199,9 +199,14 @@ class CaseReader {
 
   // Reads the warp, and gives it to the valve at the first time.
   void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
-    if (!values.has("warp")) return;
     const std::vector<double> &times = all_.options.series.times;
-    source.warp = WarpSource(values, source.options.surface_options);
+    source.warp = read_warp(source.options);
+    if (values.has("warp")) {
+      if (!source.warp.is_empty())
+        values.refuse("warp", "it has no effect, because " + source.options.placed + " has a warp");
+      const std::string object = (values.subject() + ": warp").substr(path_.size() + 2);
+      source.warp = WarpSource(path_, object, values.needed("warp"), source.options.surface_options);
+    }
     if (times.empty() && source.warp.moves())
       values.refuse("warp", "landmarks that move need times, in the file or by --times");
     source.warp.apply(times.empty() ? 0 : times.front(), valve);

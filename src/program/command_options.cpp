@@ -19,6 +19,9 @@ const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor",
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 const std::vector<std::string> view_names = {"side", "top", "oblique"};
 
+// The position of each name is the value of LandmarkWarp that it stands for.
+const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
+
 double parse_positive_finite(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
   if (!(number > 0 && std::isfinite(number))) refuse_usage(subject + ": " + text + " is not above 0 and finite");
@@ -79,6 +82,11 @@ void declare_skirt(Command &command, ValveOptions &options) {
       ->needs(skirt);
 }
 
+void declare_warp(Command &command, ValveOptions &options) {
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
+               options.warp);
+}
+
 void declare_tolerance(Command &command, ValveOptions &options) {
   command.value("--tolerance", "F", "Largest deviation of triangles from the smooth valve, in half thicknesses",
                 [&options](const std::string &text) {
@@ -93,7 +101,7 @@ void declare_file(Command &command, ValveOptions &options) {
   command.group("Surface");
   CLI::Option *const surface = command.text(
       "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
-  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--skirt", "--wall"})
+  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall"})
     surface->excludes(command.option(name));
   command
       .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
@@ -159,6 +167,7 @@ void declare_placed_valve(Command &command, ValveOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_warp(command, options);
   declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
@@ -261,12 +270,11 @@ void declare_series(Command &command, MarkOptions &options) {
       ->needs(movie);
   command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
   // A case excludes these options, because the case file contains its own values for them.
-  for (const char *name : {"--surface",        "--leaflets",       "--valve",        "--opening",
-                           "--params",         "--params-open",    "--set",          "--tolerance",
-                           "--triangulation",  "--skip-zero-area", "--flip-normals", "--scale",
-                           "--unit",           "--surface-unit",   "--rotate",       "--translate",
-                           "--half-thickness", "--resistance",     "--cycle",        "--period",
-                           "--interpolation",  "--prefix",         "--time"})
+  for (const char *name :
+       {"--surface", "--leaflets",     "--valve",         "--opening",        "--params",         "--params-open",
+        "--set",     "--tolerance",    "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
+        "--unit",    "--surface-unit", "--rotate",        "--translate",      "--half-thickness", "--resistance",
+        "--cycle",   "--period",       "--interpolation", "--prefix",         "--time",           "--warp"})
     command.option(name)->excludes(all_of_it);
   for (const char *name : {"--steps", "--stats", "--search", "--distance", "--distance-tolerance"})
     command.option(name)->excludes(all_of_it)->excludes(times);
@@ -286,6 +294,7 @@ void declare_mark(Command command, MarkOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_warp(command, options);
   declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
@@ -345,6 +354,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
+  declare_warp(command, options);
   declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
@@ -390,7 +400,8 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
         "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
         "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
-        "--period",  "--interpolation", "--time",          "--count",          "--skirt",          "--wall"})
+        "--period",  "--interpolation", "--time",          "--count",          "--skirt",          "--wall",
+        "--warp"})
     command.option(name)->excludes(all_of_it);
   for (const char *name : {"--opening", "--time", "--count"}) command.option(name)->excludes(times);
 }
@@ -405,12 +416,13 @@ void declare_states(Command command, StatesOptions &options) {
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_open_state(command, options);
+  declare_warp(command, options);
   declare_skirt(command, options);
   declare_tolerance(command, options);
   CLI::Option *const surface = command.text(
       "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
   for (const char *name :
-       {"--valve", "--params", "--params-open", "--set", "--skirt", "--wall", "--tolerance", "--count"})
+       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
     surface->excludes(command.option(name));
   command
       .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
@@ -454,6 +466,7 @@ void declare_export(Command command, ExportOptions &options) {
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_open_state(command, options);
+  declare_warp(command, options);
   declare_skirt(command, options);
   declare_tolerance(command, options);
   declare_placement(command, options);
@@ -477,6 +490,8 @@ void declare_place(Command command, PlaceOptions &options) {
       ->check(CLI::IsMember(unit_names()));
   command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
+  command.choice("--warp", "Warp the valve to the landmarks: none (default), exact, or smoothed by their noise",
+                 warp_names, options.warp_choice);
   command.value("--noise", "L", "Standard deviation of each coordinate (default 0.3 mm)",
                 [&options](const std::string &text) {
                   options.noise = parse_number(text, "--noise");

@@ -123,6 +123,16 @@ to the wall. The parameter skirt_length is the same length in the valve's own un
 frame and unit, the skirt reaches that wall, and no farther. L is then the longest skirt to accept. The program prints the
 gap. A wall that is missed or farther away is refused. In a case, "skirt" and "wall" are keys of a valve.
 )"},
+    {"warp", "a valve that meets a patient's landmarks",
+     R"(
+riis place LANDMARKS --warp exact writes a warp into the placed valve, and every command that takes this valve as --valve uses it.
+With --warp smoothed the warp misses the landmarks by about their noise, so an error of a landmark bends the valve less. Points of
+the attachment among the landmarks (riis help landmarks) make the valve fit between its commissures and nadirs. The sizes and the
+placement do not depend on them. A warp that folds is refused. A bileaflet valve is rigid and takes no warp.
+--warp FILE gives a warp to a valve of any command: landmarks on the valve, their places in the patient, in the mesh's unit.
+FILE.json has the keys of "warp" in a case (riis help cases). FILE.csv has a line SX,SY,SZ,TX,TY,TZ for each landmark, and perhaps
+lines # noise = 0.3 and # coordinates = valve.
+)"},
     {"patches", "a file of curves for a valve of your own",
      R"(
 --valve FILE.json is a valve from patches, which are given by the curves that bound them:
@@ -139,7 +149,8 @@ opening and skirt_length.
 {"valve": "aortic", "unit": "mm", "axes": "LPS",
  "landmarks": {"nadir_right": [1,2,3], "nadir_left": [...], "nadir_non_coronary": [...],
                "commissure_left_right": [...], "commissure_left_non": [...], "commissure_right_non": [...]}}
-coapting    3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation
+coapting    3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation, and
+            for a warp up to 900 points of the attachment, as attachment_1 or, with the cusp, attachment_left_1
 trileaflet  the same
 aortic      the same; the names must say which cusp is which
 mitral      "annulus": 4 points or more in their order around it, anterior_horn; perhaps posterior_horn, 2 trigone,

@@ -35,7 +35,8 @@ const std::vector<RoleWord> role_words = {{"commissure", RIIS_LANDMARK_COMMISSUR
                                           {"trigone", RIIS_LANDMARK_TRIGONE, true},
                                           {"posteromedial_commissure", RIIS_LANDMARK_POSTEROMEDIAL, false},
                                           {"anterolateral_commissure", RIIS_LANDMARK_ANTEROLATERAL, false},
-                                          {"hinge", RIIS_LANDMARK_HINGE, true}};
+                                          {"hinge", RIIS_LANDMARK_HINGE, true},
+                                          {"attachment", RIIS_LANDMARK_ATTACHMENT, true}};
 const char *const flow_from = "flow_from", *const flow_to = "flow_to";
 
 struct Place {
@@ -68,7 +69,7 @@ std::int32_t take_cusp(std::string &text) {
 }
 
 // Reads a name: the word of a role, and perhaps more. A number may follow, or one cusp after a nadir, or two cusps after a
-// commissure.
+// commissure. A cusp and a number may follow the word of a point of the attachment.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -80,7 +81,12 @@ std::optional<Place> place_of_name(const std::string &name) {
       if (known.is_repeated) return Place{known.role, {-1, -1}, false};
       continue;
     }
-    const std::int32_t first = take_cusp(rest), second = first >= 0 ? take_cusp(rest) : -1;
+    const std::int32_t first = take_cusp(rest);
+    if (known.role == RIIS_LANDMARK_ATTACHMENT) {
+      if (first >= 0 && (rest.empty() || is_number(rest))) return Place{known.role, {first, -1}, rest.empty()};
+      continue;
+    }
+    const std::int32_t second = first >= 0 ? take_cusp(rest) : -1;
     if (first < 0 || !rest.empty()) continue;
     if (known.role == RIIS_LANDMARK_NADIR && second < 0) return Place{known.role, {first, -1}, false};
     if (known.role == RIIS_LANDMARK_COMMISSURE && second >= 0 && first != second)
@@ -105,7 +111,7 @@ class Collector {
     const std::optional<Place> place = place_of_name(name);
     if (!place) refuse_name(name);
     const auto key = std::pair(place->role, std::minmax(place->leaflet_ids[0], place->leaflet_ids[1]));
-    const bool names_cusp = place->leaflet_ids[0] >= 0;
+    const bool names_cusp = place->leaflet_ids[0] >= 0 && place->role != RIIS_LANDMARK_ATTACHMENT;
     const bool is_new = names_cusp ? cusps_.insert({key.first, {key.second.first, key.second.second}}).second
                                    : names_.insert(text).second;
     if (!is_new && !place->may_repeat) refuse_file(file_.path, quoted(name) + " is given twice");
@@ -138,11 +144,12 @@ class Collector {
     }
     for (const char *nadir : {"nadir_right", "nadir_left", "nadir_non_coronary"}) nearest.consider(nadir);
     const std::string near(nearest.nearest());
-    refuse_file(file_.path,
-                quoted(name) + " is not the name of a landmark" +
-                    (near.empty() ? "" : ", did you mean " + quoted(near) + "?") + "; there are " + known +
-                    ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, and a commissure "
-                    "its two, as in commissure_left_right");
+    refuse_file(
+        file_.path,
+        quoted(name) + " is not the name of a landmark" + (near.empty() ? "" : ", did you mean " + quoted(near) + "?") +
+            "; there are " + known +
+            ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, a commissure its two, as in "
+            "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2");
   }
 
   LandmarkFile &file_;
@@ -259,36 +266,6 @@ void read_slicer(const Json &root, LandmarkFile &file) {
 }
 
 // ---- CSV ----
-
-std::vector<std::string> csv_lines(const std::string &text) {
-  std::vector<std::string> lines(1);
-  for (const char c : text) {
-    if (c == '\n')
-      lines.emplace_back();
-    else if (c != '\r')
-      lines.back() += c;
-  }
-  return lines;
-}
-
-std::string trimmed(const std::string &text) {
-  const auto is_blank = [](unsigned char c) { return c <= ' '; };
-  const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
-  const auto last = std::find_if_not(text.rbegin(), std::make_reverse_iterator(first), is_blank).base();
-  return {first, last};
-}
-
-std::vector<std::string> csv_cells(const std::string &line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',' || c == ';')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
-  for (std::string &cell : cells) cell = trimmed(cell);
-  return cells;
-}
 
 double number_in_file(const std::string &path, const std::string &text, const std::string &subject) {
   try {

@@ -29,6 +29,7 @@ struct ValveOptions {
   std::optional<double> opening;      // from 0 to 1
   std::optional<double> skirt;        // length of a skirt in the mesh's unit; with a wall, the longest to accept
   std::string wall;                   // a file with the wall that the skirt reaches; "": none
+  std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
   riis_surface_options surface_options;
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
   // These members tell whether the user gave the values as numbers.
@@ -123,11 +124,15 @@ struct ExportOptions : ValveOptions {
   double largest_edge = 0;                             // 0: the library's own triangles
 };
 
+// Whether riis place writes a warp to the landmarks, which may be smoothed by their noise.
+enum LandmarkWarp : std::int32_t { no_warp, exact_warp, smoothed_warp };
+
 // The options of riis place.
 struct PlaceOptions : ValveOptions {
   std::string landmarks, mesh;                                // files; the mesh may be ""
   bool has_valve = false;                                     // whether the user named the kind
   std::string axes;                                           // of the mesh, or "" for those of the landmarks
+  std::int32_t warp_choice = 0;                               // a LandmarkWarp
   std::optional<double> noise;                                // noise in the unit of --unit or of the landmarks
   std::optional<std::vector<double>> flow;                    // in the mesh's axes
   std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout

@@ -72,6 +72,7 @@ NamedFiles inputs_of(const ValveOptions &options) {
           {"--params", options.params},
           {"--params-open", options.params_open},
           {"--wall", options.wall},
+          {"--warp", options.warp},
           {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
 }
 

@@ -36,7 +36,12 @@ struct Placed {
   std::vector<Size> sizes;
   riis_placement placement;
   std::vector<double> residuals;
-  double noise;  // stated, mesh units
+  double noise;                        // stated, mesh units
+  std::vector<double> places;          // (3, n), of the landmarks on the valve
+  riis_surface_options where;          // the placement
+  std::optional<riis_warp_info> warp;  // without --warp there is none
+  double warp_noise;                   // by which the warp is smoothed; 0: it meets the landmarks
+  std::vector<double> still_off;       // distances of the landmarks from their places on the warped valve
 };
 
 std::string digits(double number, int n = 4) {
@@ -132,8 +137,58 @@ std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   return text;
 }
 
+// Refuses the landmarks with the library's message, if it refused them.
+void check_landmarks(riis_status status, const PlaceOptions &options, const LandmarkFile &landmarks) {
+  if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
+    throw Refusal{exit_bad_data, options.landmarks + ": " + in_words_of_file(riis_last_error(), landmarks)};
+  check(status);
+}
+
+riis_points points_of(const std::vector<double> &xyz) {
+  riis_points points;
+  check(riis_points_init(&points, sizeof points));
+  points.n_points = static_cast<int64_t>(xyz.size() / 3);
+  points.x = xyz.data();
+  points.y = xyz.data() + 1;
+  points.z = xyz.data() + 2;
+  points.stride = 3;
+  return points;
+}
+
+// Warps the valve to the landmarks. A warp that folds is refused, at whatever opening it does.
+void warp_to_landmarks(const PlaceOptions &options, Placed &made) {
+  if (options.warp_choice == no_warp) return;
+  const LandmarkFile &landmarks = made.landmarks;
+  const riis_points places = points_of(made.places), targets = points_of(landmarks.xyz);
+  riis_warp_options how;
+  check(riis_warp_options_init(&how, sizeof how));
+  how.placement = &made.where;
+  how.noise = made.warp_noise = options.warp_choice == smoothed_warp ? made.noise : 0;
+  riis_warp *handle = nullptr;
+  check_landmarks(riis_warp_create(&places, &how, &handle), options, landmarks);
+  const Warp warp(handle);
+  check_landmarks(riis_warp_set_targets(warp.get(), &targets), options, landmarks);
+  check(riis_valve_set_warp(made.valve.get(), warp.get(), nullptr), "--warp");
+  riis_warp_info info;
+  check(riis_warp_get_info(warp.get(), &info, sizeof info));
+  made.warp = info;
+  std::vector<double> mapped(made.places.size());
+  check(riis_warp_map(warp.get(), &places, mapped.data()));
+  for (std::size_t i = 0; i < mapped.size(); i += 3)
+    made.still_off.push_back(std::hypot(mapped[i] - landmarks.xyz[i], mapped[i + 1] - landmarks.xyz[i + 1],
+                                        mapped[i + 2] - landmarks.xyz[i + 2]));
+  const Valve trial = copy_of(made.valve.get());
+  for (const double opening : {0.0, 0.5, 1.0}) {
+    check(riis_valve_set_scalar(trial.get(), "opening", opening));
+    riis_surface *surface = nullptr;
+    const riis_status status = riis_surface_create(trial.get(), &made.where, &surface);
+    const Surface owned(surface);
+    check_landmarks(status, options, landmarks);
+  }
+}
+
 Placed place(const PlaceOptions &options) {
-  Placed made{read_landmarks(options.landmarks), nullptr, {}, {}, {}, 0};
+  Placed made{read_landmarks(options.landmarks), nullptr, {}, {}, {}, 0, {}, {}, std::nullopt, 0, {}};
   LandmarkFile &landmarks = made.landmarks;
   if (options.unit) landmarks.convert(*options.unit);
   if (!options.axes.empty()) {
@@ -172,6 +227,7 @@ Placed place(const PlaceOptions &options) {
   made.noise = landmarks.noise.value_or(0.03 * given.scale);
   const std::size_t n = n_parameters(valve);
   made.residuals.resize(landmarks.names.size());
+  made.places.resize(landmarks.xyz.size());
   std::vector<double> errors(n);
   std::vector<int32_t> states(n);
   riis_placement_arrays arrays;
@@ -179,10 +235,17 @@ Placed place(const PlaceOptions &options) {
   arrays.residual = made.residuals.data();
   arrays.standard_error = errors.data();
   arrays.size_state = states.data();
-  const riis_status status = riis_place(valve, &given, held.c_str(), &arrays, &made.placement, sizeof made.placement);
-  if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
-    throw Refusal{exit_bad_data, options.landmarks + ": " + in_words_of_file(riis_last_error(), landmarks)};
-  check(status);
+  arrays.place = made.places.data();
+  check_landmarks(riis_place(valve, &given, held.c_str(), &arrays, &made.placement, sizeof made.placement), options,
+                  landmarks);
+  const riis_placement &at = made.placement;
+  check(riis_surface_options_init(&made.where, sizeof made.where));
+  made.where.scale = at.scale;
+  made.where.half_thickness = 0.1 * at.scale;
+  std::copy_n(at.rotation_axis, 3, made.where.rotation_axis);
+  made.where.rotation_angle = at.rotation_angle;
+  std::copy_n(at.translation, 3, made.where.translation);
+  warp_to_landmarks(options, made);
   for (std::size_t i = 0; i < n; ++i) {
     const riis_parameter parameter = parameter_of(valve, i);
     made.sizes.push_back({parameter, all_values(valve, parameter), errors[i], states[i]});
@@ -257,6 +320,12 @@ bool is_changed(const Size &size) {
          !std::equal(size.values.begin(), size.values.end(), size.parameter.default_values);
 }
 
+Json json_of_points(const std::vector<double> &xyz) {
+  Json points = Json::array();
+  for (std::size_t i = 0; i < xyz.size(); i += 3) points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+  return points;
+}
+
 std::string json_of(const PlaceOptions &, const std::string &kind, const Placed &placed) {
   const riis_placement &at = placed.placement;
   Json root = Json::object();
@@ -268,12 +337,22 @@ std::string json_of(const PlaceOptions &, const std::string &kind, const Placed 
   Json parameters = Json::parse(json_template(placed.valve.get()));
   parameters.erase("opening");
   root["parameters"] = parameters;
-  Json residuals = Json::object();
-  for (std::size_t i = 0; i < placed.residuals.size(); ++i) {
-    // A name may occur repeatedly, such as that of annulus points.
-    std::string name = placed.landmarks.names[i];
-    while (residuals.contains(name)) name += "'";
-    residuals[name] = placed.residuals[i];
+  const auto by_name = [&](const std::vector<double> &values) {
+    Json made = Json::object();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      // A name may occur repeatedly, such as that of annulus points.
+      std::string name = placed.landmarks.names[i];
+      while (made.contains(name)) name += "'";
+      made[name] = values[i];
+    }
+    return made;
+  };
+  if (placed.warp) {
+    Json warp = Json::object();
+    warp["sources"] = json_of_points(placed.places);
+    warp["targets"] = json_of_points(placed.landmarks.xyz);
+    warp["noise"] = placed.warp_noise;
+    root["warp"] = warp;
   }
   Json fit = Json::object();
   fit["rms"] = at.rms;
@@ -291,7 +370,12 @@ std::string json_of(const PlaceOptions &, const std::string &kind, const Placed 
   fit["standard_errors"] = errors;
   fit["undetermined"] = undetermined;
   fit["in_proportion"] = tied;
-  fit["residuals"] = residuals;
+  fit["residuals"] = by_name(placed.residuals);
+  if (placed.warp) {
+    fit["warped_rms"] = placed.warp->rms_residual;
+    fit["warped_worst"] = placed.warp->largest_residual;
+    fit["warped_residuals"] = by_name(placed.still_off);
+  }
   root["fit"] = fit;
   return root.dump(2) + "\n";
 }
@@ -332,6 +416,28 @@ std::string c_of(const std::string &kind, const Placed &placed) {
   text += "options.rotation_angle = " + shortest(at.rotation_angle) + ";\n";
   for (int k = 0; k < 3; ++k)
     text += "options.translation[" + std::to_string(k) + "] = " + shortest(at.translation[k]) + ";\n";
+  if (placed.warp) {
+    const std::string n = std::to_string(placed.places.size() / 3);
+    const auto array = [&](const char *name, const std::vector<double> &xyz) {
+      std::string made = std::string("const double ") + name + "[][3] = {";
+      for (std::size_t i = 0; i < xyz.size(); i += 3)
+        made += (i == 0 ? "\n  {" : ",\n  {") + numbers_text(xyz.data() + i, 3, ", ") + "}";
+      return made + "};\n";
+    };
+    text += "/* The warp takes landmarks on the valve to the patient's landmarks. */\n" +
+            array("on_valve", placed.places) + array("in_patient", placed.landmarks.xyz) +
+            "riis_points sources, targets;\nriis_warp_options warp_options;\nriis_warp *warp = NULL;\n";
+    for (const auto &[points, from] : {std::pair("sources", "on_valve"), std::pair("targets", "in_patient")}) {
+      const std::string to = points;
+      text += "riis_points_init(&" + to + ", sizeof " + to + ");\n" + to + ".n_points = " + n + ";\n" + to +
+              ".stride = 3;\n";
+      for (int k = 0; k < 3; ++k) text += to + "." + "xyz"[k] + " = &" + from + "[0][" + std::to_string(k) + "];\n";
+    }
+    text += "riis_warp_options_init(&warp_options, sizeof warp_options);\nwarp_options.noise = " +
+            shortest(placed.warp_noise) + ";\nwarp_options.placement = &options;\n" +
+            "riis_warp_create(&sources, &warp_options, &warp);\nriis_warp_set_targets(warp, &targets);\n" +
+            "riis_valve_set_warp(valve, warp, NULL);\nriis_warp_destroy(&warp);\n";
+  }
   return text + "riis_surface_create(valve, &options, &surface);\n";
 }
 
@@ -353,14 +459,32 @@ std::string fortran_of(const std::string &kind, const Placed &placed) {
     text += "call valve%set('" + std::string(size.parameter.name) + "', " +
             (size.values.size() == 1 ? values : "[" + values + "]") + ")\n";
   }
-  return text + "call surface%create(valve, scale=" + in_fortran(at.scale) + ", &\n  rotation_axis=[" +
-         numbers_text(at.rotation_axis, 3, ", ", in_fortran) +
-         "], &\n  rotation_angle=" + in_fortran(at.rotation_angle) + ", &\n  translation=[" +
-         numbers_text(at.translation, 3, ", ", in_fortran) + "])\n";
+  const std::string where = "scale=" + in_fortran(at.scale) + ", &\n  rotation_axis=[" +
+                            numbers_text(at.rotation_axis, 3, ", ", in_fortran) +
+                            "], &\n  rotation_angle=" + in_fortran(at.rotation_angle) + ", &\n  translation=[" +
+                            numbers_text(at.translation, 3, ", ", in_fortran) + "])\n";
+  if (placed.warp) {
+    const auto array = [](const std::vector<double> &xyz) {
+      std::string made = "reshape([ &\n";
+      for (std::size_t i = 0; i < xyz.size(); i += 3)
+        made += "  " + numbers_text(xyz.data() + i, 3, ", ", in_fortran) + (i + 3 < xyz.size() ? ", &\n" : "");
+      return made + "], [3, " + std::to_string(xyz.size() / 3) + "])";
+    };
+    text += "! The warp takes landmarks on the valve to the patient's landmarks.\ncall warp%create(" +
+            array(placed.places) + ", &\n  noise=" + in_fortran(placed.warp_noise) + ", " + where +
+            "call warp%set_targets(" + array(placed.landmarks.xyz) +
+            ")\ncall valve%set_warp(warp)\ncall warp%destroy()\n";
+  }
+  return text + "call surface%create(valve, " + where;
 }
 
 std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size()) - text.size(), ' ');
+}
+
+// A length, or 0 if it is rounding.
+std::string length_text(double length, double centimetre) {
+  return length > 1e-9 * centimetre ? digits(length, 3) : "0";
 }
 
 std::string place_report(const std::string &kind, const PlaceOptions &options, const Placed &placed) {
@@ -398,11 +522,24 @@ std::string place_report(const std::string &kind, const PlaceOptions &options, c
           digits(at.noise, 2) + " " + unit + "\n";
   std::size_t name_width = 16;
   for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
-  text += "\n" + filled("landmark", name_width) + "residual " + unit + "\n";
-  for (std::size_t i = 0; i < landmarks.names.size(); ++i)
-    text += filled(landmarks.names[i], name_width) + digits(placed.residuals[i], 3) + "\n";
+  const std::string column = "residual " + unit;
+  text += "\n" + filled("landmark", name_width) + (placed.warp ? filled(column, 16) + "warped " + unit : column) + "\n";
+  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
+    const std::string residual = digits(placed.residuals[i], 3);
+    text += filled(landmarks.names[i], name_width) +
+            (placed.warp ? filled(residual, 16) + length_text(placed.still_off[i], at.scale) : residual) + "\n";
+  }
+  const auto name_of_landmark = [&](int64_t i) { return landmarks.names[static_cast<std::size_t>(i)]; };
   text += "rms " + digits(at.rms, 3) + ", worst " + digits(at.worst, 3) + " at " +
-          landmarks.names[static_cast<std::size_t>(at.worst_landmark_id)] + "\n";
+          name_of_landmark(at.worst_landmark_id) + "\n";
+  if (placed.warp)
+    text += "warped, rms " + length_text(placed.warp->rms_residual, at.scale) + ", worst " +
+            length_text(placed.warp->largest_residual, at.scale) + " at " +
+            name_of_landmark(placed.warp->largest_landmark_id) +
+            (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(placed.warp_noise, 3) + " " + unit : "") +
+            "\n";
+  else if (kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
+    text += "The valve misses the landmarks. --warp exact takes it to them, --warp smoothed as near as their noise.\n";
   text += undetermined.empty() ? "\nThe landmarks determine every size that they bear on.\n"
                                : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") + ".\n";
   return text;
@@ -417,11 +554,7 @@ void run_place(const PlaceOptions &options) {
   check_mesh(options, placed);
   ValveOptions shape = options;
   shape.valve = kind;
-  const riis_placement &at = placed.placement;
-  shape.surface_options.scale = at.scale;
-  std::copy_n(at.rotation_axis, 3, shape.surface_options.rotation_axis);
-  shape.surface_options.rotation_angle = at.rotation_angle;
-  std::copy_n(at.translation, 3, shape.surface_options.translation);
+  shape.surface_options = placed.where;
   shape.unit = placed.landmarks.unit;
   check_shape(shape, placed.valve.get(), false);
   const std::pair<std::string, std::string> outputs[] = {{options.output, json_of(options, kind, placed)},

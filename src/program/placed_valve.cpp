@@ -24,12 +24,17 @@ bool names_kind(const std::string &path) {
 
 }  // namespace
 
+const std::vector<std::string> &placed_keys() {
+  static const std::vector<std::string> keys = {"valve",      "unit",      "axes", "rotate", "translate",
+                                                "parameters", "landmarks", "fit",  "warp"};
+  return keys;
+}
+
 void use_placed_valve(ValveOptions &options) {
   if (!is_valve_file(options.valve) || !names_kind(options.valve)) return;
   const std::string path = options.valve;
   const Json root = parse_json_file(path, "a placed valve");
-  const CaseValues values(path, "", root,
-                          {"valve", "unit", "axes", "rotate", "translate", "parameters", "landmarks", "fit"});
+  const CaseValues values(path, "", root, placed_keys());
   riis_surface_options &surface = options.surface_options;
   if (options.surface_unit) refuse_usage("--surface-unit has no effect with --valve " + path + ", which has a unit");
   if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit says the mesh's unit");

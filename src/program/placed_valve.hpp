@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "program/json.hpp"
 #include "program/options.hpp"
@@ -14,6 +15,7 @@ namespace riis::program {
 // set_placed_parameters sets the file's parameters. Refuses options that the file already contains. Leaves other valves as they
 // are.
 void use_placed_valve(ValveOptions &options);
+const std::vector<std::string> &placed_keys();
 void set_placed_parameters(const ValveOptions &options, riis_valve *valve);
 
 }  // namespace riis::program

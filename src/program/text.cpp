@@ -180,4 +180,36 @@ void check_times(const std::vector<double> &times, const std::string &subject) {
     refuse_times(subject, "a series has at least two times; without times --opening gives one state");
 }
 
+// ---- CSV ----
+
+std::vector<std::string> csv_lines(const std::string &text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n')
+      lines.emplace_back();
+    else if (c != '\r')
+      lines.back() += c;
+  }
+  return lines;
+}
+
+std::string trimmed(const std::string &text) {
+  const auto is_blank = [](unsigned char c) { return c <= ' '; };
+  const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
+  const auto last = std::find_if_not(text.rbegin(), std::make_reverse_iterator(first), is_blank).base();
+  return {first, last};
+}
+
+std::vector<std::string> csv_cells(const std::string &line) {
+  std::vector<std::string> cells(1);
+  for (const char c : line) {
+    if (c == ',' || c == ';')
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  for (std::string &cell : cells) cell = trimmed(cell);
+  return cells;
+}
+
 }  // namespace riis::program

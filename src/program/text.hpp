@@ -33,6 +33,12 @@ inline std::string quoted(const std::string &text) { return "\"" + text + "\""; 
 // Refuses a file that cannot be read or is empty.
 std::string text_of_file(const std::string &path);
 
+// In: the text of a CSV. Out: its lines without line ends, and the cells of a line, which commas or semicolons separate.
+
+std::string trimmed(const std::string &text);
+std::vector<std::string> csv_lines(const std::string &text);
+std::vector<std::string> csv_cells(const std::string &line);
+
 // Escapes text, so that it can stand between XML tags or in an attribute.
 
 std::string in_xml(const std::string &text);

@@ -87,8 +87,12 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
   return Valve(handle);
 }
 
-Valve make_valve(const ValveOptions &options, OpeningCheck opening) {
+Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *moving) {
   Valve valve = is_valve_file(options.valve) ? make_valve_of_file(options, opening) : make_valve_of_kind(options);
+  WarpSource warp = read_warp(options);
+  if (warp.moves() && !moving) refuse_usage("--warp: landmarks that move need --times");
+  warp.apply(0, valve.get());
+  if (moving) *moving = std::move(warp);
   set_skirt(options, valve.get(), "--skirt");
   return valve;
 }

@@ -31,8 +31,9 @@ Valve make_kind(const std::string &kind, const std::string &subject);
 // `yes`: make_valve refuses a file of patches that cannot open far enough. `no`: such a file is refused only when the surface is
 // made.
 enum class OpeningCheck { no, yes };
-// Makes the valve of --valve, --params and the options that belong to them.
-Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes);
+// Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. If it is NULL, a warp
+// that moves is refused.
+Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
 double opening_of(const riis_valve *valve);
 // Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
 // wall.

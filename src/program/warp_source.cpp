@@ -6,7 +6,10 @@
 
 #include "common/array_view.hpp"
 #include "program/opening_law.hpp"
+#include "program/outputs.hpp"
+#include "program/placed_valve.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 
 namespace riis::program {
 
@@ -38,7 +41,8 @@ void check_landmarks(riis_status status, const std::string &subject) {
 
 }  // namespace
 
-LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement)
+LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement,
+                             double factor)
     : subject_(values.subject()) {
   std::vector<double> sources;
   add_points(values, "sources", values.needed("sources"), sources);
@@ -62,6 +66,8 @@ LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_
   if (view(targets_).size() != 3 * n_landmarks_ * n_frames)
     values.refuse("targets", "there are " + std::to_string(view(targets_).size() / 3) + " points for " +
                                  std::to_string(n_landmarks_ * n_frames) + " sources at all times");
+  for (std::vector<double> *const list : {&sources, &targets_})
+    for (double &x : *list) x *= factor;
   riis_points points;
   riis_warp_options options;
   check(riis_points_init(&points, sizeof points));
@@ -92,15 +98,82 @@ const riis_warp *LandmarkPairs::at(double time) {
   return warp_.get();
 }
 
-WarpSource::WarpSource(const CaseValues &values, const riis_surface_options &placement) {
-  subject_ = values.subject() + ": warp";
-  const std::string object = subject_.substr(values.path().size() + 2);
-  const CaseValues closed(values.path(), object, values.needed("warp"), warp_keys);
-  const double noise = closed.at_least_zero("noise").value_or(0);
+WarpSource::WarpSource(const std::string &path, const std::string &object, const Json &warp,
+                       const riis_surface_options &placement, double factor) {
+  const CaseValues closed(path, object, warp, warp_keys);
+  subject_ = closed.subject();
   const riis_surface_options *placed = closed.choice("coordinates", coordinate_names) == 0 ? &placement : nullptr;
-  pairs_.emplace_back(closed, noise, placed);
-  if (closed.has("open"))
-    pairs_.emplace_back(CaseValues(values.path(), object + ": open", closed.needed("open"), open_keys), noise, placed);
+  if (!placed) factor = 1;
+  const double noise = factor * closed.at_least_zero("noise").value_or(0);
+  pairs_.emplace_back(closed, noise, placed, factor);
+  if (!closed.has("open")) return;
+  const std::string open = object.empty() ? "open" : object + ": open";
+  pairs_.emplace_back(CaseValues(path, open, closed.needed("open"), open_keys), noise, placed, factor);
+}
+
+namespace {
+
+// Reads lines SX,SY,SZ,TX,TY,TZ: a landmark on the valve and its place in the patient. Returns the object of a warp.
+Json json_of_csv(const std::string &path) {
+  Json warp = Json::object();
+  warp["sources"] = warp["targets"] = Json::array();
+  std::size_t number = 0;
+  bool is_first = true;
+  for (const std::string &whole : csv_lines(text_of_file(path))) {
+    const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
+    if (line.empty()) continue;
+    const auto number_of = [&](const std::string &text) {
+      try {
+        return parse_number(text, where);
+      } catch (const Refusal &refusal) {
+        refuse_file(path, refusal.text);
+      }
+    };
+    if (line[0] == '#') {
+      const std::size_t equals = line.find('=');
+      if (equals == std::string::npos) continue;  // a comment
+      const std::string key = trimmed(line.substr(1, equals - 1)), value = trimmed(line.substr(equals + 1));
+      if (key != "noise" && key != "coordinates")
+        refuse_file(path,
+                    where + ": " + quoted(key) + " is unknown; a line # NAME = VALUE states noise or coordinates");
+      if (warp.contains(key)) refuse_file(path, where + ": " + key + " is given twice");
+      warp[key] = key == "noise" ? Json(number_of(value)) : Json(value);
+      continue;
+    }
+    const std::vector<std::string> cells = csv_cells(line);
+    if (cells.size() != 6)
+      refuse_file(
+          path, where + " must be SX,SY,SZ,TX,TY,TZ, a landmark on the valve and in the patient, not " + quoted(line));
+    const bool is_heading = is_first && std::none_of(cells.begin(), cells.end(), [](const std::string &cell) {
+                              return cell.find_first_of("0123456789") != std::string::npos;
+                            });
+    is_first = false;
+    if (is_heading) continue;
+    Json source = Json::array(), target = Json::array();
+    for (std::size_t k = 0; k < 6; ++k) (k < 3 ? source : target).push_back(number_of(cells[k]));
+    warp["sources"].push_back(source);
+    warp["targets"].push_back(target);
+  }
+  return warp;
+}
+
+}  // namespace
+
+WarpSource read_warp(const ValveOptions &options) {
+  const Json placed = options.placed.empty() ? Json() : parse_json_file(options.placed, "a placed valve");
+  const bool is_placed = placed.is_object() && placed.contains("warp");
+  if (options.warp.empty()) {
+    if (!is_placed) return {};
+    const CaseValues values(options.placed, "", placed, placed_keys());
+    return {options.placed, "warp", placed.at("warp"), options.surface_options,
+            factor_between(values.unit("unit").value(), options.unit.value())};
+  }
+  if (is_placed) refuse_usage("--warp has no effect with --valve " + options.placed + ", which has a warp");
+  const bool is_csv = has_ending(options.warp, ".csv");
+  if (!is_csv && !has_ending(options.warp, ".json"))
+    refuse_usage("--warp: " + options.warp + " must end in .json or .csv");
+  return {options.warp, "", is_csv ? json_of_csv(options.warp) : parse_json_file(options.warp, "a warp"),
+          options.surface_options};
 }
 
 bool WarpSource::moves() const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the warp of a valve in a case file, {"sources": [[x, y, z], ...], "targets": ..., ...}. Out: the warp at a time.
+// In: the warp of a valve, {"sources": [[x, y, z], ...], "targets": ..., ...}, in a case, in a placed valve, or in a file of its
+// own, which may also be a CSV. Out: the warp at a time.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +9,16 @@
 
 #include "program/handles.hpp"
 #include "program/json.hpp"
+#include "program/options.hpp"
 
 namespace riis::program {
 
 // Landmarks on the valve, and their targets at one time or at several.
 class LandmarkPairs {
  public:
-  // The landmarks are in the mesh's coordinates if the placement is given, and in the valve's own if it is NULL.
-  LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement);
+  // The landmarks are in the mesh's coordinates if the placement is given, and in the valve's own if it is NULL. `factor`
+  // converts lengths of the file to the mesh's unit.
+  LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement, double factor);
 
   bool moves() const { return times_.size() > 1; }
   // Takes the landmarks to their places at a time, and returns the warp.
@@ -34,9 +37,11 @@ class LandmarkPairs {
 class WarpSource {
  public:
   WarpSource() = default;
-  // Reads the landmarks of both states. `placement` places the valve.
-  WarpSource(const CaseValues &values, const riis_surface_options &placement);
+  // Reads the landmarks of both states from the object of a warp. `placement` places the valve.
+  WarpSource(const std::string &path, const std::string &object, const Json &warp,
+             const riis_surface_options &placement, double factor = 1);
 
+  bool is_empty() const { return pairs_.empty(); }
   bool moves() const;
   // Gives the valve its warp at a time.
   void apply(double time, riis_valve *valve);
@@ -45,5 +50,8 @@ class WarpSource {
   std::string subject_;
   std::vector<LandmarkPairs> pairs_;  // landmarks of the closed state, and of the open state if it has its own
 };
+
+// Reads the warp of --warp, or that of a placed valve. Refuses both together.
+WarpSource read_warp(const ValveOptions &options);
 
 }  // namespace riis::program

@@ -457,11 +457,12 @@ static void test_structs(void **state) {
   FIELD(riis_placement, n_undetermined, 112, 4);
   FIELD(riis_placement, reserved, 116, 4);
 
-  SIZE(riis_placement_arrays, 32);
+  SIZE(riis_placement_arrays, 40);
   FIELD(riis_placement_arrays, struct_size, 0, 8);
   FIELD(riis_placement_arrays, residual, 8, 8);
   FIELD(riis_placement_arrays, standard_error, 16, 8);
   FIELD(riis_placement_arrays, size_state, 24, 8);
+  FIELD(riis_placement_arrays, place, 32, 8);
 
   SIZE(riis_opening_table, 48);
   FIELD(riis_opening_table, struct_size, 0, 8);
@@ -609,6 +610,7 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_LANDMARK_POSTEROMEDIAL, 7);
   assert_int_equal(RIIS_LANDMARK_ANTEROLATERAL, 8);
   assert_int_equal(RIIS_LANDMARK_HINGE, 9);
+  assert_int_equal(RIIS_LANDMARK_ATTACHMENT, 10);
   assert_int_equal(RIIS_SIZE_KEPT, 0);
   assert_int_equal(RIIS_SIZE_DETERMINED, 1);
   assert_int_equal(RIIS_SIZE_TIED, 2);

@@ -14,37 +14,42 @@ cat > aortic.json << 'END'
                "commissure_right_left": [-8.7, 35.5, 115.6], "commissure_left_non": [2.9, 13.9, 115.9],
                "commissure_right_non": [15.4, 34.5, 116.1]}}
 END
-"$riis" place aortic.json --quiet --output placed.json --c lines.c --fortran lines.f90
-"$riis" surface --valve placed.json --output placed.vtp > report.txt
-read -r n_json area_json < <(sed -n 's/^surface .*: \([0-9,]*\) triangles, area \(.*\)$/\1 \2/p' report.txt | tr -d ,)
-{
-  printf '#include <riis/riis.h>\n#include <stdio.h>\nint main(void) {\n'
-  cat lines.c
-  printf 'riis_surface_info info;\nif (riis_surface_get_info(surface, &info, sizeof info)) return puts(riis_last_error()), 1;\n'
-  printf 'printf("%%lld %%.12g %%.12g %%.12g\\n", (long long)info.n_triangles, info.area, info.lower[0], info.upper[2]);\n'
-  printf 'riis_surface_destroy(&surface);\nriis_valve_destroy(&valve);\nreturn 0;\n}\n'
-} > main.c
-"$cc" -std=c11 -Wall -Wextra -Werror -I"$include" main.c -o by_c "$library" "-Wl,-rpath,$(dirname "$library")"
-./by_c > by_c.txt
-echo "C: $(< by_c.txt)"
-read -r n_triangles area lower upper < by_c.txt
-# The area is that of the JSON's surface, and the surface is at the landmarks.
-awk -v n="$n_triangles" -v m="$n_json" -v a="$area" -v b="$area_json" -v l="$lower" -v u="$upper" 'BEGIN {
-  if (n != m || (a - b) ^ 2 > 1e-10 * a * a) { print "the JSON has " m " triangles, area " b; exit 1 }
-  if (l > -9 || l < -14 || u < 114 || u > 118) { print "the surface is elsewhere: " l " " u; exit 1 }
-}'
-[[ -n $fc ]] || exit 0
-{
-  printf 'program main\n  use riis\n  implicit none\n  type(riis_valve) :: valve\n  type(riis_surface) :: surface\n'
-  printf '  type(riis_surface_info) :: info\n'
-  cat lines.f90
-  printf '  call surface%%get_info(info)\n'
-  printf '  print "(i0, 3(1x, es22.14))", info%%n_triangles, info%%area, info%%lower(1), info%%upper(3)\n'
-  printf '  call surface%%destroy()\n  call valve%%destroy()\nend program main\n'
-} > main.f90
-"$fc" -I"$modules" main.f90 -o by_fortran "$fortran_library" "$library" "-Wl,-rpath,$(dirname "$library")"
-./by_fortran > by_fortran.txt
-echo "Fortran: $(< by_fortran.txt)"
-paste -d ' ' by_c.txt by_fortran.txt | awk '{
-  for (i = 1; i <= 4; ++i) if (($i - $(i + 4)) ^ 2 > 1e-20 * $i * $i) { print "C and Fortran differ"; exit 1 }
-}'
+for warp in none smoothed; do
+  "$riis" place aortic.json --quiet --warp "$warp" --output placed.json --c lines.c --fortran lines.f90
+  "$riis" surface --valve placed.json --output placed.vtp > report.txt
+  read -r n_json area_json < <(sed -n 's/^surface .*: \([0-9,]*\) triangles, area \(.*\)$/\1 \2/p' report.txt | tr -d ,)
+  {
+    printf '#include <riis/riis.h>\n#include <stdio.h>\nint main(void) {\n'
+    cat lines.c
+    printf 'riis_surface_info info;\nif (riis_surface_get_info(surface, &info, sizeof info)) return puts(riis_last_error()), 1;\n'
+    printf 'printf("%%lld %%.12g %%.12g %%.12g\\n", (long long)info.n_triangles, info.area, info.lower[0], info.upper[2]);\n'
+    printf 'riis_surface_destroy(&surface);\nriis_valve_destroy(&valve);\nreturn 0;\n}\n'
+  } > main.c
+  "$cc" -std=c11 -Wall -Wextra -Werror -I"$include" main.c -o by_c "$library" "-Wl,-rpath,$(dirname "$library")"
+  ./by_c > by_c.txt
+  echo "C: $(< by_c.txt)"
+  read -r n_triangles area lower upper < by_c.txt
+  areas+=("$area")
+  # The area is that of the JSON's surface, and the surface is at the landmarks.
+  awk -v n="$n_triangles" -v m="$n_json" -v a="$area" -v b="$area_json" -v l="$lower" -v u="$upper" 'BEGIN {
+    if (n != m || (a - b) ^ 2 > 1e-10 * a * a) { print "the JSON has " m " triangles, area " b; exit 1 }
+    if (l > -8 || l < -14 || u < 114 || u > 118) { print "the surface is elsewhere: " l " " u; exit 1 }
+  }'
+  [[ -n $fc ]] || continue
+  {
+    printf 'program main\n  use riis\n  implicit none\n  type(riis_valve) :: valve\n  type(riis_surface) :: surface\n'
+    [[ $warp = none ]] || printf '  type(riis_warp) :: warp\n'
+    printf '  type(riis_surface_info) :: info\n'
+    cat lines.f90
+    printf '  call surface%%get_info(info)\n'
+    printf '  print "(i0, 3(1x, es22.14))", info%%n_triangles, info%%area, info%%lower(1), info%%upper(3)\n'
+    printf '  call surface%%destroy()\n  call valve%%destroy()\nend program main\n'
+  } > main.f90
+  "$fc" -I"$modules" main.f90 -o by_fortran "$fortran_library" "$library" "-Wl,-rpath,$(dirname "$library")"
+  ./by_fortran > by_fortran.txt
+  echo "Fortran: $(< by_fortran.txt)"
+  paste -d ' ' by_c.txt by_fortran.txt | awk '{
+    for (i = 1; i <= 4; ++i) if (($i - $(i + 4)) ^ 2 > 1e-20 * $i * $i) { print "C and Fortran differ"; exit 1 }
+  }'
+done
+[[ ${areas[0]} != "${areas[1]}" ]] || { echo "the warp changes nothing"; exit 1; }

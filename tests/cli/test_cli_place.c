@@ -2,6 +2,8 @@
  *
  * Tests riis place: files of landmarks, the placed valve for other commands, and refusals. The landmarks are made from known
  * sizes. */
+#include <riis/riis_vtk.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,6 +94,126 @@ static void report_has_sizes_and_residuals(void **state) {
        *words; ++words)
     if (!strstr(program_out, *words)) fail_msg("no %s in %s", *words, program_out);
   if (strstr(program_out, "leaflet_height")) fail_msg("a held size is in the report: %s", program_out);
+}
+
+/* The landmarks of a patient whose cusps differ, in millimetres. */
+static void patient_landmark(int i, double *p) {
+  landmark(i, 10, p);
+  p[0] += 1.5 * sin(1.7 * i), p[1] += 1.2 * cos(2.3 * i), p[2] += 0.9 * sin(3.1 * i + 1);
+}
+
+static const char *patient_json(const char *name) {
+  char text[4096];
+  int n = snprintf(text, sizeof text, "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {");
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    patient_landmark(i, p);
+    n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": [%.17g, %.17g, %.17g]", i ? ", " : "", names[i], p[0],
+                  p[1], p[2]);
+  }
+  snprintf(text + n, sizeof text - (size_t)n, "}}");
+  scratch_write_text(name, text);
+  return scratch_path(name);
+}
+
+/* Returns the largest distance of the patient's landmarks from a surface, in millimetres. */
+static double farthest_landmark(const char *vtp) {
+  riis_vtk_surface *file = NULL;
+  riis_surface_arrays arrays;
+  if (riis_vtk_surface_read(vtp, NULL, &file) || riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays))
+    fail_msg("%s", riis_last_error());
+  double farthest = 0;
+  for (int i = 0; i < 6; ++i) {
+    double p[3], nearest = INFINITY;
+    patient_landmark(i, p);
+    for (int64_t k = 0; k < arrays.n_vertices; ++k) {
+      const double x = ((const double *)arrays.x)[k * arrays.stride] - p[0],
+                   y = ((const double *)arrays.y)[k * arrays.stride] - p[1],
+                   z = ((const double *)arrays.z)[k * arrays.stride] - p[2];
+      nearest = fmin(nearest, sqrt(x * x + y * y + z * z));
+    }
+    farthest = fmax(farthest, nearest);
+  }
+  riis_vtk_surface_destroy(&file);
+  return farthest;
+}
+
+static void warps_meet_the_landmarks(void **state) {
+  (void)state;
+  static const char *const kinds[] = {"trileaflet", "coapting"};
+  char placed[256], surface[256], csv[256];
+  snprintf(surface, sizeof surface, "%s", scratch_path("warped.vtp"));
+  for (int kind = 0; kind < 2; ++kind) {
+    snprintf(placed, sizeof placed, "%s", scratch_path("exact.json"));
+    RUN_FINE("place", patient_json("w.json"), "--valve", kinds[kind], "--warp", "exact", "--output", placed);
+    assert_true(strstr(program_out, "warped mm") && strstr(program_out, "warped, rms 0, worst 0"));
+    RUN_FINE("surface", "--valve", placed, "--quiet", "--output", surface);
+    if (farthest_landmark(surface) > 1e-9) fail_msg("%s: off by %g", kinds[kind], farthest_landmark(surface));
+    /* In another unit the placed valve is the same. */
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", placed, "--unit", "cm", "--allow-none", "--stats", "-");
+    const double in_cm = json_number(program_out, "area");
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", placed, "--allow-none", "--stats", "-");
+    const double in_mm = json_number(program_out, "area");
+    if (fabs(in_mm - 100 * in_cm) > 1e-9 * in_mm) fail_msg("areas %g mm2, %g cm2", in_mm, in_cm);
+    RUN_REFUSED(2, "which has a warp", "surface", "--valve", placed, "--warp", placed, "--output", surface);
+    /* Smoothed, the valve is as far from the landmarks as the file says. */
+    RUN_FINE("place", patient_json("w.json"), "--valve", kinds[kind], "--warp", "smoothed", "--noise", "0.3",
+             "--output", "-");
+    const double rms = json_number(program_out, "warped_rms"), worst = json_number(program_out, "warped_worst");
+    if (!(rms > 0.1 && rms < 0.6)) fail_msg("rms %g at a noise of 0.3", rms);
+    scratch_write_text("smoothed.json", program_out);
+    RUN_FINE("surface", "--valve", scratch_path("smoothed.json"), "--quiet", "--output", surface);
+    if (farthest_landmark(surface) > worst + 1e-9) fail_msg("off by %g, stated %g", farthest_landmark(surface), worst);
+  }
+  /* A file of pairs does the same as the key of the placed valve. Here the targets are the landmarks moved by 1 mm. */
+  RUN_FINE("place", patient_json("w.json"), "--valve", "trileaflet", "--quiet", "--output", scratch_path("bare.json"));
+  char text[2048] = "# noise = 0\nsx,sy,sz,tx,ty,tz\n";
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    patient_landmark(i, p);
+    snprintf(text + strlen(text), sizeof text - strlen(text), "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", p[0], p[1], p[2],
+             p[0] + 1, p[1], p[2]);
+  }
+  scratch_write_text("pairs.csv", text);
+  snprintf(csv, sizeof csv, "%s", scratch_path("pairs.csv"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("bare.json"), "--allow-none", "--stats", "-");
+  const double area = json_number(program_out, "area");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("bare.json"), "--warp", csv, "--allow-none",
+           "--stats", "-");
+  if (fabs(json_number(program_out, "area") - area) > 1e-9 * area) fail_msg("a shift changes the area %g", area);
+  RUN_FINE("check", "crossings", "--valve", scratch_path("bare.json"), "--warp", csv);
+  RUN_FINE("states", scratch_path("states.csv"), "--valve", scratch_path("bare.json"), "--warp", csv, "--count", "2",
+           "--quiet");
+}
+
+static void wrong_warps_are_refused(void **state) {
+  (void)state;
+  const char *const to = scratch_path("x.vtp");
+  char out[256], file[256];
+  snprintf(out, sizeof out, "%s", to);
+  RUN_REFUSED(2, "riisSource takes no warp", "place", patient_json("w.json"), "--valve", "coapting", "--warp", "exact",
+              "--foam", "-");
+  scratch_write_text("pairs.csv", "0,0,0,0,0,0\n1,0,0,1,0,0\n0,1,0,0,1\n");
+  snprintf(file, sizeof file, "%s", scratch_path("pairs.csv"));
+  RUN_REFUSED(1, "line 3 must be SX,SY,SZ,TX,TY,TZ", "surface", "--warp", file, "--output", out);
+  scratch_write_text("pairs.csv", "# axes = LPS\n0,0,0,0,0,0\n");
+  RUN_REFUSED(1, "line 1: \"axes\" is unknown", "surface", "--warp", file, "--output", out);
+  scratch_write_text("pairs.csv", "0,0,0,0,0,0\n1,0,0,1,0,0\n2,0,0,2,0,0\n3,0,0,3,0,0\n");
+  RUN_REFUSED(1, "landmarks lie on a line", "surface", "--warp", file, "--output", out);
+  scratch_write_text("pairs.csv", "0,0,0,0,0,0\n0,0,0,1,0,0\n2,0,1,2,0,1\n3,2,0,3,2,0\n");
+  RUN_REFUSED(1, "are in one place", "surface", "--warp", file, "--output", out);
+  scratch_write_text("pairs.csv", "0,0,0,0,0,0\n1,0,0,-1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n");
+  RUN_REFUSED(1, "the warp folds", "surface", "--warp", file, "--output", out);
+  RUN_REFUSED(2, "must end in .json or .csv", "surface", "--warp", scratch_path("in.vtu"), "--output", out);
+  scratch_write_text("pairs.csv", "0,0,0,0,0,0\n1,0,0,1,0,0\n0,1,0,0,1,0\n0,0,1,0,0,1\n");
+  RUN_REFUSED(1, "bileaflet valve cannot be warped", "surface", "--valve", "bileaflet", "--warp", file, "--output",
+              out);
+  RUN_REFUSED(2, "--warp excludes --surface", "surface", "--surface", out, "--warp", file, "--output",
+              scratch_path("y.vtp"));
+  scratch_write_text("moving.json",
+                     "{\"sources\": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], \"times\": [0, 1], \"targets\": "
+                     "[[[0,0,0],[1,0,0],[0,1,0],[0,0,1]], [[0,0,0],[1.1,0,0],[0,1,0],[0,0,1]]]}");
+  RUN_REFUSED(2, "landmarks that move need --times", "surface", "--warp", scratch_path("moving.json"), "--output", out);
 }
 
 static void other_commands_take_the_placed_valve(void **state) {
@@ -256,6 +378,8 @@ static void fits_are_refused_in_words_of_the_file(void **state) {
 int main(void) {
   const struct CMUnitTest near[] = {cmocka_unit_test(every_format_gives_the_same),
                                     cmocka_unit_test(report_has_sizes_and_residuals),
+                                    cmocka_unit_test(warps_meet_the_landmarks),
+                                    cmocka_unit_test(wrong_warps_are_refused),
                                     cmocka_unit_test(other_commands_take_the_placed_valve),
                                     cmocka_unit_test(landmarks_must_be_at_the_mesh),
                                     cmocka_unit_test(files_are_refused_by_name),

@@ -185,7 +185,8 @@ program test_layout
     at(c_loc(plm%noise)), at(c_loc(plm%rotation_error)), at(c_loc(plm%position_error)), &
     at(c_loc(plm%worst_landmark_id)), at(c_loc(plm%n_undetermined)), at(c_loc(plm%reserved))])
   call compare('riis_placement_arrays', c_sizeof(pla), c_loc(pla), [at(c_loc(pla%struct_size)), &
-    at(c_loc(pla%residual)), at(c_loc(pla%standard_error)), at(c_loc(pla%size_state))])
+    at(c_loc(pla%residual)), at(c_loc(pla%standard_error)), at(c_loc(pla%size_state)), &
+    at(c_loc(pla%place))])
   call compare('riis_opening_table', c_sizeof(ots), c_loc(ots), [at(c_loc(ots%struct_size)), at(c_loc(ots%n_keys)), &
     at(c_loc(ots%time)), at(c_loc(ots%opening)), at(c_loc(ots%period)), at(c_loc(ots%interpolation)), &
     at(c_loc(ots%reserved))])

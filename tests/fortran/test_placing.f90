@@ -36,13 +36,14 @@ contains
   subroutine test_known_valve()
     type(riis_valve) :: valve
     type(riis_placement) :: placement
-    real(c_double) :: residual(6), errors(17), found(3), wide(4, 12)
+    real(c_double) :: residual(6), errors(17), found(3), wide(4, 12), places(3, 6)
     integer(int32) :: states(17), cusps(2, 6)
     call valve%create('trileaflet')
     cusps = -1
     cusps(1, 1:3) = [RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY]
     call riis_place(valve, landmarks(), role, 10d0, placement, cusps, [0d0, -1d0, 0d0], 0.3d0, residual=residual, &
-      standard_error=errors, size_state=states)
+      standard_error=errors, size_state=states, places=places)
+    call check(all(abs(places - landmarks()) < 1d-8), 'the places are those of exact landmarks')
     call valve%get('root_radius', found(1))
     call valve%get('leaflet_radius_out', found(2))
     call valve%get('leaflet_height', found(3))
@@ -92,6 +93,8 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'flow')
     call riis_place(valve, xyz, role, 10d0, placement, residual=short, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'residual')
+    call riis_place(valve, xyz, role, 10d0, placement, places=xyz(:, 1:5), status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'places')
     call riis_place(valve, xyz, role, 10d0, placement, standard_error=short, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'standard_error')
     call riis_place(valve, xyz, role, 10d0, placement, size_state=few, status=status)

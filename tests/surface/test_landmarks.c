@@ -634,7 +634,7 @@ static void test_refused_cusps(void **state) {
   REFUSED("trileaflet", "z of landmark 3 is nan", p.xyz[3][2] = NAN);
   REFUSED("trileaflet", "x of landmark 5 is inf", p.xyz[5][0] = INFINITY);
   REFUSED("trileaflet", "landmarks.flow is nan", p.flow[0] = NAN);
-  REFUSED("trileaflet", "landmarks.role of landmark 2 is 10|from 0 to 9", p.role[2] = 10);
+  REFUSED("trileaflet", "landmarks.role of landmark 2 is 11|from 0 to 10", p.role[2] = 11);
   REFUSED("trileaflet", "landmark 2 (hinge) has a role that the trileaflet valve lacks|commissure, nadir",
           p.role[2] = RIIS_LANDMARK_HINGE);
   REFUSED("trileaflet", "has the commissure 2 times|needs 3", p.n = 4);

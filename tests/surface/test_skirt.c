@@ -487,6 +487,96 @@ static riis_gap gap_between(const riis_surface *surface, const riis_surface *wal
   return gap;
 }
 
+/* A wall that cuts the valve is nearer than the attachment in some places. The skirt is then thin there, and longer in others. */
+static void skirts_to_cutting_walls_cross_nothing(void **state) {
+  (void)state;
+  static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
+  static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
+  const int n_trials = is_long_test() ? 400 : 8;
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  int n_cut = 0;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const int owned_before = n_owned();
+    riis_surface_options options = random_placement(RIIS_TRIANGULATION_ADAPTED);
+    riis_valve *valve = new_valve(kinds[trial % 4]);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+    const riis_surface *bare = new_surface(valve, &options);
+    const axis_line axis = axis_of(bare, as_kind[trial % 4], &options);
+    tube_wall round = tube_around(bare, &axis, options.scale);
+    round.radius -= between(0.05, 0.2) * options.scale;
+    const riis_surface *wall = wall_from(&round);
+    const riis_gap gap = gap_between(bare, wall, NULL);
+    n_cut += gap.least < 0 && gap.most > 0;
+    CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 9 * options.scale, &options));
+    for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
+      const int owned_in_trial = n_owned();
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
+      const riis_surface *surface = new_surface(valve, &options);
+      CHECK_OK(riis_find_crossings(surface, NULL, crossings));
+      riis_crossing_list list;
+      CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+      const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
+      for (int64_t k = 0; k < list.n_pairs; ++k)
+        if (leaflet_id[list.triangle_id[2 * k]] == RIIS_LEAFLET_SKIRT ||
+            leaflet_id[list.triangle_id[2 * k + 1]] == RIIS_LEAFLET_SKIRT)
+          fail_msg("%s, opening %g: the skirt crosses leaflet %d, %g deep, gap %g to %g", kinds[trial % 4], 0.1 * i,
+                   leaflet_id[list.triangle_id[2 * k]], list.deepest_depth, gap.least, gap.most);
+      free_owned_after(owned_in_trial);
+    }
+    free_owned_after(owned_before);
+  }
+  printf("%d of %d walls cut the valve\n", n_cut, n_trials);
+  assert_true(n_cut > n_trials / 4);
+}
+
+/* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. */
+static void skirts_of_warped_cusps_cross_nothing(void **state) {
+  (void)state;
+  const int n_trials = is_long_test() ? 100 : 6;
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const int owned_before = n_owned();
+    riis_valve *valve = skirted_valve(2, 0, 0);
+    const riis_attachment held = attachment_of(new_surface(valve, NULL));
+    double sources[3 * 12], targets[3 * 12];
+    int n = 0;
+    while (n < 12) {
+      const double *p = held.edges + 3 * (int64_t)between(0, 2 * (double)held.n_edges - 0.5);
+      double nearest = INFINITY;
+      for (int k = 0; k < n; ++k) nearest = fmin(nearest, distance_between(p, sources + 3 * k));
+      if (nearest < 0.25) continue;
+      for (int c = 0; c < 3; ++c) sources[3 * n + c] = p[c], targets[3 * n + c] = p[c] + between(-0.09, 0.09);
+      ++n;
+    }
+    riis_points from, to;
+    CHECK_OK(riis_points_init(&from, sizeof from));
+    from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;
+    to = from, to.x = targets, to.y = targets + 1, to.z = targets + 2;
+    riis_warp *warp = NULL;
+    CHECK_OK(riis_warp_create(&from, NULL, &warp));
+    own(warp);
+    CHECK_OK(riis_warp_set_targets(warp, &to));
+    CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", between(0.1, 0.3)));
+    for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
+      const riis_surface *surface = new_surface(valve, NULL);
+      CHECK_OK(riis_find_crossings(surface, NULL, crossings));
+      riis_crossing_list list;
+      CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
+      const int32_t *leaflet_id = triangles_of(surface).leaflet_id;
+      for (int64_t k = 0; k < 2 * list.n_pairs; ++k)
+        if (leaflet_id[list.triangle_id[k]] == RIIS_LEAFLET_SKIRT)
+          fail_msg("opening %g: the skirt crosses by %g", 0.1 * i, list.deepest_depth);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
 /* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay. */
 static void skirts_reach_walls_and_no_farther(void **state) {
   (void)state;
@@ -523,7 +613,7 @@ static void skirts_reach_walls_and_no_farther(void **state) {
     CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 2 * s, &options));
     double longest = 0;
     CHECK_OK(riis_valve_get(valve, "skirt_length", 1, &longest));
-    CHECK_NEAR(longest * s, gap.most, 5e-3 * gap.most); /* at other points than the ends of edges */
+    CHECK_NEAR(longest * s, gap.most, 1e-2 * gap.most); /* at other points than the ends of edges */
     const riis_surface *reaching = new_surface(valve, &options);
     const riis_triangles all = triangles_of(reaching);
     double farthest = 0, worst = 0;
@@ -693,7 +783,7 @@ static void wrong_skirts_are_refused(void **state) {
   assert_true(gap.most < 0);
   CHECK_OK(riis_valve_set_skirt_to_wall(trileaflet, inside, 1, NULL));
   CHECK_OK(riis_valve_get(trileaflet, "skirt_length", 1, &length));
-  assert_true(length > 0 && length < 2e-4);
+  CHECK_NEAR(length, 0.01 * 1.25, 0.001); /* of the attachment's mean distance from the axis */
   new_surface(trileaflet, NULL);
 }
 
@@ -705,11 +795,12 @@ static int start(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_outer_edge_is_the_length_away), cmocka_unit_test(leaflets_stay_as_they_are),
-      cmocka_unit_test(the_skirt_continues_the_leaflets),  cmocka_unit_test(skirts_cross_nothing),
-      cmocka_unit_test(sides_are_right_beside_the_skirt),  cmocka_unit_test(skirts_seal_gaps),
-      cmocka_unit_test(skirts_move_with_the_attachment),   cmocka_unit_test(skirts_reach_walls_and_no_farther),
-      cmocka_unit_test(patches_have_skirts_in_any_frame),  cmocka_unit_test(wrong_skirts_are_refused),
+      cmocka_unit_test(the_outer_edge_is_the_length_away),     cmocka_unit_test(leaflets_stay_as_they_are),
+      cmocka_unit_test(the_skirt_continues_the_leaflets),      cmocka_unit_test(skirts_cross_nothing),
+      cmocka_unit_test(sides_are_right_beside_the_skirt),      cmocka_unit_test(skirts_seal_gaps),
+      cmocka_unit_test(skirts_move_with_the_attachment),       cmocka_unit_test(skirts_reach_walls_and_no_farther),
+      cmocka_unit_test(patches_have_skirts_in_any_frame),      cmocka_unit_test(wrong_skirts_are_refused),
+      cmocka_unit_test(skirts_to_cutting_walls_cross_nothing), cmocka_unit_test(skirts_of_warped_cusps_cross_nothing),
   };
   return cmocka_run_group_tests(tests, start, NULL);
 }

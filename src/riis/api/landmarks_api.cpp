@@ -23,7 +23,7 @@ constexpr double usual_noise = 0.03;
 const riis_landmarks default_landmarks{
     sizeof(riis_landmarks), 0, nullptr, nullptr, nullptr, 1, nullptr, nullptr, RIIS_AUTO, RIIS_AUTO, {0, 0, 0}, 64, 0};
 
-const riis_placement_arrays default_arrays{sizeof(riis_placement_arrays), nullptr, nullptr, nullptr};
+const riis_placement_arrays default_arrays{sizeof(riis_placement_arrays), nullptr, nullptr, nullptr, nullptr};
 
 riis::Landmarks landmarks_of(const riis_landmarks &given) {
   if (given.n_landmarks < 1 || given.n_landmarks > most_landmarks)
@@ -114,6 +114,9 @@ riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const
     if (to.residual) std::copy(placed.residuals.begin(), placed.residuals.end(), to.residual);
     if (to.standard_error) std::copy(placed.standard_error.begin(), placed.standard_error.end(), to.standard_error);
     if (to.size_state) std::copy(placed.size_state.begin(), placed.size_state.end(), to.size_state);
+    if (to.place)
+      for (std::size_t i = 0; i < placed.places.size(); ++i)
+        riis::put_vector(to.place, static_cast<std::int64_t>(i), placed.places[i]);
     valve->valve = std::move(placed.valve);
   });
 }

@@ -15,6 +15,8 @@ namespace riis {
 namespace {
 
 constexpr std::size_t n_cusps = 3;
+// With the other landmarks, a warp then has at most its 1000 landmarks.
+constexpr std::size_t most_along_attachment = 900;
 // The cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
 constexpr std::size_t next(std::size_t cusp) { return (cusp + 1) % n_cusps; }
@@ -52,7 +54,7 @@ void check_leaflet_ids(const Landmarks &landmarks) {
     if (is_commissure ? (first == -1) != (second == -1) || (first != -1 && first == second) : second != -1)
       fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, i), " is ", first, " and ", second,
            is_commissure ? "; a commissure has two different leaflets, or -1 and -1"
-                         : "; a nadir has one leaflet and -1");
+                         : "; only a commissure has two leaflets");
   }
 }
 
@@ -165,10 +167,13 @@ struct Frame {
 };
 
 Frame frame_of(const Landmarks &landmarks, const char *kind, bool needs_names) {
-  check_roles(landmarks, kind, {RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION});
+  check_roles(landmarks, kind,
+              {RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ATTACHMENT});
   check_count(landmarks, kind, RIIS_LANDMARK_COMMISSURE, n_cusps, n_cusps);
   check_count(landmarks, kind, RIIS_LANDMARK_NADIR, n_cusps, n_cusps);
   check_count(landmarks, kind, RIIS_LANDMARK_COAPTATION, 0, 1);
+  if (landmarks.count(RIIS_LANDMARK_ATTACHMENT) > 0)
+    check_count(landmarks, kind, RIIS_LANDMARK_ATTACHMENT, 0, most_along_attachment);
   const auto nadirs = landmarks.with_role(RIIS_LANDMARK_NADIR),
              commissures = landmarks.with_role(RIIS_LANDMARK_COMMISSURE);
   std::vector<std::size_t> all = nadirs;
@@ -179,6 +184,13 @@ Frame frame_of(const Landmarks &landmarks, const char *kind, bool needs_names) {
   check_spread(landmarks, nadirs, one_place);
   check_spread(landmarks, commissures, one_place);
   check_leaflet_ids(landmarks);
+  const auto is_named = [&](std::size_t i) { return landmarks.list[i].leaflet_ids[0] != -1; };
+  if (std::none_of(all.begin(), all.end(), is_named))
+    for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
+      if (is_named(i))
+        fail(RIIS_INVALID_ARGUMENT, "landmarks.leaflet_id of ", words_for(landmarks, i), " says ",
+             words_for_cusp(landmarks.list[i].leaflet_ids[0]),
+             ", but no nadir and no commissure says which cusp that is");
 
   const Vec3 middle = landmarks.mean_of(nadirs), up = landmarks.mean_of(commissures) - middle;
   const double size = spread_of(landmarks, all).deviation[0];

@@ -91,6 +91,13 @@ class Problem {
     return pose;
   }
   const std::vector<LandmarkModel::Offset> &offsets() const { return offsets_; }
+  // Returns the landmarks' places on the valve. A landmark without an offset has its own place.
+  std::vector<Vec3> places() const {
+    std::vector<Vec3> places = local_;
+    for (std::size_t i = 0; i < offsets_.size(); ++i)
+      places[offsets_[i].landmark] = places[offsets_[i].landmark] - (weights_[i] * weights_[i]) * offsets_[i].vector;
+    return places;
+  }
 
  private:
   const FittedSize &size(std::size_t k) const { return model_.sizes[free_[k]]; }
@@ -206,7 +213,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     problem.residuals(x, r);
   }
 
-  LandmarkFit made{problem.pose_at(x), std::vector<double>(n_landmarks), 0, 0, 0};
+  LandmarkFit made{problem.pose_at(x), std::vector<double>(n_landmarks), problem.places(), 0, 0, 0};
   const double squares = sum_of_squares(problem, made.residuals);
   if (!minimum.converged) refuse_unconverged(made.residuals, landmarks);
   made.noise = shown_noise(model, landmarks, squares, n);
@@ -224,10 +231,6 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   made.rotation_error = error_of_three(n - 6) / model.radius * (180 / pi);
   made.position_error = error_of_three(n - 3);
   return made;
-}
-
-Rotation transposed(const Rotation &a) {
-  return {{a.row_x.x, a.row_y.x, a.row_z.x}, {a.row_x.y, a.row_y.y, a.row_z.y}, {a.row_x.z, a.row_y.z, a.row_z.z}};
 }
 
 Rotation operator*(const Rotation &a, const Rotation &b) {

@@ -56,6 +56,7 @@ struct Pose {
 struct LandmarkFit {
   Pose pose;
   std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
+  std::vector<Vec3> places;       // the landmarks' places on the valve, in its frame; the mean place if there are several offsets
   double noise;                   // the noise on which standard errors rest, in centimetres
   double rotation_error;          // degrees
   double position_error;          // standard error of the landmarks' mean, in centimetres
@@ -66,7 +67,6 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
 
 // Returns the rotation whose columns are unit vectors along x, y and z. `x` is first made perpendicular to z.
 Rotation rotation_to(Vec3 x, Vec3 z);
-Rotation transposed(const Rotation &a);
 Rotation operator*(const Rotation &a, const Rotation &b);
 inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 

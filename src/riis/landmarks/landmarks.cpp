@@ -58,7 +58,8 @@ const char *role_name(std::int32_t role) {
                                              "trigone",
                                              "posteromedial_commissure",
                                              "anterolateral_commissure",
-                                             "hinge"};
+                                             "hinge",
+                                             "attachment"};
   return view(names)[role];
 }
 

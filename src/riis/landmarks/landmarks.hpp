@@ -36,7 +36,7 @@ struct Landmarks {
 
 // Returns the name of a role, such as "nadir".
 const char *role_name(std::int32_t role);
-constexpr std::int32_t n_roles = 10;
+constexpr std::int32_t n_roles = 11;
 // Returns the words for a landmark in messages, such as "landmark 3 (nadir)".
 std::string words_for(const Landmarks &landmarks, std::size_t i);
 

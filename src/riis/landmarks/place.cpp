@@ -12,6 +12,8 @@
 #include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "landmarks/models.hpp"
+#include "valve/skirt.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 
@@ -85,6 +87,97 @@ std::pair<Vec3, double> axis_and_angle(const Rotation &r) {
   return {dot(axis, twice) < 0 ? -axis : axis, angle};
 }
 
+// ---- Landmarks along the attachment ----
+
+// A part of the closed valve's attachment.
+struct AttachmentPart {
+  Curve curve;
+  PatchImage image;
+  Vector<Vec3> points;  // at even shares
+};
+constexpr std::size_t n_part_steps = 64;
+
+Vector<AttachmentPart> attachment_of(Valve valve) {
+  const double zero = 0;
+  valve.set("opening", 1, &zero);
+  valve.set("skirt_length", 1, &zero);
+  valve.set_warp(nullptr, nullptr);
+  const PatchSet set = valve.make_patches();
+  Vector<AttachmentPart> parts;
+  for (const HeldSide &held : held_sides(set)) {
+    const Curve curve = along(set, held.side);
+    for (const PatchImage &image : set.patches[held.patch].images) {
+      AttachmentPart part{curve, image, {}};
+      for (std::size_t i = 0; i <= n_part_steps; ++i)
+        part.points.push_back(place(image, curve.at(static_cast<double>(i) / n_part_steps)));
+      parts.push_back(std::move(part));
+    }
+  }
+  return parts;
+}
+
+// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts.
+Vec3 nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted, std::int32_t leaflet_id) {
+  double least = std::numeric_limits<double>::infinity(), at = 0;
+  const AttachmentPart *nearest = nullptr;
+  for (const AttachmentPart &part : parts) {
+    if (leaflet_id >= 0 && part.image.leaflet_id != leaflet_id) continue;
+    Vec3 from = map.value(part.points[0]);
+    for (std::size_t i = 0; i < n_part_steps; ++i) {
+      const Vec3 to = map.value(part.points[i + 1]), along = to - from;
+      const double size = dot(along, along);
+      const double t = size > 0 ? std::clamp(dot(wanted - from, along) / size, 0.0, 1.0) : 0;
+      const double apart = distance(wanted, from + t * along);
+      if (apart < least) {
+        least = apart;
+        nearest = &part;
+        at = (static_cast<double>(i) + t) / n_part_steps;
+      }
+      from = to;
+    }
+  }
+  return place(nearest->image, nearest->curve.at(at));
+}
+
+// Finds the places of the landmarks along the attachment: those that the warp of all landmarks takes nearest to them. `places`
+// has the places of the other landmarks. `local` has the landmarks in the valve's frame.
+void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
+                         std::vector<Vec3> &places) {
+  const std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
+  if (along.empty()) return;
+  const Vector<AttachmentPart> parts = attachment_of(valve);
+  const double one_place = 0.02 * radius;
+  constexpr int most_rounds = 10;
+  for (int round = 0; round < most_rounds; ++round) {
+    Vector<Vec3> sources, targets;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (landmarks.list[i].role == RIIS_LANDMARK_ATTACHMENT && round == 0) continue;
+      const auto is_near = [&](Vec3 other) { return distance(other, places[i]) <= one_place; };
+      if (std::any_of(sources.begin(), sources.end(), is_near)) continue;
+      sources.push_back(places[i]);
+      targets.push_back(local[i]);
+    }
+    WarpMap map;
+    WarpQuality quality{};
+    WarpLandmarks(sources, landmarks.noise, "landmarks").fit(targets, map, quality);
+    double moved = 0;
+    for (const std::size_t i : along) {
+      const Vec3 found = nearest_on(parts, map, local[i], landmarks.list[i].leaflet_ids[0]);
+      moved = std::max(moved, distance(found, places[i]));
+      places[i] = found;
+    }
+    if (moved <= 1e-6 * radius) break;
+  }
+  for (const std::size_t i : along)
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double apart = distance(places[i], places[k]);
+      if (k == i || apart > one_place) continue;
+      fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, std::min(i, k)), " and ", words_for(landmarks, std::max(i, k)),
+           " are in one place on the valve's attachment: ", rounded(landmarks.scale * apart, 3),
+           " apart, but two landmarks must be more than ", rounded(landmarks.scale * one_place, 3), " apart");
+    }
+}
+
 }  // namespace
 
 PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::string_view held) {
@@ -102,11 +195,10 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
       size.held = true;
       size.value = value_of(valve, size.name);
     }
-  const LandmarkFit fitted = fit(model, landmarks, of_kind.starts);
+  LandmarkFit fitted = fit(model, landmarks, of_kind.starts);
   if (of_kind.check) of_kind.check(model, landmarks);
 
-  PlacedValve placed{valve, landmarks.scale,       {0, 0, 1}, 0,  {0, 0, 0}, fitted.residuals,
-                     0,     fitted.rotation_error, 0,         {}, {}};
+  PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
   // First all lengths grow with the valve. Then the fitted sizes take their values. Last come the parameters that depend on
   // several sizes.
   double size_now = value_of(valve, of_kind.size_name);
@@ -142,7 +234,17 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   }
   placed.valve.make_patches();  // refuses sizes that do not fit together
 
+  std::vector<Vec3> local;
+  for (std::size_t i = 0; i < landmarks.list.size(); ++i)
+    local.push_back(transposed(fitted.pose.rotation) * (landmarks.at(i) - fitted.pose.translation));
+  place_on_attachment(placed.valve, landmarks, local, model.radius, fitted.places);
+  for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
+    fitted.residuals[i] = distance(local[i], fitted.places[i]);
+
   const double scale = landmarks.scale;
+  for (const Vec3 at : fitted.places)
+    placed.places.push_back(scale * (fitted.pose.rotation * at + fitted.pose.translation) + landmarks.mean);
+  placed.residuals = fitted.residuals;
   std::tie(placed.rotation_axis, placed.rotation_angle) = axis_and_angle(fitted.pose.rotation);
   placed.translation = scale * fitted.pose.translation + landmarks.mean;
   for (double &residual : placed.residuals) residual *= scale;

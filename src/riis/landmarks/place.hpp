@@ -21,6 +21,7 @@ struct PlacedValve {
   double rotation_angle;          // degrees
   Vec3 translation;               // mesh units
   std::vector<double> residuals;  // residuals of the landmarks, mesh units
+  std::vector<Vec3> places;       // the landmarks' places on the closed valve, mesh units
   double noise;                   // the noise on which standard errors rest, mesh units
   double rotation_error;          // degrees
   double position_error;          // standard error of the valve's origin, mesh units

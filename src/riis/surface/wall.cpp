@@ -111,17 +111,19 @@ Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads) {
 SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
                              int n_threads) {
   const Vector<HeldSide> sides = held_sides(set);
-  const double shortest = least_skirt * attachment_radius(set, sides);
+  const double shortest = least_skirt_to_wall * attachment_radius(set, sides);
   std::vector<Start> starts;
-  for (const HeldSide &held : sides) {
-    const Patch &patch = set.patches[held.patch];
-    const Curve curve = along(set, held.side);
+  const SkirtDirections directions(set, sides);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Patch &patch = set.patches[sides[i].patch];
+    const Curve curve = along(set, sides[i].side);
     for (const PatchImage &image : patch.images) {
       const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
       for (std::size_t k = 0; k <= n_skirt_parts; ++k) {
-        const Vec3 p = curve.at(static_cast<double>(k) / static_cast<double>(n_skirt_parts));
+        const double share = static_cast<double>(k) / static_cast<double>(n_skirt_parts);
+        const Vec3 p = curve.at(share);
         starts.push_back(
-            {place(placement, place(image, p)), placement.rotation * place(turn, outwards(patch.axis, p))});
+            {place(placement, place(image, p)), placement.rotation * place(turn, directions.at(i, share, p))});
       }
     }
   }

@@ -17,12 +17,15 @@ namespace {
 // A skirt of one length has this many parts on each side of a patch. Its outer edge is then right to a thousandth of the length
 // (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
+// The ends of two cusps that are not joined are neighbours if they are at most this far apart, times the longest side.
+constexpr double most_between_ends = 0.5;
+// One of two neighbouring ends is farther outwards if the line between them is at most 45 degrees from that direction.
+constexpr double least_cosine_in_line = 0.7;
+// The derivative of a direction that was turned is a difference over two such shares of the length.
+constexpr double direction_step = 1e-4;
 
 Vec3 without_placement(const PatchImage &image, Vec3 p) {
-  const Rotation &r = image.rotation;
-  const Vec3 turned{r.row_x.x * p.x + r.row_y.x * p.y + r.row_z.x * p.z,
-                    r.row_x.y * p.x + r.row_y.y * p.y + r.row_z.y * p.z,
-                    r.row_x.z * p.x + r.row_y.z * p.y + r.row_z.z * p.z};
+  const Vec3 turned = transposed(image.rotation) * p;
   return {image.mirror == Mirror::in_x ? -turned.x : turned.x, image.mirror == Mirror::in_y ? -turned.y : turned.y,
           turned.z};
 }
@@ -71,15 +74,17 @@ AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides) 
 // Adds the curves and patches of a skirt to a set.
 class SkirtMaker {
  public:
-  explicit SkirtMaker(PatchSet &set) : set_(set), leaflet_id_(skirt_leaflet(set)) {
+  SkirtMaker(PatchSet &set, const Vector<HeldSide> &sides)
+      : set_(set), sides_(sides), directions_(set, sides), leaflet_id_(skirt_leaflet(set)) {
     for (const Patch &patch : set.patches)
       for (const PatchImage &image : patch.images) n_ids_ = std::max(n_ids_, image.patch_id + 1);
   }
 
   // Adds the strip along a side for these images of its patch. `lengths` has the lengths at evenly spaced shares.
-  void add(const HeldSide &held, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
+  void add(std::size_t side, std::size_t first_image, std::size_t n_images, const Vector<double> &lengths) {
+    const HeldSide &held = sides_[side];
     const Patch parent = set_.patches[held.patch];
-    const Curve inner = along(set_, held.side), outer = outer_curve(inner, parent, lengths);
+    const Curve inner = along(set_, held.side), outer = outer_curve(side, inner, parent, lengths);
     const std::size_t rim = add_curve(outer);
     if (!set_.material.empty()) {
       set_.material.resize(set_.curves.size());
@@ -135,12 +140,13 @@ class SkirtMaker {
   }
 
   // Each part is a cubic. At both of its ends it has the exact point and the exact derivative by the share of length.
-  static Curve outer_curve(const Curve &inner, const Patch &parent, const Vector<double> &lengths) {
+  Curve outer_curve(std::size_t side, const Curve &inner, const Patch &parent, const Vector<double> &lengths) const {
     const std::size_t n = lengths.size() - 1;
     const double step = 1 / static_cast<double>(n);
     const auto point = [&](std::size_t i) {
-      const Vec3 p = i == 0 ? inner.first() : i == n ? inner.last() : inner.at(step * static_cast<double>(i));
-      return p + lengths[i] * outwards(parent.axis, p);
+      const double share = step * static_cast<double>(i);
+      const Vec3 p = i == 0 ? inner.first() : i == n ? inner.last() : inner.at(share);
+      return p + lengths[i] * directions_.at(side, share, p);
     };
     const auto slope = [&](std::size_t i) {
       const auto [p, tangent] = inner.frame(step * static_cast<double>(i));
@@ -149,6 +155,12 @@ class SkirtMaker {
       const Vec3 along = inner.length() * tangent, across = along - dot(along, d) * d;
       const Vec3 turn = (1 / length(q)) * (across - dot(across, out) * out);
       const double growth = growth_at(lengths, i) / step;
+      if (directions_.is_turned(side)) {
+        const double here = step * static_cast<double>(i), from = std::max(0.0, here - direction_step),
+                     to = std::min(1.0, here + direction_step);
+        const Vec3 change = directions_.at(side, to, inner.at(to)) - directions_.at(side, from, inner.at(from));
+        return along + (lengths[i] / (to - from)) * change + growth * directions_.at(side, here, p);
+      }
       return along + lengths[i] * turn + growth * out;
     };
     Vector<Bezier> pieces;
@@ -183,6 +195,8 @@ class SkirtMaker {
   }
 
   PatchSet &set_;
+  const Vector<HeldSide> &sides_;
+  SkirtDirections directions_;
   std::int32_t leaflet_id_, n_ids_ = 0;
   std::map<std::array<double, 6>, std::size_t> lines_;
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and image of a patch and its image
@@ -194,6 +208,68 @@ Vec3 outwards(const AxisLine &axis, Vec3 point) {
   const Vec3 from_axis = point - axis.centre, q = from_axis - dot(from_axis, axis.direction) * axis.direction;
   const double size = length(q);
   return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
+}
+
+SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides) {
+  struct Place {
+    std::size_t side, end;
+    Vec3 point;
+    std::int32_t leaflet_id;
+  };
+  Vector<Place> places;
+  double size = 0;
+  for (const HeldSide &held : sides) {
+    axes_.push_back(set.patches[held.patch].axis);
+    ends_.push_back({End{false, {}}, End{false, {}}});
+  }
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Patch &patch = set.patches[sides[i].patch];
+    // Images of one patch meet in a plane of symmetry, which contains the skirt's ends there.
+    if (patch.images.size() > 1 || !(place(patch.images.front(), {1, 2, 3}) == Vec3{1, 2, 3})) return;
+    const Curve curve = along(set, sides[i].side);
+    size = std::max(size, curve.length());
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+      places.push_back({i, end, end == 0 ? curve.first() : curve.last(), patch.images.front().leaflet_id});
+  }
+  const auto is_joined = [&](const Place &at) {
+    return std::any_of(places.begin(), places.end(), [&](const Place &other) {
+      return other.side != at.side && distance(other.point, at.point) <= 1e-9 * size;
+    });
+  };
+  Vector<Place> free;
+  for (const Place &at : places)
+    if (!is_joined(at)) free.push_back(at);
+  const auto nearest_to = [&](const Place &at) {
+    const Place *nearest = nullptr;
+    for (const Place &other : free)
+      if (other.leaflet_id != at.leaflet_id &&
+          (!nearest || distance(other.point, at.point) < distance(nearest->point, at.point)))
+        nearest = &other;
+    return nearest;
+  };
+  for (const Place &at : free) {
+    const Place *other = nearest_to(at);
+    if (!other || nearest_to(*other) != &at || distance(other->point, at.point) > most_between_ends * size) continue;
+    const AxisLine &axis = axes_[at.side];
+    const Vec3 between = other->point - at.point, across = between - dot(between, axis.direction) * axis.direction;
+    const Vec3 out = outwards(axis, 0.5 * (at.point + other->point));
+    // If one end is farther outwards, its skirt continues the line through both ends.
+    const double along_out = dot(across, out), apart = length(across);
+    const bool is_in_line = std::abs(along_out) > least_cosine_in_line * apart;
+    ends_[at.side][at.end] = {true, is_in_line ? ((along_out < 0 ? -1 : 1) / apart) * across : out};
+  }
+}
+
+Vec3 SkirtDirections::at(std::size_t side, double share, Vec3 point) const {
+  Vec3 out = outwards(axes_[side], point);
+  for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+    const End &turned = view(ends_[side])[end];
+    if (!turned.is_turned) continue;
+    const double s = end == 0 ? 1 - share : share, weight = s * s * (3 - 2 * s);
+    out = mix(out, turned.direction, weight);
+    out = (1 / length(out)) * out;
+  }
+  return out;
 }
 
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides) {
@@ -262,18 +338,19 @@ std::int32_t skirt_leaflet(const PatchSet &set) {
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths) {
   const Vector<HeldSide> sides = held_sides(set);
   const double radius = attachment_radius(set, sides);
-  SkirtMaker maker(set);
+  SkirtMaker maker(set, sides);
   if (lengths.empty()) {
     if (!(length >= least_skirt * radius && length <= most_skirt * radius))
       fail(RIIS_INVALID_PARAMETER, "skirt_length is ", length, "; it must be 0, or from ", least_skirt, " to ",
            most_skirt, " times the mean distance of the attachment from its axis, which is ", radius);
     const Vector<double> even(n_even_parts + 1, length);
-    for (const HeldSide &held : sides) maker.add(held, 0, set.patches[held.patch].images.size(), even);
+    for (std::size_t side = 0; side < sides.size(); ++side)
+      maker.add(side, 0, set.patches[sides[side].patch].images.size(), even);
   } else {
     std::size_t next = 0;
-    for (const HeldSide &held : sides)
-      for (std::size_t i = 0, n = set.patches[held.patch].images.size(); i < n; ++i)
-        maker.add(held, i, 1, lengths[next++]);
+    for (std::size_t side = 0; side < sides.size(); ++side)
+      for (std::size_t i = 0, n = set.patches[sides[side].patch].images.size(); i < n; ++i)
+        maker.add(side, i, 1, lengths[next++]);
   }
   maker.sew();
 }

@@ -3,6 +3,7 @@
 // In: the patches of a valve, the length of the skirt. Out: the same patches and those of the skirt.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,11 +36,33 @@ Vector<HeldSide> held_sides(const PatchSet &set);
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
+// The direction in which a skirt leads away from its attachment: outwards from the axis. Where neighbouring cusps end side by
+// side but are not joined, as those of a warped aortic valve, both skirts end in one plane. So neither goes through the other.
+class SkirtDirections {
+ public:
+  SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
+
+  // Returns the unit vector at a share of the length of a side, where the side has this point.
+  Vec3 at(std::size_t side, double share, Vec3 point) const;
+  bool is_turned(std::size_t side) const { return ends_[side][0].is_turned || ends_[side][1].is_turned; }
+
+ private:
+  struct End {
+    bool is_turned;
+    Vec3 direction;
+  };
+  Vector<AxisLine> axes_;
+  Vector<std::array<End, 2>> ends_;  // of each side: its first and its last end
+};
+
 // Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER unless every side has an outward
 // direction.
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // A skirt is at least and at most this many such distances long.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
+// A skirt to a wall is at least this many such distances long. Its outer edge has its vertices at even shares of its own length,
+// so they are not exactly beside those of the attachment. A thinner strip along a round attachment would go through itself.
+inline constexpr double least_skirt_to_wall = 0.01;
 
 // Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);

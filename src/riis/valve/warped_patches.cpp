@@ -22,6 +22,9 @@ constexpr int n_curve_steps = 6;
 constexpr double least_factor = 0.2, most_factor = 5, most_of_missing = 0.5;
 // A patch is searched for folds on a grid of this many cells each way.
 constexpr std::size_t n_fold_cells = 3;
+// The sine of the angle between the diagonals of a cell that has no side, because it is hardly wider than a line. Half opened,
+// leaflets of the coapting kind have such cells beside the attachment.
+constexpr double sliver_sine = 0.02;
 
 bool is_in_place(const PatchImage &image) {
   return image.mirror == Mirror::none && image.rotation.row_x == no_rotation.row_x &&
@@ -431,9 +434,11 @@ void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGr
       const std::size_t k = j * (n_fold_cells + 1) + i;
       const Vec3 wanted =
           normal_of_cell(mapped[k], mapped[k + 1], mapped[k + n_fold_cells + 1], mapped[k + n_fold_cells + 2]);
-      const Vec3 normal = normal_of_cell(now.at(i, j), now.at(i + 1, j), now.at(i, j + 1), now.at(i + 1, j + 1));
+      const Vec3 p00 = now.at(i, j), p10 = now.at(i + 1, j), p01 = now.at(i, j + 1), p11 = now.at(i + 1, j + 1);
+      const Vec3 normal = normal_of_cell(p00, p10, p01, p11);
       const double product = dot(wanted, normal), sizes = length(wanted) * length(normal);
-      if (product < 0 && sizes > 0) {
+      const bool is_sliver = length(normal) <= sliver_sine * distance(p11, p00) * distance(p01, p10);
+      if (product < 0 && sizes > 0 && !is_sliver) {
         const Vec3 p = place(image, before.at(i, j));
         fail(RIIS_INVALID_PARAMETER, "the warp turns a part of patch ", image.patch_id, " of leaflet ",
              image.leaflet_id, " over: near (", p.x, ", ", p.y, ", ", p.z,
