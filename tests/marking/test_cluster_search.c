@@ -341,13 +341,20 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
     double size, at, limit;
     int32_t search;
   } cases[] = {
-      {1, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},      {1e5, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
-      {1e8, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},  {1e60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
-      {1, 1e5, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},    {1, 1e8, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
-      {1, 1e59, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE}, {1, 0, 1e5, RIIS_SEARCH_CLUSTERS},
-      {1, 0, 1e8, RIIS_SEARCH_EXHAUSTIVE},          {1, 0, 1e60, RIIS_SEARCH_EXHAUSTIVE},
-      {1e-20, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},  {1e-60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
-      {1e5, 1e5, 2e5, RIIS_SEARCH_CLUSTERS},        {3e5, 3e5, 5e5, RIIS_SEARCH_CLUSTERS},
+      {1, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1e5, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1e8, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1e60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1, 1e5, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1, 1e8, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1, 1e59, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1, 0, 1e5, RIIS_SEARCH_CLUSTERS},
+      {1, 0, 1e8, RIIS_SEARCH_CLUSTERS},
+      {1, 0, 1e60, RIIS_SEARCH_CLUSTERS},
+      {1e-20, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1e-60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1e5, 1e5, 2e5, RIIS_SEARCH_CLUSTERS},
+      {3e5, 3e5, 5e5, RIIS_SEARCH_CLUSTERS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
     const int owned_before = n_owned();
