@@ -30,7 +30,7 @@ struct Placing {
 
 class ClusterSearch {
  public:
-  ClusterSearch(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
+  ClusterSearch(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
                 FoundNodes &found)
       : request_(request),
         scene_(request.surface.scene()),
@@ -422,7 +422,7 @@ class ClusterSearch {
 
   static constexpr ClosestTriangle nothing{std::numeric_limits<double>::infinity(), -1};
 
-  const SearchRequest &request_;
+  const NodeSearch &request_;
   const TriangleScene &scene_;
   const TriangleGroups &groups_;
   const Clusters &clusters_;
@@ -466,18 +466,18 @@ void ClusterScratch::prepare(int n_threads) {
   }
 }
 
-bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters) {
+bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters) {
   const Placing placing(clusters, request.surface.scene().groups().frame);
   return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large;
 }
 
-bool has_few_near(const SearchRequest &request) {
+bool has_few_near(const NodeSearch &request) {
   const Bounds &bounds = request.surface.scene().bounds();
   const Vec3 extent = bounds.upper - bounds.lower;
   return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
 }
 
-SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found) {
   ClusterSearch search(request, clusters, kernels, scratch, found);
   if (has_few_near(request)) {

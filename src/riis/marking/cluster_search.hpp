@@ -56,14 +56,14 @@ struct ClusterScratch {
 
 // Returns false if single precision cannot separate near from far. This happens if the mesh or its distance from the surface is
 // about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
-bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
+bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters);
 
 // Returns whether most triangles are farther than the limit from most nodes near the surface.
-bool has_few_near(const SearchRequest &request);
+bool has_few_near(const NodeSearch &request);
 
 // The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the
 // request's instructions, except that ./run bench roofline passes kernels that count operations.
-SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 
 }  // namespace riis
