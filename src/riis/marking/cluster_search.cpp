@@ -16,6 +16,9 @@ namespace {
 // In the surface's frame, single precision does not separate triangles at such lengths.
 constexpr double large = 0x1p20;
 
+// With more groups near a leaf, a query of each node is faster. Leaves have so many if they are large and the triangles are small.
+constexpr std::size_t most_groups = 4096;
+
 // Maps the mesh's frame to the surface's frame.
 struct Placing {
   double ratio;
@@ -165,6 +168,12 @@ class ClusterSearch {
     return n_added;
   }
 
+  static std::size_t n_marked(const std::uint16_t *bits, std::size_t n, std::int64_t bit) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < n; ++k) count += bits[k] >> bit & 1;
+    return count;
+  }
+
   void add_cluster(std::int64_t cluster, std::int64_t bit, ClusterScratch::Thread &own) {
     const std::size_t first = own.near_groups.size();
     const std::size_t n =
@@ -304,7 +313,8 @@ class ClusterSearch {
     if (bounds)
       for (std::uint32_t rest = near; rest; rest &= rest - 1) {
         const int bit = __builtin_ctz(rest);
-        if (is_separated(bounds->of_box[bit])) continue;
+        const bool has_many = item.n > most_groups && n_marked(leaf_bits, item.n, bit) > most_groups;
+        if (is_separated(bounds->of_box[bit]) && !has_many) continue;
         query_nodes(leaves.begin + bit, thread);
         near &= ~(1u << bit);
       }
@@ -474,7 +484,7 @@ bool separates_in_single_precision(const NodeSearch &request, const Clusters &cl
 bool has_few_near(const NodeSearch &request) {
   const Bounds &bounds = request.surface.scene().bounds();
   const Vec3 extent = bounds.upper - bounds.lower;
-  return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
+  return request.distance_limit <= 0.2 * std::max({extent.x, extent.y, extent.z});
 }
 
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
