@@ -20,6 +20,8 @@ namespace {
 // So many points are sorted together. They take about 8 MB.
 constexpr std::int64_t points_per_batch = 1 << 16;
 
+constexpr std::int64_t points_per_block = 2048;
+
 // Clusters pay off from so many points on, and from so many points for each group of triangles.
 constexpr std::int64_t fewest_points = 64;
 constexpr double fewest_per_group = 0.125;
@@ -29,6 +31,7 @@ struct Batch {
   UnfilledVector<double> xyz;
   UnfilledVector<std::int64_t> ids;
   std::int64_t n = 0;
+  bool has_far = false;  // whether the batch also has points that are too far for single precision
   Bounds bounds;
 };
 
@@ -47,7 +50,7 @@ class ClosestPoints {
   void write() {
     const double n_groups = static_cast<double>(scene_.groups().groups.size());
     if (wanted_.n < fewest_points || static_cast<double>(wanted_.n) < fewest_per_group * n_groups) {
-      write_one_by_one({0, wanted_.n});
+      write_one_by_one({0, wanted_.n}, [](Vec3) { return true; });
       return;
     }
     for (std::int64_t begin = 0; begin < wanted_.n; begin += points_per_batch) {
@@ -57,19 +60,29 @@ class ClosestPoints {
       } catch (const std::bad_alloc &) {
         if (begin == 0) throw;
       }
-      write_one_by_one(range);
+      write_one_by_one(range, [](Vec3) { return true; });
     }
   }
 
  private:
-  // Queries and writes the points of a range, which needs no memory.
-  void write_one_by_one(const Range &all) const {
-    constexpr std::int64_t points_per_block = 512;
-    parallel_for_ranges(all.end - all.begin, points_per_block, request_.n_threads, [&](const Range &range, int) {
+  // Returns whether single precision does not separate the triangles near p. One such point would make the batch's frame useless
+  // for all other points.
+  bool is_far(Vec3 p) const {
+    constexpr double far = 0x1p10;  // about as many half extents of the surface
+    const Vec3 q = scene_.groups().frame(p);
+    return !(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) <= far);
+  }
+
+  // Queries and writes those points of a range for which is_asked(point) is true. This needs no memory.
+  template <class IsAsked>
+  void write_one_by_one(const Range &all, const IsAsked &is_asked) const {
+    constexpr std::int64_t few = 512;  // a query takes longer than a point of a batch
+    parallel_for_ranges(all.end - all.begin, few, request_.n_threads, [&](const Range &range, int) {
       for (std::int64_t k = all.begin + range.begin; k < all.begin + range.end; ++k) {
         const std::int64_t i = wanted_.id(k);
         if (!wanted_.is_wanted(i)) continue;
         const Vec3 p = points_[i];
+        if (!is_asked(p)) continue;
         const ClosestTriangle closest = scene_.closest(p, request_.limit);
         if (closest.triangle >= 0)
           write_closest(surface_, i, p, closest, to_);
@@ -92,7 +105,6 @@ class ClosestPoints {
     } else {
       found_.prepare(request_.n_threads);
     }
-    constexpr std::int64_t points_per_block = 2048;
     if (is_limited_)
       parallel_for_ranges(range.end - range.begin, points_per_block, request_.n_threads, [&](const Range &block, int) {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
@@ -101,27 +113,32 @@ class ClosestPoints {
     for (const std::vector<FoundNode> &list : found_.by_thread)
       parallel_for_ranges(view(list).size(), points_per_block, request_.n_threads,
                           [&](const Range &block, int) { write_found(list, block); });
+    if (batch_.has_far) write_one_by_one(range, [&](Vec3 p) { return is_far(p); });
     return true;
   }
 
-  // Copies the wanted points of a range that may be within the limit.
+  // Copies the wanted points of a range that may be within the limit, except far ones.
   void gather(const Range &all) {
-    constexpr std::int64_t points_per_block = 2048;
     const std::int64_t n = all.end - all.begin;
     resize(batch_.xyz, 3 * n);
     resize(batch_.ids, n);
     struct Block {
       std::int64_t n;
+      bool has_far;
       Bounds bounds;
     };
     std::array<Block, points_per_batch / points_per_block> blocks;
     parallel_for_ranges(n, points_per_block, request_.n_threads, [&](const Range &range, int) {
-      Block made{0, {}};
+      Block made{0, false, {}};
       for (std::int64_t k = range.begin; k < range.end; ++k) {
         const std::int64_t i = wanted_.id(all.begin + k);
         if (!wanted_.is_wanted(i)) continue;
         const Vec3 p = points_[i];
         if (is_limited_ && !scene_.may_be_within(p, request_.limit)) continue;
+        if (is_far(p)) {
+          made.has_far = true;
+          continue;
+        }
         put_vector(batch_.xyz.data(), range.begin + made.n, p);
         view(batch_.ids)[range.begin + made.n++] = i;
         made.bounds.add(p);
@@ -130,6 +147,7 @@ class ClosestPoints {
     });
     // Closes the gaps between the blocks.
     batch_.n = 0;
+    batch_.has_far = false;
     batch_.bounds = {};
     for (std::int64_t begin = 0; begin < n; begin += points_per_block) {
       const Block &block = view(blocks)[begin / points_per_block];
@@ -138,6 +156,7 @@ class ClosestPoints {
         std::copy_n(batch_.ids.data() + begin, block.n, batch_.ids.data() + batch_.n);
       }
       batch_.n += block.n;
+      batch_.has_far = batch_.has_far || block.has_far;
       batch_.bounds.add(block.bounds);
     }
   }
