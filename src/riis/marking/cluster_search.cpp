@@ -251,7 +251,8 @@ class ClusterSearch {
       };
       const double to_farthest = length(Vec3{farthest(point.x, lower.x, upper.x), farthest(point.y, lower.y, upper.y),
                                              farthest(point.z, lower.z, upper.z)});
-      bounds.of_box[k] = to_farthest + 0x1p-21 * (placing_.ratio + placing_.largest_shift + 6);
+      bounds.of_box[k] = to_farthest + 0x1p-21 * (placing_.ratio + placing_.largest_shift + 6) +
+                         2 * scene_.rounding() * groups_.frame.scale;
       FilterTask task;
       limit_within(bounds.of_box[k], task);
       points.xyz[0][k] = static_cast<float>(point.x);
