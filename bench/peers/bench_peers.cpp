@@ -26,6 +26,9 @@
 #if defined(RIIS_WITH_CGAL)
 #include "shared/cgal_reference.hpp"
 #endif
+#if defined(RIIS_WITH_FCPW)
+#include "fcpw_reference.hpp"
+#endif
 #if defined(RIIS_WITH_OPENVDB)
 #include "openvdb_reference.hpp"
 #endif
@@ -234,6 +237,15 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
 #else
   for (const char *name : {"CGAL, AABB_tree bounded", "CGAL, AABB_tree, every distance"})
     contest.leave_out(name, "CGAL was not found when this was built");
+#endif
+#if defined(RIIS_WITH_FCPW)
+  const auto fcpw_start = std::chrono::steady_clock::now();
+  const FcpwQuery fcpw(triangles);
+  const std::chrono::duration<double, std::milli> fcpw_making = std::chrono::steady_clock::now() - fcpw_start;
+  making_ms["FCPW, 8 wide, every distance"] = fcpw_making.count();
+  add("FCPW, 8 wide, every distance", n_slow_turns, [&] { fcpw.distances(n, xyz, distance.data()); });
+#else
+  contest.leave_out("FCPW, 8 wide, every distance", "RIIS_FCPW_DIR was not given when this was built");
 #endif
   const std::vector<double> middles = middles_of(triangles);
   add(
