@@ -842,8 +842,9 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
   RIIS_SEARCH_AUTO = 0,       /* clusters, except that the exhaustive search is used for distances by sampling or
-                                 minimisation, and for the first marking of a mesh without riis_mesh_prepare if
-                                 the distance limit is at most a fifth of the surface's extent */
+                                 minimisation, for the first marking of a mesh without riis_mesh_prepare if the
+                                 distance limit is at most a fifth of the surface's extent, and for a larger
+                                 limit if the mesh has few nodes */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and proves that all other nodes are far, or queries them. The

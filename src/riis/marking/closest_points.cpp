@@ -22,10 +22,6 @@ constexpr std::int64_t points_per_batch = 1 << 16;
 
 constexpr std::int64_t points_per_block = 2048;
 
-// Clusters pay off from so many points on, and from so many points for each group of triangles.
-constexpr std::int64_t fewest_points = 64;
-constexpr double fewest_per_group = 0.125;
-
 // The points of a batch that may be within the limit.
 struct Batch {
   UnfilledVector<double> xyz;
@@ -48,8 +44,7 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    const double n_groups = static_cast<double>(scene_.groups().groups.size());
-    if (wanted_.n < fewest_points || static_cast<double>(wanted_.n) < fewest_per_group * n_groups) {
+    if (!are_enough_for_clusters(wanted_.n, surface_)) {
       write_one_by_one({0, wanted_.n}, [](Vec3) { return true; });
       return;
     }

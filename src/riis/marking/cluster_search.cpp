@@ -290,13 +290,14 @@ class ClusterSearch {
   }
 
   // Queries the nodes of a leaf one by one.
-  void query_nodes(std::int64_t number, int thread) {
+  void query_nodes(std::int64_t number, ClusterScratch::Thread &own, int thread) {
     const Leaf &leaf = clusters_.leaves.get()[number];
     const double *const xyz = clusters_.points.get()[number].xyz;
     for (int lane = 0; lane < clusters_.n_nodes_of(number); ++lane) {
       const std::int64_t node = leaf.node[lane];
       const Vec3 p{xyz[3 * lane], xyz[3 * lane + 1], xyz[3 * lane + 2]};
       if (request_.is_masked_out(node) || !scene_.may_be_within(p, request_.distance_limit)) continue;
+      ++own.n_queries;
       const ClosestTriangle closest =
           scene_.closest(p, request_.distance_limit, request_.instructions, found_.ties_of(thread));
       if (closest.triangle >= 0) found_.add(thread, node, closest);
@@ -316,7 +317,7 @@ class ClusterSearch {
         const int bit = __builtin_ctz(rest);
         const bool has_many = item.n > most_groups && n_marked(leaf_bits, item.n, bit) > most_groups;
         if (is_separated(bounds->of_box[bit]) && !has_many) continue;
-        query_nodes(leaves.begin + bit, thread);
+        query_nodes(leaves.begin + bit, own, thread);
         near &= ~(1u << bit);
       }
     Pairs pairs{leaves.begin, found_.ties_of(thread)};
@@ -480,6 +481,11 @@ void ClusterScratch::prepare(int n_threads) {
 bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters) {
   const Placing placing(clusters, request.surface.scene().groups().frame);
   return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large;
+}
+
+bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface) {
+  constexpr std::int64_t fewest = 64, groups_per_node = 8;
+  return n_nodes >= std::max(fewest, view(surface.scene().groups().groups).size() / groups_per_node);
 }
 
 bool has_few_near(const NodeSearch &request) {

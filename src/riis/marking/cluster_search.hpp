@@ -58,6 +58,10 @@ struct ClusterScratch {
 // about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
 bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters);
 
+// Returns whether clusters pay off for the distances of so many nodes, if the limit leaves out few or none. For fewer nodes,
+// comparing all groups with the first clusters takes longer than a query of each node.
+bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
+
 // Returns whether most triangles are farther than the limit from most nodes near the surface.
 bool has_few_near(const NodeSearch &request);
 
