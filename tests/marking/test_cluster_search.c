@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh, surface,
- * limit, mask, instruction set and number of threads, also if the limit leaves out nothing. If clusters cannot be used, the exhaustive search runs, and the
- * statistics say so. */
+ * limit, mask, instruction set and number of threads, also if the limit leaves out nothing. If clusters cannot be used, the
+ * exhaustive search runs, and the statistics say so. */
 #include <omp.h>
 #include <riis/riis.h>
 

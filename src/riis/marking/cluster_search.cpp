@@ -16,7 +16,7 @@ namespace {
 // In the surface's frame, single precision does not separate triangles at such lengths.
 constexpr double large = 0x1p20;
 
-// With more groups near a leaf, a query of each node is faster. Leaves have so many if they are large and the triangles are small.
+// With more groups near a leaf, a query of each node is faster. Large leaves near small triangles have so many.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
