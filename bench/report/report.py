@@ -463,16 +463,21 @@ def peers_table(data, valve):
             marks = peers["marks"][name]
             reasons = ", ".join(f"{n} {reason}" for reason, n in sorted(marks["reasons"].items()))
             is_bounded = name.startswith(BOUNDED) or name in ("riis, clusters", "riis, exhaustive search")
+            is_bounded = is_bounded and "every distance" not in name
+            made = peers.get("made", {}).get(name)
             rows.append(
                 [
                     name, "yes" if is_bounded else "no", grouped(marks["marked"]),
                     str(marks["different"]) + (f" ({reasons})" if reasons else ""), f"{marks['largest_difference']:.1g}",
+                    "" if is_bounded or "largest_anywhere" not in marks else f"{marks['largest_anywhere']:.1g}",
+                    "" if made is None else number(made),
                     number(t["least_ms"]), number(t["least_ms"] / by_clusters),
                     "" if is_bounded else number(t["least_ms"] / every),
                 ]
             )  # fmt: skip
     heads = [
-        "what", "bounded", "marked", "marked differently", "distances differ by, cm", "least, ms", "/ clusters",
+        "what", "bounded", "marked", "marked differently", "distances differ by, cm", "anywhere, cm", "made in, ms",
+        "least, ms", "/ clusters",
         "/ every distance",
     ]
     return table(heads, rows)

@@ -41,7 +41,7 @@ double distance_sq(const Point &p, const CGAL::Bbox_3 &box) {
 // but this class starts with a limit on the distance.
 struct WithinLimit {
   double radius_sq;
-  bool has_found = false;
+  const Triangle *nearest = nullptr;
 
   bool go_further() const { return true; }
   bool do_intersect(const Point &p, const CGAL::AABB_node<Traits> &node) const {
@@ -51,7 +51,7 @@ struct WithinLimit {
     const double sq = CGAL::squared_distance(p, triangle.datum());
     if (sq > radius_sq) return;
     radius_sq = sq;
-    has_found = true;
+    nearest = &*triangle.id();
   }
 };
 
@@ -76,13 +76,17 @@ void CgalQuery::distances(std::int64_t n_nodes, const double *xyz, double limit,
                           double *distance) const {
   const Tree &tree = implementation_->tree;
   const CGAL::Bbox_3 box = tree.bbox();
+  const bool is_unlimited = std::isinf(limit);
+  const Triangle *last = nullptr;  // the last node's triangle, if there is no limit
   // Threads take chunks, since nodes near the valve take longer than others.
-#pragma omp parallel for num_threads(n_threads) schedule(dynamic, 4096)
+#pragma omp parallel for num_threads(n_threads) firstprivate(last) schedule(dynamic, 4096)
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const Point p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
     WithinLimit within{limit * limit};
+    if (is_unlimited && i % 4096) within = {CGAL::squared_distance(p, *last), last};
     if (distance_sq(p, box) <= within.radius_sq) tree.traversal(p, within);
-    distance[i] = within.has_found ? std::sqrt(within.radius_sq) : std::numeric_limits<double>::infinity();
+    distance[i] = within.nearest ? std::sqrt(within.radius_sq) : std::numeric_limits<double>::infinity();
+    last = within.nearest;
   }
 }
 

@@ -25,7 +25,7 @@ class CgalQuery {
  public:
   explicit CgalQuery(const Triangles &triangles);
   ~CgalQuery();
-  // distance: (n_nodes). xyz: (3, n_nodes).
+  // distance: (n_nodes). xyz: (3, n_nodes). With an infinite limit, a node begins with the distance of the last node's triangle.
   void distances(std::int64_t n_nodes, const double *xyz, double limit, int n_threads, double *distance) const;
 
  private:

@@ -844,9 +844,10 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters, except that the exhaustive search is used for the first marking of a
-                                 mesh without riis_mesh_prepare, for distance limits above half the surface's
-                                 extent, and for distances by sampling or minimisation */
+  RIIS_SEARCH_AUTO = 0,       /* clusters, except that the exhaustive search is used for distances by sampling or
+                                 minimisation, for the first marking of a mesh without riis_mesh_prepare if the
+                                 distance limit is at most a fifth of the surface's extent, and for a larger
+                                 limit if the mesh has few nodes */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and queries every other node that it cannot prove to be far. The
@@ -855,8 +856,8 @@ enum {
                                  connected to its one starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
                                  The exhaustive search runs instead (stats.search) for 2^32 nodes and more, and if
-                                 the mesh, its distance from the surface or the distance limit is a million times
-                                 the size of the surface */
+                                 the mesh or its distance from the surface is a million times the size of the
+                                 surface */
 };
 
 /* The processor's instructions that a marking uses. The results are bitwise the same with all of them. */

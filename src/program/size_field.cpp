@@ -213,6 +213,8 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &sur
   riis_mesh *handle = nullptr;
   check(riis_mesh_create(grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3, &handle));
   const Mesh mesh(handle);
+  // Most points of the grid are within reach of the valves, so clusters pay off at once.
+  check(riis_mesh_prepare(mesh.get(), options.mark_options.n_threads));
   const Marks marks = new_result();
   std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), edges[0].largest);
   for (std::size_t at = 0; at < surfaces.size(); ++at) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh, surface,
- * limit, mask, instruction set and number of threads. If clusters cannot be used, the exhaustive search runs, and the
- * statistics say so. */
+ * limit, mask, instruction set and number of threads, also if the limit leaves out nothing. If clusters cannot be used, the
+ * exhaustive search runs, and the statistics say so. */
 #include <omp.h>
 #include <riis/riis.h>
 
@@ -14,12 +14,27 @@
 #include "cluster_checks.h"
 #include "sanitized.h"
 
-static void check(const riis_surface *surface, int64_t n, const double *xyz, double limit) {
+enum { every_distance = 1 };
+static const double no_limit = 1e60;
+
+/* Checks a marking with a limit. Also checks the distances of all nodes if `also` is every_distance. */
+static void check_also(const riis_surface *surface, int64_t n, const double *xyz, double limit, int also) {
   riis_mesh *mesh = mesh_of(n, xyz);
   riis_mark_options options = mark_options();
   options.distance_limit = limit;
   check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
+  if (also == every_distance) {
+    const int64_t most_before = most_within;
+    options.distance_limit = no_limit;
+    most_within = 0;
+    check_with(surface, mesh, options, 2, RIIS_SEARCH_CLUSTERS);
+    assert_int_equal(most_within, n);
+    most_within = most_before;
+  }
   free_one_owned(mesh);
+}
+static void check(const riis_surface *surface, int64_t n, const double *xyz, double limit) {
+  check_also(surface, n, xyz, limit, every_distance);
 }
 
 static riis_surface *valve_surface(const char *kind, riis_surface_options options) {
@@ -164,10 +179,10 @@ static void nodes_at_the_limit_are_found(void **state) {
       const double distance = closest_to(surfaces[k], xyz[0], xyz[1], xyz[2]).distance;
       if (distance <= options.half_thickness * 1.01) continue;
       most_within = 0;
-      check(surfaces[k], 1, xyz, distance);
+      check_also(surfaces[k], 1, xyz, distance, !every_distance);
       assert_int_equal(most_within, 1);
       most_within = 0;
-      check(surfaces[k], 1, xyz, nextafter(distance, 0));
+      check_also(surfaces[k], 1, xyz, nextafter(distance, 0), i % 4);
       assert_int_equal(most_within, 0);
       ++n_tried;
     }
@@ -273,7 +288,7 @@ static void surfaces_from_arrays(void **state) {
     for (int i = 0; i < n; i += 50) /* some are far away, so that the mesh is as large as the surface or larger */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
-    check(surface, n, xyz, fmax(options.half_thickness, off * random_power_of_ten(&rng, -1, 1)));
+    check_also(surface, n, xyz, fmax(options.half_thickness, off * random_power_of_ten(&rng, -1, 1)), !every_distance);
     free_owned_after(owned_before);
   }
   assert_int_equal(most_within, n);
@@ -325,10 +340,90 @@ static void valves_far_from_the_origin(void **state) {
     for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += 0.01 * random_between(&rng, -1, 1);
     most_within = 0;
     check(surface, nodes.n, nodes.xyz, RIIS_AUTO);
-    check(surface, nodes.n, nodes.xyz, 0.4);
+    check_also(surface, nodes.n, nodes.xyz, 0.4, !every_distance);
     assert_true(most_within > 1000);
     free_owned_after(owned_before);
   }
+}
+
+/* --- Every distance --------------------------------------------------------------------------------------------------- */
+
+/* Sets point i of some: on the surface, near it, at a vertex, anywhere in its box, on the axis of its box, or far away. Some
+ * points are equal. */
+static void any_point(const riis_surface *surface, int i) {
+  const riis_surface_info info = info_of(surface);
+  const riis_triangles all = triangles_of(surface);
+  double *p = xyz + 3 * i, longest = 0;
+  for (int c = 0; c < 3; ++c) longest = fmax(longest, info.upper[c] - info.lower[c]);
+  const double far = longest * random_power_of_ten(&rng, 0, 4);
+  const int64_t kind = (int64_t)(random_bits(&rng) % 8),
+                vertex = (int64_t)(random_bits(&rng) % (uint64_t)all.n_vertices);
+  if (kind < 3) {
+    point_near(surface, kind == 0 ? 0 : longest * random_power_of_ten(&rng, -7, -0.5), p);
+    return;
+  }
+  const int other = (int)(random_bits(&rng) % (uint64_t)(i + 1));
+  for (int c = 0; c < 3; ++c) {
+    const double middle = 0.5 * (info.lower[c] + info.upper[c]), extent = info.upper[c] - info.lower[c];
+    p[c] = kind == 3                 ? all.xyz[3 * vertex + c]
+           : kind == 4 && i != other ? xyz[3 * other + c]
+           : kind == 5               ? middle + far * random_between(&rng, -1, 1)
+           : kind == 6 && c < 2      ? middle
+                                     : middle + extent * random_between(&rng, -1, 1);
+  }
+}
+
+/* Random valves of every kind, at random openings and placements, with both triangulations. RIIS_TEST_LONG=1 continues until ten
+ * million distances were compared. */
+static void every_distance_of_random_valves(void **state) {
+  (void)state;
+  static const char *const kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
+  enum { n_kinds = 5 };
+  const int64_t n_wanted = is_long_test() ? 10000000 : fewer_if_sanitized(80000);
+  int64_t n_compared = 0;
+  for (int trial = 0; n_compared < n_wanted; ++trial) {
+    const int owned_before = n_owned();
+    riis_valve *valve = new_valve(kinds[trial % n_kinds]);
+    if (riis_valve_set_scalar(valve, "opening", random_between(&rng, 0, 1)) != RIIS_OK)
+      assert_non_null(strstr(riis_last_error(), "opening"));
+    riis_surface_options options = surface_options();
+    options.scale = random_power_of_ten(&rng, -3, 1);
+    options.tolerance = random_power_of_ten(&rng, trial % 4 ? -1.3 : -2, 0);
+    options.triangulation = trial % 3 ? RIIS_TRIANGULATION_ADAPTED : RIIS_TRIANGULATION_FIXED;
+    options.rotation_angle = trial % 2 ? random_between(&rng, -180, 180) : 0;
+    for (int c = 0; c < 3; ++c) {
+      options.rotation_axis[c] = random_between(&rng, 0.1, 1);
+      options.translation[c] = trial % 2 ? options.scale * random_between(&rng, -30, 30) : 0;
+    }
+    riis_surface *surface = new_surface(valve, &options);
+    const int n = (int)random_power_of_ten(&rng, 0, 4);
+    for (int i = 0; i < n; ++i) any_point(surface, i);
+    riis_mark_options marking = mark_options();
+    marking.distance_limit = trial % 3 ? no_limit : options.scale * random_power_of_ten(&rng, -0.2, 3);
+    most_within = 0;
+    check_with(surface, mesh_of(n, xyz), marking, 4, RIIS_SEARCH_CLUSTERS);
+    if (marking.distance_limit == no_limit) assert_int_equal(most_within, n);
+    n_compared += n;
+    free_owned_after(owned_before);
+  }
+  printf("%lld distances of random valves\n", (long long)n_compared);
+}
+
+/* Leaves are larger than the surface, and more groups of triangles are near them than the filter takes at once. A few nodes are
+ * between the leaflets. */
+static void large_leaves_near_small_triangles(void **state) {
+  (void)state;
+  riis_surface_options options = surface_options();
+  options.tolerance = is_sanitized() ? 0.02 : 4e-4;
+  riis_surface *surface = aortic_surface(&options);
+  if (!is_sanitized()) assert_true(info_of(surface).n_triangles > 16 * 4096);
+  const int n = 300;
+  for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&rng, -1, 1) * (i < 60 ? 1 : 30);
+  riis_mark_options marking = mark_options();
+  marking.distance_limit = no_limit;
+  most_within = 0;
+  check_with(surface, mesh_of(n, xyz), marking, 2, RIIS_SEARCH_CLUSTERS);
+  assert_int_equal(most_within, n);
 }
 
 /* --- If single precision does not suffice ---------------------------------------------------------------------------- */
@@ -341,13 +436,20 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
     double size, at, limit;
     int32_t search;
   } cases[] = {
-      {1, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},      {1e5, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
-      {1e8, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},  {1e60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
-      {1, 1e5, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},    {1, 1e8, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
-      {1, 1e59, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE}, {1, 0, 1e5, RIIS_SEARCH_CLUSTERS},
-      {1, 0, 1e8, RIIS_SEARCH_EXHAUSTIVE},          {1, 0, 1e60, RIIS_SEARCH_EXHAUSTIVE},
-      {1e-20, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},  {1e-60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
-      {1e5, 1e5, 2e5, RIIS_SEARCH_CLUSTERS},        {3e5, 3e5, 5e5, RIIS_SEARCH_CLUSTERS},
+      {1, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1e5, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1e8, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1e60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1, 1e5, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1, 1e8, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1, 1e59, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1, 0, 1e5, RIIS_SEARCH_CLUSTERS},
+      {1, 0, 1e8, RIIS_SEARCH_CLUSTERS},
+      {1, 0, 1e60, RIIS_SEARCH_CLUSTERS},
+      {1e-20, 0, RIIS_AUTO, RIIS_SEARCH_CLUSTERS},
+      {1e-60, 0, RIIS_AUTO, RIIS_SEARCH_EXHAUSTIVE},
+      {1e5, 1e5, 2e5, RIIS_SEARCH_CLUSTERS},
+      {3e5, 3e5, 5e5, RIIS_SEARCH_CLUSTERS},
   };
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
     const int owned_before = n_owned();
@@ -402,6 +504,8 @@ int main(void) {
       cmocka_unit_test(surfaces_from_arrays),
       cmocka_unit_test(needles_that_are_lines_in_the_frame),
       cmocka_unit_test(valves_far_from_the_origin),
+      cmocka_unit_test(every_distance_of_random_valves),
+      cmocka_unit_test(large_leaves_near_small_triangles),
       cmocka_unit_test(where_it_cannot_be_used_the_exhaustive_search_runs),
       cmocka_unit_test(what_options_say),
   };

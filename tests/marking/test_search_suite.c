@@ -277,6 +277,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
     marking.node_mask = mask;
     double limit = options.half_thickness;
     if (one_in(3)) limit = marking.distance_limit = limit * pow(10, random_between(&rng, 0, 2));
+    if (one_in(8)) limit = marking.distance_limit = 1e20; /* every distance */
     marking.search = RIIS_SEARCH_EXHAUSTIVE;
     marking.n_threads = (int32_t)random_integer(1, 4);
     CHECK_OK(riis_mark_nodes(surface, mesh, &marking, exhaustive));

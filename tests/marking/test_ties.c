@@ -138,6 +138,18 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
   assert_memory_equal(a.barycentric, b.barycentric, (size_t)n * 24);
   assert_memory_equal(a.side, b.side, (size_t)n * 4);
   assert_memory_equal(b.velocity, fields.velocity, (size_t)n * 24);
+  /* The same holds at every distance. */
+  riis_marks *all[2];
+  for (int k = 0; k < 2; ++k) {
+    riis_mark_options options = mark_options();
+    options.search = k ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+    options.distance_limit = 1e60;
+    options.fields = RIIS_FIELD_VELOCITY;
+    CHECK_OK(riis_mark_nodes(surface, mesh, &options, all[k] = new_result()));
+  }
+  assert_true(same_results(all[0], all[1]));
+  assert_int_equal(within_in(all[1]).n, from->n);
+  assert_memory_equal(fields_in(all[0]).velocity, fields_in(all[1]).velocity, (size_t)from->n * 24);
 }
 
 static void valves_have_the_means_of_their_leaflets(void **state) {

@@ -7,6 +7,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 
 static random_source rng;
 
@@ -160,6 +161,109 @@ static void batches_equal_single_queries(void **state) {
   CHECK_OK(closest_points_of(surface, 0, NULL, NULL, NULL, 1, NULL, &few)); /* n = 0: nothing to do */
 }
 
+/* Arrays for all results of n points. */
+typedef struct results {
+  double *distance, *point, *barycentric, *normal;
+  int64_t *triangle_id;
+  int32_t *leaflet_id, *side;
+} results;
+
+static results results_of(int64_t n) {
+  const size_t m = (size_t)n;
+  results made;
+  made.distance = own(calloc(m, 8)), made.point = own(calloc(m, 24)), made.barycentric = own(calloc(m, 24));
+  made.normal = own(calloc(m, 24)), made.triangle_id = own(calloc(m, 8));
+  made.leaflet_id = own(calloc(m, 4)), made.side = own(calloc(m, 4));
+  return made;
+}
+
+static void check_equal(const results *a, int64_t i, const riis_closest *one) {
+  CHECK_SAME(a->distance[i], one->distance);
+  assert_memory_equal(a->point + 3 * i, one->point, sizeof one->point);
+  assert_memory_equal(a->barycentric + 3 * i, one->barycentric, sizeof one->barycentric);
+  assert_memory_equal(a->normal + 3 * i, one->normal, sizeof one->normal);
+  assert_int_equal(a->triangle_id[i], one->triangle_id);
+  assert_int_equal(a->leaflet_id[i], one->leaflet_id);
+  assert_int_equal(a->side[i], one->side);
+}
+
+/* So many points are searched together, in several batches. Masks, lists, limits and single precision give the results of
+ * single queries. No other entry is written. */
+static void many_points_equal_single_queries(void **state) {
+  (void)state;
+  const int64_t n = is_long_test() ? 3000000 : fewer_if_sanitized(140000), stride = is_long_test() ? 1 : 5;
+  riis_surface_options options = surface_options();
+  options.rotation_angle = random_between(&rng, 0, 360);
+  for (int c = 0; c < 3; ++c) options.rotation_axis[c] = random_between(&rng, 0.1, 1), options.translation[c] = c - 5;
+  for (int c = 0; c < 3; ++c) options.translation[c] += random_between(&rng, -1, 1);
+  riis_surface *surface = surface_of_kind(random_bits(&rng) % 2 ? "aortic" : "mitral", &options);
+  const riis_surface_info info = info_of(surface);
+  float *xyz = own(malloc((size_t)n * 3 * sizeof *xyz));
+  riis_closest *one = own(malloc((size_t)n * sizeof *one));
+  for (int64_t i = 0; i < n; ++i) {
+    /* Some points are far away, and others are so far that single precision does not separate triangles. */
+    const double wide = i % 25 ? 0.5 : i % 1000 ? 100 : random_power_of_ten(&rng, 2, 20);
+    for (int c = 0; c < 3; ++c) {
+      const double extent = info.upper[c] - info.lower[c];
+      xyz[3 * i + c] = (float)random_between(&rng, info.lower[c] - wide * extent, info.upper[c] + wide * extent);
+    }
+  }
+  /* In one loop with the rounding, GCC 12 would pass the coordinates before they were rounded. */
+  for (int64_t i = 0; i < n; ++i)
+    if (i % stride == 0)
+      one[i] = closest_to(surface, (double)xyz[3 * i], (double)xyz[3 * i + 1], (double)xyz[3 * i + 2]);
+  riis_points points;
+  CHECK_OK(riis_points_init(&points, sizeof points));
+  points.n_points = n, points.x = xyz, points.y = xyz + 1, points.z = xyz + 2, points.stride = 3, points.real_bits = 32;
+  uint8_t *mask = own(malloc((size_t)n));
+  int64_t *ids = own(malloc((size_t)n * sizeof *ids)), n_ids = 0;
+  for (int64_t i = 0; i < n; ++i) {
+    mask[i] = random_bits(&rng) % 3 > 0;
+    if (mask[i]) ids[n_ids++] = i;
+  }
+  /* all points; those of a mask; those of a list; a limit, and fewer arrays; too few for clusters */
+  enum { all, masked, listed, limited, few, n_ways };
+  for (int way = all; way < n_ways; ++way) {
+    const int owned_before = n_owned();
+    riis_closest_options how;
+    riis_closest_arrays arrays;
+    CHECK_OK(riis_closest_options_init(&how, sizeof how));
+    CHECK_OK(riis_closest_arrays_init(&arrays, sizeof arrays));
+    results got = results_of(n);
+    memset(got.side, 0x5a, (size_t)n * 4);
+    arrays.distance = got.distance, arrays.triangle_id = got.triangle_id, arrays.leaflet_id = got.leaflet_id;
+    if (way != limited)
+      arrays.point = got.point, arrays.barycentric = got.barycentric, arrays.normal = got.normal,
+      arrays.side = got.side;
+    how.n_threads = way == all ? 0 : 1 + way % 4;
+    if (way == masked) how.point_mask = mask;
+    if (way >= listed) how.point_ids = ids, how.n_point_ids = way == few ? 50 : n_ids;
+    if (way == limited) how.distance_limit = 0.3 * (info.upper[0] - info.lower[0]), how.far_distance = -7;
+    CHECK_OK(riis_closest_points(surface, &points, &how, &arrays));
+    int64_t n_written = 0, n_far = 0;
+    for (int64_t i = 0; i < n; ++i) {
+      if (i % stride) continue;
+      if (way != all && (!mask[i] || (way == few && i > ids[49]))) {
+        assert_true(got.triangle_id[i] == 0 && got.distance[i] == 0 && got.side[i] == 0x5a5a5a5a);
+        continue;
+      }
+      ++n_written;
+      if (way != limited) {
+        check_equal(&got, i, one + i);
+      } else if (one[i].distance <= how.distance_limit) {
+        CHECK_SAME(got.distance[i], one[i].distance);
+        assert_int_equal(got.triangle_id[i], one[i].triangle_id);
+      } else {
+        assert_true(got.distance[i] == -7 && got.triangle_id[i] == -1 && got.leaflet_id[i] == -1);
+        ++n_far;
+      }
+    }
+    assert_true(n_written > (way == few ? 3 : 100));
+    if (way == limited) assert_true(n_far > 100 && n_far < n_written - 100);
+    free_owned_after(owned_before);
+  }
+}
+
 /* The results of a single query are consistent: the point is on the triangle and at the distance, the normal is the
  * triangle's, and the side is the sign of the height. */
 static void closest_is_consistent(void **state) {
@@ -198,7 +302,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(aortic_valve_equals_the_oracle), cmocka_unit_test(random_soups_equal_the_oracle),
       cmocka_unit_test(far_points_equal_the_oracle),    cmocka_unit_test(ties_go_to_the_lowest_id),
-      cmocka_unit_test(batches_equal_single_queries),   cmocka_unit_test(closest_is_consistent),
+      cmocka_unit_test(batches_equal_single_queries),   cmocka_unit_test(many_points_equal_single_queries),
+      cmocka_unit_test(closest_is_consistent),
   };
   rng = random_start("test_closest_points");
   return cmocka_run_group_tests(tests, NULL, NULL);

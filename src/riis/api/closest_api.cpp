@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks the arguments of riis_closest_*, and searches for closest points.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,7 +8,7 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
-#include "geometry/point_triangle.hpp"
+#include "marking/closest_points.hpp"
 #include "parallel/parallel_for.hpp"
 
 using riis::guarded;
@@ -28,24 +26,6 @@ const riis_closest_options default_options{sizeof(riis_closest_options),
                                            0};
 const riis_closest_arrays default_arrays{
     sizeof(riis_closest_arrays), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
-
-// Writes entry i of the wanted arrays for a point whose closest triangle was found.
-void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::Surface &content, riis::Vec3 p,
-                   const riis::ClosestTriangle &found) {
-  const riis::TriangleSet &set = content.triangles();
-  if (to.distance) to.distance[i] = std::sqrt(found.distance_sq);
-  if (to.triangle_id) to.triangle_id[i] = riis::view(set.triangle_id)[found.triangle];
-  if (to.leaflet_id) to.leaflet_id[i] = riis::view(set.leaflet_id)[found.triangle];
-  const std::array<riis::Vec3, 3> corners = set.corners(found.triangle);
-  if (to.normal) riis::put_vector(to.normal, i, riis::triangle_normal(corners));
-  if (to.point || to.barycentric || to.side) {
-    const riis::PointOnTriangle on = riis::closest_point_on_triangle(p, corners[0], corners[1], corners[2]);
-    if (to.point) riis::put_vector(to.point, i, on.point);
-    if (to.barycentric) riis::put_vector(to.barycentric, i, {on.barycentric[0], on.barycentric[1], on.barycentric[2]});
-    if (to.side)
-      to.side[i] = riis::side_of(p - on.point, content.pseudonormals().at(found.triangle, on.barycentric).normal);
-  }
-}
 
 // Writes entry i for a closest point on the patches, which have no triangle id and no side.
 void write_closest(const riis_closest_arrays &to, std::int64_t i, const riis::PatchDistance &method,
@@ -68,15 +48,6 @@ void refuse_what_is_of_triangles(const riis_closest_arrays &to, const riis::Patc
                  " is given, but only triangles can fill it, and the surface's distances are by ", method.name());
 }
 
-void write_far(const riis_closest_arrays &to, std::int64_t i, double far_distance) {
-  if (to.distance) to.distance[i] = far_distance;
-  if (to.triangle_id) to.triangle_id[i] = -1;
-  if (to.leaflet_id) to.leaflet_id[i] = -1;
-  if (to.side) to.side[i] = 0;
-  for (double *vectors : {to.normal, to.point, to.barycentric})
-    if (vectors) riis::put_vector(vectors, i, {0, 0, 0});
-}
-
 double checked_limit(const riis_closest_options &options) {
   if (!(options.distance_limit >= 0))
     riis::fail(RIIS_INVALID_ARGUMENT, "options.distance_limit is ", options.distance_limit, "; it must be at least 0");
@@ -86,80 +57,66 @@ double checked_limit(const riis_closest_options &options) {
   return options.distance_limit;
 }
 
-// The points that the caller wants: all points, those of a mask, or those of a list.
-class WantedPoints {
- public:
-  template <class Points>
-  WantedPoints(const riis_closest_options &options, const Points &points)
-      : mask_(options.point_mask), ids_(options.point_ids), n_(points.n) {
-    if (!ids_) {
-      if (options.n_point_ids != 0)
-        riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
-                   ", but options.point_ids is NULL");
-      if (n_ > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT, "points.");
-      return;
-    }
-    if (mask_) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are both given");
-    if (options.n_point_ids < 0 || options.n_point_ids > points.n)
+// Checks the options that choose points, and the chosen points.
+template <class Points>
+riis::WantedPoints checked_points(const riis_closest_options &options, const Points &points) {
+  const std::int64_t *const ids = options.point_ids;
+  if (!ids) {
+    if (options.n_point_ids != 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
-                 "; it must be from 0 to points.n_points, ", points.n);
-    n_ = options.n_point_ids;
-    if (n_ == 0) return;
-    riis::check_pointers(points, "point", "points.");
-    std::int64_t last = -1;
-    for (std::int64_t k = 0; k < n_; ++k) {
-      const std::int64_t id = ids_[k];
-      if (id <= last || id >= points.n)
-        riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
-                   "; it must be above the entry before, ", last, ", and below points.n_points, ", points.n);
-      riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
-      last = id;
-    }
+                 ", but options.point_ids is NULL");
+    if (points.n > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT, "points.");
+    return {points.n, options.point_mask, nullptr};
   }
+  if (options.point_mask) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are both given");
+  const std::int64_t n = options.n_point_ids;
+  if (n < 0 || n > points.n)
+    riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", n, "; it must be from 0 to points.n_points, ",
+               points.n);
+  if (n > 0) riis::check_pointers(points, "point", "points.");
+  std::int64_t last = -1;
+  for (std::int64_t k = 0; k < n; ++k) {
+    const std::int64_t id = ids[k];
+    if (id <= last || id >= points.n)
+      riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
+                 "; it must be above the entry before, ", last, ", and below points.n_points, ", points.n);
+    riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
+    last = id;
+  }
+  return {n, nullptr, ids};
+}
 
-  std::int64_t n() const { return n_; }
-  // Returns the id of the k-th wanted point.
-  std::int64_t id(std::int64_t k) const { return ids_ ? ids_[k] : k; }
-  bool is_wanted(std::int64_t id) const { return !mask_ || mask_[id] != 0; }
+// Writes the wanted entries of the arrays, with closest points on the patches.
+template <class Points>
+void find_on_patches(const riis::PatchDistance &method, const riis::ClosestPointsRequest &request, const Points &points,
+                     const riis_closest_arrays &to) {
+  constexpr std::int64_t points_per_block = 512;
+  const riis::WantedPoints &wanted = request.wanted;
+  riis::parallel_for_ranges(wanted.n, points_per_block, request.n_threads, [&](const riis::Range &range, int) {
+    for (std::int64_t k = range.begin; k < range.end; ++k) {
+      const std::int64_t i = wanted.id(k);
+      if (!wanted.is_wanted(i)) continue;
+      const riis::ClosestOnPatches found = method.closest(points[i], request.limit);
+      if (found.patch >= 0)
+        write_closest(to, i, method, found);
+      else
+        riis::write_far(i, request.far_distance, to);
+    }
+  });
+}
 
- private:
-  const std::uint8_t *mask_;
-  const std::int64_t *ids_;
-  std::int64_t n_;
-};
-
-// Writes the wanted entries of the arrays. The caller has checked the options.
+// Writes the wanted entries of the arrays. The caller has checked the other options.
 template <class Points>
 void find_closest(const riis::Surface &content, const Points &points, const riis_closest_options &options, double limit,
                   const riis_closest_arrays &to) {
-  const WantedPoints wanted(options, points);
-  if (wanted.n() == 0) return;
-  const int n_threads = riis::threads_for(options.n_threads, "options.n_threads", wanted.n(), riis::points_per_thread);
-  // Makes the pseudonormals before anything is written: if memory runs out here, the arrays are still unchanged.
-  if (to.side) content.pseudonormals();
-  // write_found(i) writes entry i and returns true. It returns false if the surface is farther from point i than the limit.
-  const auto for_each_point = [&](const auto &write_found) {
-    constexpr std::int64_t points_per_block = 512;
-    riis::parallel_for_ranges(wanted.n(), points_per_block, n_threads, [&](const riis::Range &range, int) {
-      for (std::int64_t k = range.begin; k < range.end; ++k) {
-        const std::int64_t i = wanted.id(k);
-        if (wanted.is_wanted(i) && !write_found(i)) write_far(to, i, options.far_distance);
-      }
-    });
-  };
-  if (const riis::PatchDistance *method = content.other_distance()) {
-    for_each_point([&](std::int64_t i) {
-      const riis::ClosestOnPatches found = method->closest(points[i], limit);
-      if (found.patch >= 0) write_closest(to, i, *method, found);
-      return found.patch >= 0;
-    });
-  } else {
-    for_each_point([&](std::int64_t i) {
-      const riis::ClosestTriangle found = content.scene().closest(points[i], limit);
-      if (found.triangle >= 0) write_closest(to, i, content, points[i], found);
-      return found.triangle >= 0;
-    });
-  }
+  const riis::WantedPoints wanted = checked_points(options, points);
+  const riis::ClosestPointsRequest request{
+      content, wanted, limit, options.far_distance,
+      riis::threads_for(options.n_threads, "options.n_threads", wanted.n, riis::points_per_thread)};
+  if (const riis::PatchDistance *method = content.other_distance())
+    find_on_patches(*method, request, points, to);
+  else
+    riis::find_closest_points(request, points, to);
 }
 
 }  // namespace
@@ -180,7 +137,7 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
     if (const riis::PatchDistance *method = content.other_distance())
       write_closest(to, 0, *method, method->closest(p, no_limit));
     else
-      write_closest(to, 0, content, p, content.scene().closest(p, no_limit));
+      riis::write_closest(content, 0, p, content.scene().closest(p, no_limit), to);
     riis::write_struct(closest, struct_size, "closest", answer);
   });
 }

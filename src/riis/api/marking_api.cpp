@@ -146,12 +146,9 @@ riis::Threads threads_of(const riis_mark_options &options, const riis::Mesh &mes
 
 riis::SearchRequest request_of(const riis::Surface &surface, const riis_mesh *mesh, const riis_mark_options &options) {
   check_search(options.search);
-  return {surface,
-          mesh->mesh,
-          limit_of(options, surface.half_thickness()),
-          options.node_mask,
-          threads_of(options, mesh->mesh),
-          instructions_asked_for(options.instructions)};
+  return {{surface, limit_of(options, surface.half_thickness()), options.node_mask, threads_of(options, mesh->mesh),
+           instructions_asked_for(options.instructions)},
+          mesh->mesh};
 }
 
 // Checks the three handles of a marking, the surface first, and returns the surface's content.

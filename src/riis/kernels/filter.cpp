@@ -64,21 +64,29 @@ RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&
   }
 }
 
+// The extents of 16 boxes along one axis, in the surface's frame.
+struct Extents {
+  Floats lower, upper;
+};
+RIIS_INLINE Extents placed(const FilterTask &task, const Boxes &boxes, int axis) {
+  const Floats ratio = Floats::all(task.ratio), shift = Floats::all(task.shift[axis]);
+  return {multiply_add(Floats::load(boxes.lower[axis]), ratio, shift),
+          multiply_add(Floats::load(boxes.upper[axis]), ratio, shift)};
+}
+
 bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                 uint16_t *near) {
-  const Floats ratio = Floats::all(task.ratio), reach_sq = Floats::all(task.reach_sq);
-  Floats lower[3], upper[3];
-  for (int i = 0; i < 3; ++i) {
-    lower[i] = multiply_add(Floats::load(boxes.lower[i]), ratio, Floats::all(task.shift[i]));
-    upper[i] = multiply_add(Floats::load(boxes.upper[i]), ratio, Floats::all(task.shift[i]));
-  }
+  const Floats reach_sq = Floats::all(task.reach_sq);
+  Extents box[3];
+  for (int i = 0; i < 3; ++i) box[i] = placed(task, boxes, i);
   uint32_t found = 0;
   for (int32_t k = 0; k < n_candidates; ++k) {
     const GroupBounds &group = task.bounds[candidates[k]];
     Floats sum = Floats::all(0);
     for (int i = 0; i < 3; ++i) {
-      const Floats gap = greatest(
-          greatest(lower[i] - Floats::all(group.upper[i]), Floats::all(group.lower[i]) - upper[i]), Floats::all(0));
+      const Floats gap =
+          greatest(greatest(box[i].lower - Floats::all(group.upper[i]), Floats::all(group.lower[i]) - box[i].upper),
+                   Floats::all(0));
       sum = multiply_add(gap, gap, sum);
     }
     const uint32_t is_near = bits_at_most(sum, reach_sq);
@@ -86,6 +94,54 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
     found |= is_near;
   }
   return found != 0;
+}
+
+void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                    int32_t *nearest) {
+  Floats middle[3];
+  for (int i = 0; i < 3; ++i) {
+    const Extents extents = placed(task, boxes, i);
+    middle[i] = Floats::all(0.5f) * (extents.lower + extents.upper);
+  }
+  Floats least_sq = Floats::all(__builtin_inff()), at = Floats::all(0);
+  for (int32_t k = 0; k < n_candidates; ++k) {
+    const float *corner = task.bounds[candidates[k]].corner;
+    Floats sum = Floats::all(0);
+    for (int i = 0; i < 3; ++i) {
+      const Floats difference = middle[i] - Floats::all(corner[i]);
+      sum = multiply_add(difference, difference, sum);
+    }
+    // A surface has fewer than 2^24 groups, so single precision holds their positions exactly.
+    at = choose<float, FloatRegister, 16>(sum < least_sq, Floats::all(static_cast<float>(k)), at);
+    least_sq = least(least_sq, sum);
+  }
+  alignas(64) float positions[16];
+  at.store(positions);
+  for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
+}
+
+// The square of a place's distance from a box minus the square of its distance from a point is a concave function of the place.
+// It is also a sum over the axes. So its least value in another box is the sum of the lesser values at both ends of each axis.
+void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
+                      const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
+  const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
+  Extents box[3], to_point[3];  // to_point has the negated squares of the distances from the ends to the point
+  for (int i = 0; i < 3; ++i) {
+    box[i] = placed(task, boxes, i);
+    const Floats x = Floats::load(points.xyz[i]), from_lower = box[i].lower - x, from_upper = box[i].upper - x;
+    to_point[i] = {zero - from_lower * from_lower, zero - from_upper * from_upper};
+  }
+  for (int32_t k = 0; k < n_candidates; ++k) {
+    const GroupBounds &group = task.bounds[candidates[k]];
+    Floats sum = zero;
+    for (int i = 0; i < 3; ++i) {
+      const Floats lower = Floats::all(group.lower[i]), upper = Floats::all(group.upper[i]);
+      const Floats at_lower = outside(box[i].lower, lower, upper), at_upper = outside(box[i].upper, lower, upper);
+      sum = sum + least(multiply_add(at_lower, at_lower, to_point[i].lower),
+                        multiply_add(at_upper, at_upper, to_point[i].upper));
+    }
+    competes[k] = static_cast<uint16_t>(bits_at_most(sum, tolerance));
+  }
 }
 
 constexpr int halves = nodes_per_leaf / 16;
@@ -270,6 +326,7 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
 
 }  // namespace
 
-const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes, filter_leaf, group_distances, rank};
+const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes,  nearest_groups,  competing_groups,
+                                                    filter_leaf, group_distances, rank};
 
 }  // namespace riis

@@ -70,6 +70,12 @@ struct FilterTask {
   const GroupBounds *bounds;
 };
 
+// A point of the surface for each of 16 boxes. A group competes with the point if it may be nearer to some place in the box.
+struct alignas(64) PointsOfBoxes {
+  float xyz[3][16];
+  float tolerance[16];  // computed squares of two equal distances from a place in the box differ by at most this
+};
+
 // One leaf and the groups that may be near it. If there are more pairs than room, the leaf is filtered in several calls.
 struct LeafTask {
   const Leaf *leaf;
@@ -140,6 +146,13 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
+  // For each of 16 boxes, finds the candidate group, n_candidates > 0, whose corner is nearest to the middle of the box. Writes
+  // the position of that group among the candidates.
+  void (*nearest_groups)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                         int32_t *nearest);
+  // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
+  void (*competing_groups)(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
+                           const int32_t *candidates, int32_t n_candidates, uint16_t *competes);
   // Writes at most `room` pairs of a node and a triangle, and returns their number. For every node within the limit, its closest
   // triangles are among the pairs. Each further call for a leaf continues where the last call ran out of room. Room for 64 pairs
   // is enough to continue.

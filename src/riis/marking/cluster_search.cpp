@@ -7,10 +7,17 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "geometry/point_triangle.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
+
+// In the surface's frame, single precision does not separate triangles at such lengths.
+constexpr double large = 0x1p20;
+
+// With more groups near a leaf, a query of each node is faster. Large leaves near small triangles have so many.
+constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
 struct Placing {
@@ -26,32 +33,25 @@ struct Placing {
 
 class ClusterSearch {
  public:
-  ClusterSearch(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
+  ClusterSearch(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
                 FoundNodes &found)
       : request_(request),
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
         clusters_(clusters),
+        placing_(clusters, groups_.frame),
+        limit_(std::min(request.distance_limit * groups_.frame.scale, large)),
         kernels_(kernels),
         found_(found),
         own_(scratch) {
-    const Frame &frame = groups_.frame;
-    const Placing placing(clusters_, frame);
-    const double limit = request.distance_limit * frame.scale;
-    // The second term of the error covers the rounding of the distances that are decided in double precision. The third term
-    // covers ties, which may be farther than the closest triangle by this amount.
-    const double error = filter_error(placing.ratio, placing.largest_shift, limit, groups_.longest_edge) +
-                         4 * scene_.rounding() * frame.scale + request.ties.of_leaflets * frame.scale;
-    reach_ = static_cast<float>(limit + 2 * error);
-    task_.ratio = static_cast<float>(placing.ratio);
-    task_.shift[0] = static_cast<float>(placing.shift.x);
-    task_.shift[1] = static_cast<float>(placing.shift.y);
-    task_.shift[2] = static_cast<float>(placing.shift.z);
-    task_.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
-    task_.tolerance = filter_tolerance(error, limit + 2 * error);
-    task_.margin = static_cast<float>(0.5 * error);
+    task_.ratio = static_cast<float>(placing_.ratio);
+    task_.shift[0] = static_cast<float>(placing_.shift.x);
+    task_.shift[1] = static_cast<float>(placing_.shift.y);
+    task_.shift[2] = static_cast<float>(placing_.shift.z);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
+    limit_within(limit_, task_);
+    reach_ = std::sqrt(task_.reach_sq) * (1 + 0x1p-20f);
     found.prepare(request.n_threads, request.ties);
     own_.prepare(request.n_threads);
   }
@@ -98,6 +98,23 @@ class ClusterSearch {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread);
     });
     n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
+  // limit (docs/theory.md, section 8).
+  void search_every_cluster() {
+    const auto n_groups = view(groups_.groups).size();
+    for (auto i = view(own_.all_groups).size(); i < n_groups; ++i)
+      own_.all_groups.push_back(static_cast<std::int32_t>(i));
+    const auto n = view(clusters_.clusters).size();
+    // A thread compares a region anew if another thread had some of its clusters.
+    const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
+    constexpr std::int64_t few = 4;  // searching so few takes about half a millisecond
+    n_threads_ =
+        parallel_for_ranges(n, per_block, request_.n_threads.for_part(n, few), [&](const Range &range, int thread) {
+          for (std::int64_t cluster = range.begin; cluster < range.end; ++cluster)
+            search_alone(cluster, view(own_.threads)[thread], thread);
+        });
   }
 
   SearchReport report() {
@@ -152,6 +169,12 @@ class ClusterSearch {
     return n_added;
   }
 
+  static std::size_t n_marked(const std::uint16_t *bits, std::size_t n, std::int64_t bit) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < n; ++k) count += bits[k] >> bit & 1;
+    return count;
+  }
+
   void add_cluster(std::int64_t cluster, std::int64_t bit, ClusterScratch::Thread &own) {
     const std::size_t first = own.near_groups.size();
     const std::size_t n =
@@ -176,13 +199,129 @@ class ClusterSearch {
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
 
-  void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread) {
+  // Sets those numbers of a filter's task that depend on the limit, in the surface's frame. Returns the filter's error.
+  double limit_within(double limit, FilterTask &task) const {
+    const double scale = groups_.frame.scale;
+    // The second term covers the rounding of the distances that are decided in double precision. The third covers ties, which
+    // may be farther than the closest triangle by this amount.
+    const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
+                         4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
+    task.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
+    task.tolerance = filter_tolerance(error, limit + 2 * error);
+    task.margin = static_cast<float>(0.5 * error);
+    return error;
+  }
+
+  // Returns a point of the surface. It is near `to` if a triangle of the group is.
+  Vec3 point_of_surface(std::int32_t group, Vec3 to) const {
+    const float point[3] = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
+    float distance_sq[triangles_per_group];
+    kernels_.group_distances(view(groups_.groups)[group], point, 0, distance_sq);
+    const GroupBounds &bounds = view(groups_.bounds)[group];
+    const auto nearest = std::min_element(distance_sq, distance_sq + bounds.n) - distance_sq;
+    const double *c = groups_.corners.data() + 9 * std::int64_t{bounds.triangle[nearest]};
+    const Frame &frame = groups_.frame;
+    return frame(closest_point_on_triangle(frame.centre + (1 / frame.scale) * to, {c[0], c[1], c[2]},
+                                           {c[3], c[4], c[5]}, {c[6], c[7], c[8]})
+                     .point);
+  }
+
+  // For each of 16 boxes, an upper bound of the distances of its nodes, in the surface's frame.
+  struct UpperBounds {
+    double of_box[leaves_per_cluster];
+  };
+
+  // For each candidate group, sets a bit for each box that may have nodes whose closest triangle is in the group.
+  UpperBounds compare(const Boxes &boxes, const std::int32_t *candidates, std::size_t n,
+                      std::uint16_t *competes) const {
+    std::int32_t nearest[leaves_per_cluster];
+    const auto n_candidates = static_cast<std::int32_t>(n);
+    kernels_.nearest_groups(task_, boxes, candidates, n_candidates, nearest);
+    UpperBounds bounds;
+    PointsOfBoxes points;
+    for (int k = 0; k < leaves_per_cluster; ++k) {
+      bounds.of_box[k] = 0;
+      points.xyz[0][k] = points.xyz[1][k] = points.xyz[2][k] = points.tolerance[k] = 0;
+      if (!(boxes.lower[0][k] <= boxes.upper[0][k])) continue;
+      const auto end = [&](const float(&ends)[3][16]) {
+        return placing_.ratio * Vec3{ends[0][k], ends[1][k], ends[2][k]} + placing_.shift;
+      };
+      const Vec3 lower = end(boxes.lower), upper = end(boxes.upper);
+      const Vec3 point = point_of_surface(candidates[nearest[k]], 0.5 * (lower + upper));
+      const auto farthest = [](double p, double from, double to) {
+        return std::max(std::abs(p - from), std::abs(p - to));
+      };
+      const double to_farthest = length(Vec3{farthest(point.x, lower.x, upper.x), farthest(point.y, lower.y, upper.y),
+                                             farthest(point.z, lower.z, upper.z)});
+      bounds.of_box[k] = to_farthest + 0x1p-21 * (placing_.ratio + placing_.largest_shift + 6) +
+                         2 * scene_.rounding() * groups_.frame.scale;
+      FilterTask task;
+      limit_within(bounds.of_box[k], task);
+      points.xyz[0][k] = static_cast<float>(point.x);
+      points.xyz[1][k] = static_cast<float>(point.y);
+      points.xyz[2][k] = static_cast<float>(point.z);
+      points.tolerance[k] = task.tolerance;
+    }
+    kernels_.competing_groups(task_, boxes, points, candidates, n_candidates, competes);
+    return bounds;
+  }
+
+  void search_alone(std::int64_t cluster, ClusterScratch::Thread &own, int thread) {
+    const std::int64_t region = cluster / Clusters::clusters_per_region;
+    const std::size_t n_groups = groups_.groups.size();
+    if (own.region != region) {
+      own.bits.resize(n_groups);
+      compare(view(clusters_.regions)[region], own_.all_groups.data(), n_groups, own.bits.data());
+      own.region = region;
+    }
+    ++own.n_queries;
+    own.near_groups.clear();
+    const std::size_t n = add_marked(own_.all_groups.data(), own.bits.data(), n_groups,
+                                     cluster % Clusters::clusters_per_region, own.near_groups);
+    own.leaf_bits.resize(n);
+    const UpperBounds bounds =
+        compare(view(clusters_.clusters)[cluster], own.near_groups.data(), n, own.leaf_bits.data());
+    if (limit_ < large) {
+      own.bits_within.resize(n);
+      kernels_.near_boxes(task_, view(clusters_.clusters)[cluster], own.near_groups.data(),
+                          static_cast<std::int32_t>(n), own.bits_within.data());
+      for (std::size_t k = 0; k < n; ++k)
+        own.leaf_bits[k] = static_cast<std::uint16_t>(own.leaf_bits[k] & own.bits_within[k]);
+    }
+    search_cluster({cluster, 0, n, thread}, own, thread, &bounds);
+  }
+
+  // Queries the nodes of a leaf one by one.
+  void query_nodes(std::int64_t number, ClusterScratch::Thread &own, int thread) {
+    const Leaf &leaf = clusters_.leaves.get()[number];
+    const double *const xyz = clusters_.points.get()[number].xyz;
+    for (int lane = 0; lane < clusters_.n_nodes_of(number); ++lane) {
+      const std::int64_t node = leaf.node[lane];
+      const Vec3 p{xyz[3 * lane], xyz[3 * lane + 1], xyz[3 * lane + 2]};
+      if (request_.is_masked_out(node) || !scene_.may_be_within(p, request_.distance_limit)) continue;
+      ++own.n_queries;
+      const ClosestTriangle closest =
+          scene_.closest(p, request_.distance_limit, request_.instructions, found_.ties_of(thread));
+      if (closest.triangle >= 0) found_.add(thread, node, closest);
+    }
+  }
+
+  void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread,
+                      const UpperBounds *bounds = nullptr) {
     const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
     std::uint32_t near = 0;  // a bit for each near leaf
     for (std::size_t k = 0; k < item.n; ++k) near |= leaf_bits[k];
+    if (bounds)
+      for (std::uint32_t rest = near; rest; rest &= rest - 1) {
+        const int bit = __builtin_ctz(rest);
+        const bool has_many = item.n > most_groups && n_marked(leaf_bits, item.n, bit) > most_groups;
+        if (is_separated(bounds->of_box[bit]) && !has_many) continue;
+        query_nodes(leaves.begin + bit, own, thread);
+        near &= ~(1u << bit);
+      }
     Pairs pairs{leaves.begin, found_.ties_of(thread)};
     for (; near; near &= near - 1) {
       const int bit = __builtin_ctz(near);
@@ -191,7 +330,10 @@ class ClusterSearch {
       own.leaf_groups.clear();
       add_marked(candidates, leaf_bits, item.n, bit, own.leaf_groups);
       std::fill_n(own.closest.begin() + nodes_per_leaf * bit, nodes_per_leaf, nothing);
-      filter_leaf(leaves.begin + bit, own, pairs);
+      if (!bounds)
+        filter_leaf(leaves.begin + bit, task_, own, pairs);
+      else
+        filter_leaf(leaves.begin + bit, task_within(bounds->of_box[bit]), own, pairs);
     }
     decide(own, pairs);
     std::vector<FoundNode> &found = view(found_.by_thread)[thread];
@@ -228,7 +370,20 @@ class ClusterSearch {
     bytes(clusters_.points.get()[leaf]);
   }
 
-  void filter_leaf(std::int64_t number, ClusterScratch::Thread &own, Pairs &pairs) {
+  // Returns false if the filter's error is so large that the filter would leave many triangles.
+  bool is_separated(double limit) const {
+    constexpr double useful = 0x1p-8;
+    FilterTask task;
+    return limit_within(std::min(limit, limit_), task) <= useful;
+  }
+
+  FilterTask task_within(double limit) const {
+    FilterTask task = task_;
+    limit_within(std::min(limit, limit_), task);
+    return task;
+  }
+
+  void filter_leaf(std::int64_t number, const FilterTask &filter, ClusterScratch::Thread &own, Pairs &pairs) {
     const Leaf &leaf = clusters_.leaves.get()[number];
     const int n_nodes = clusters_.n_nodes_of(number);
     LeafTask task;
@@ -247,7 +402,7 @@ class ClusterSearch {
       constexpr std::int32_t room = ClusterScratch::room_for_pairs, enough = 1024;
       if (room - pairs.n < enough) decide(own, pairs);
       pairs.n += kernels_.filter_leaf(
-          task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
+          filter, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
       pairs.nodes[number - pairs.first_leaf] |= task.found;
     }
   }
@@ -281,10 +436,12 @@ class ClusterSearch {
 
   static constexpr ClosestTriangle nothing{std::numeric_limits<double>::infinity(), -1};
 
-  const SearchRequest &request_;
+  const NodeSearch &request_;
   const TriangleScene &scene_;
   const TriangleGroups &groups_;
   const Clusters &clusters_;
+  const Placing placing_;
+  const double limit_;  // in the surface's frame; `large` if it excludes nothing that single precision separates
   const Kernels &kernels_;
   FoundNodes &found_;
   ClusterScratch &own_;
@@ -319,22 +476,35 @@ void ClusterScratch::prepare(int n_threads) {
     resize(thread.pair_decided, room);
     resize(thread.closest, nodes_per_cluster);
     thread.n_queries = 0;
+    thread.region = -1;
   }
 }
 
-bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters) {
-  const Frame &frame = request.surface.scene().groups().frame;
-  const Placing placing(clusters, frame);
-  constexpr double large = 0x1p20;
-  return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large &&
-         request.distance_limit * frame.scale <= large;
+bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters) {
+  const Placing placing(clusters, request.surface.scene().groups().frame);
+  return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large;
 }
 
-SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
+bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface) {
+  constexpr std::int64_t fewest = 64, groups_per_node = 8;
+  return n_nodes >= std::max(fewest, view(surface.scene().groups().groups).size() / groups_per_node);
+}
+
+bool has_few_near(const NodeSearch &request) {
+  const Bounds &bounds = request.surface.scene().bounds();
+  const Vec3 extent = bounds.upper - bounds.lower;
+  return request.distance_limit <= 0.2 * std::max({extent.x, extent.y, extent.z});
+}
+
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found) {
   ClusterSearch search(request, clusters, kernels, scratch, found);
-  search.find_near_clusters();
-  search.search_near_clusters();
+  if (has_few_near(request)) {
+    search.find_near_clusters();
+    search.search_near_clusters();
+  } else {
+    search.search_every_cluster();
+  }
   return search.report();
 }
 

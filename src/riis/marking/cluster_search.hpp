@@ -35,8 +35,10 @@ struct ClusterScratch {
     };
     std::vector<NodeBounds> lower_bounds;  // for each group near a leaf, bounds of the leaf's nodes
     std::vector<std::int32_t> pair_nodes, pair_triangles;
-    std::vector<double> pair_decided;      // squares of distances
-    std::vector<ClosestTriangle> closest;  // closest triangles of a cluster's nodes
+    std::vector<double> pair_decided;        // squares of distances
+    std::vector<ClosestTriangle> closest;    // closest triangles of a cluster's nodes
+    std::vector<std::uint16_t> bits_within;  // for each near group, a bit for each leaf within the limit
+    std::int64_t region = -1;                // the region whose groups `bits` has, in a search for every distance
     std::int64_t n_queries = 0;
 
     float *room_for_bounds(std::size_t n_groups) {
@@ -47,18 +49,25 @@ struct ClusterScratch {
   std::vector<Thread> threads;
   std::vector<std::int64_t> near_regions;
   std::vector<Item> items;
+  std::vector<std::int32_t> all_groups;  // 0, 1, 2, ...
 
   void prepare(int n_threads);
 };
 
-// Returns false if single precision cannot separate near nodes from far ones. This happens if the limit, the mesh or its distance
-// from the surface is about a million times the surface's size. It also happens if the mesh is extremely small compared with the
-// surface.
-bool separates_in_single_precision(const SearchRequest &request, const Clusters &clusters);
+// Returns false if single precision cannot separate near from far. This happens if the mesh or its distance from the surface is
+// about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
+bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters);
 
-// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
-// must be those of the request's instructions, except that ./run bench roofline passes kernels that count operations.
-SearchReport search_clusters(const SearchRequest &request, const Clusters &clusters, const Kernels &kernels,
+// Returns whether clusters pay off for the distances of so many nodes, if the limit leaves out few or none. For fewer nodes,
+// comparing all groups with the first clusters takes longer than a query of each node.
+bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
+
+// Returns whether most triangles are farther than the limit from most nodes near the surface.
+bool has_few_near(const NodeSearch &request);
+
+// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the
+// request's instructions, except that ./run bench roofline passes kernels that count operations.
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 
 }  // namespace riis

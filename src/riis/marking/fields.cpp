@@ -2,12 +2,12 @@
 #include "marking/fields.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "geometry/point_triangle.hpp"
 #include "kernels/kernels.hpp"
+#include "marking/eight_points.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
@@ -45,9 +45,6 @@ class Positions {
   ArrayView<const std::int64_t> ids_;
   bool are_ids_;
 };
-
-// Two numbers in one register. Every processor of the baseline instruction set has such registers.
-typedef double Two __attribute__((vector_size(16)));
 
 // The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
 // constructor takes the velocity at the closest triangle. After that, the caller adds the tied points, one other leaflet after
@@ -143,24 +140,20 @@ class TriangleFields {
   }
 
  private:
-  typedef double Lanes[3][pairs_at_once];
-
   bool has(std::int32_t field) const { return (fields_ & field) != 0; }
 
   // Writes the fields of at most pairs_at_once nodes. Each field has its own short loop.
   void write_at_once(std::int64_t first, std::int64_t end) const {
     const std::int64_t n = end - first;
-    PointsAndTriangles pairs;
-    std::int64_t triangle[pairs_at_once];
+    EightPoints eight;
     const std::int64_t *const node = list_.node_id.data() + first, *const id = list_.triangle_id.data() + first;
     for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) {
       const std::int64_t i = std::min(lane, n - 1);
-      triangle[lane] = positions_.of(id[i]);
-      pairs.corners[lane] = corners_ + 9 * triangle[lane];
-      set_lane(pairs.point, lane, nodes_[node[i]]);
+      eight.set(lane, nodes_[node[i]], positions_.of(id[i]), corners_);
     }
-    PointsOnTriangles on;
-    simd_.locate(pairs, on);
+    simd_.locate(eight.pairs, eight.on);
+    const PointsOnTriangles &on = eight.on;
+    const std::int64_t *const triangle = eight.triangle;
     if (has(RIIS_FIELD_POINT)) put_vectors(on.point, n, made_.point.data() + 3 * first);
     if (has(RIIS_FIELD_BARYCENTRIC)) put_vectors(on.barycentric, n, made_.barycentric.data() + 3 * first);
     if (has(RIIS_FIELD_VELOCITY | RIIS_FIELD_UV)) write_mixed(triangle, on, first, n);
@@ -170,7 +163,13 @@ class TriangleFields {
     if (has(RIIS_FIELD_NORMAL))
       for (std::int64_t lane = 0; lane < n; ++lane)
         put_vector(made_.normal.data(), first + lane, normal(triangle[lane]));
-    if (has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) write_sides(triangle, pairs, on, first, n);
+    if (has(RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) {
+      std::int32_t side[pairs_at_once], is_on_rim[pairs_at_once];
+      eight.find_sides(*normals_, simd_, has(RIIS_FIELD_SIDE) ? side : nullptr,
+                       has(RIIS_FIELD_RIM) ? is_on_rim : nullptr);
+      if (has(RIIS_FIELD_RIM)) std::copy_n(is_on_rim, n, made_.rim.data() + first);
+      if (has(RIIS_FIELD_SIDE)) std::copy_n(side, n, made_.side.data() + first);
+    }
   }
 
   // Writes the velocities and (u,v). They are interpolated from the vertices by the weights.
@@ -197,51 +196,20 @@ class TriangleFields {
   }
 
   void mix_at_ties(std::int64_t first, std::int64_t n, VertexNumbers *mixed) const {
-    PointsAndTriangles pairs;
+    EightPoints eight;
     const std::int64_t *vertex[pairs_at_once];
     for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) {
       const Tie &tie = ties_[first + std::min(lane, n - 1)];
-      pairs.corners[lane] = corners_ + 9 * tie.triangle.triangle;
-      set_lane(pairs.point, lane, nodes_[tie.point]);
+      eight.set(lane, nodes_[tie.point], tie.triangle.triangle, corners_);
       vertex[lane] = set_.vertex_id.data() + 3 * tie.triangle.triangle;
     }
-    PointsOnTriangles on;
-    simd_.locate(pairs, on);
-    simd_.mix_at_vertices(at_vertices_, vertex, on, mixed);
+    simd_.locate(eight.pairs, eight.on);
+    simd_.mix_at_vertices(at_vertices_, vertex, eight.on, mixed);
   }
 
-  void write_sides(const std::int64_t *triangle, const PointsAndTriangles &pairs, const PointsOnTriangles &on,
-                   std::int64_t first, std::int64_t n) const {
-    alignas(64) Lanes normal_there;
-    std::int32_t is_on_rim[pairs_at_once]{};
-    for (std::int64_t lane = 0; lane < pairs_at_once; ++lane)
-      set_lane(normal_there, lane, normals_->of_face(triangle[lane]));
-    for (std::uint32_t lanes = on.at_border; lanes; lanes &= lanes - 1) {
-      const std::int64_t lane = __builtin_ctz(lanes);
-      const Pseudonormals::Feature feature = normals_->at_border(triangle[lane], lane_of(on.barycentric, lane));
-      set_lane(normal_there, lane, feature.normal);
-      is_on_rim[lane] = feature.is_on_rim ? 1 : 0;
-    }
-    if (has(RIIS_FIELD_RIM)) std::copy_n(is_on_rim, n, made_.rim.data() + first);
-    if (!has(RIIS_FIELD_SIDE)) return;
-    std::int32_t side[pairs_at_once];
-    simd_.find_sides(pairs, on, normal_there, side);
-    std::copy_n(side, n, made_.side.data() + first);
-  }
-
-  static void set_lane(Lanes &to, std::int64_t lane, Vec3 v) {
-    to[0][lane] = v.x;
-    to[1][lane] = v.y;
-    to[2][lane] = v.z;
-  }
   static Vec3 vector_at(const double *v) { return {v[0], v[1], v[2]}; }
-  static Vec3 lane_of(const Lanes &from, std::int64_t lane) { return {from[0][lane], from[1][lane], from[2][lane]}; }
-  static void put_vectors(const Lanes &from, std::int64_t n, double *to) {
-    for (std::int64_t lane = 0; lane < n; ++lane, to += 3) {
-      const Two xy = {from[0][lane], from[1][lane]};
-      std::memcpy(to, &xy, sizeof xy);
-      to[2] = from[2][lane];
-    }
+  static void put_vectors(const EightPoints::Lanes &from, std::int64_t n, double *to) {
+    for (std::int64_t lane = 0; lane < n; ++lane) EightPoints::put_lane(from, lane, to + 3 * lane);
   }
 
   Vec3 normal(std::int64_t triangle) const {

@@ -12,15 +12,14 @@
 namespace riis {
 namespace {
 
-// Returns whether the limit is so small that most triangles are far from most nodes. With a wider limit, clusters do not help.
-bool has_few_near(const SearchRequest &request) {
-  const Bounds &bounds = request.surface.scene().bounds();
-  const Vec3 extent = bounds.upper - bounds.lower;
-  return request.distance_limit <= 0.5 * std::max({extent.x, extent.y, extent.z});
+// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay only if they are used again, so not in a
+// mesh's first marking.
+bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
+  if (request.surface.other_distance()) return false;
+  return has_few_near(request) ? !is_first : are_enough_for_clusters(request.mesh.nodes().n, request.surface);
 }
 
-// Chooses the search. With RIIS_SEARCH_AUTO, a mesh's first marking queries nodes one by one, and later markings use clusters.
-// Making clusters pays only if they are used again.
+// Chooses the search.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)
@@ -28,7 +27,7 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
          ", clusters, which need distances to triangles, but the surface's distances are by ", other->name());
   const bool is_first = !request.mesh.record_marking();
   if (asked_for == RIIS_SEARCH_AUTO)
-    asked_for = !other && !is_first && has_few_near(request) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+    asked_for = do_clusters_pay_off(request, is_first) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
   const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
   if (walks && !request.mesh.adjacency().has_value())
     fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,

@@ -76,8 +76,8 @@ class Opening {
 
   // Opens the nodes beyond the limit. Returns whether they join the ends.
   bool joins_beyond(double limit) {
-    const SearchRequest within{request_.surface,   request_.mesh,      limit,
-                               request_.node_mask, request_.n_threads, request_.instructions};
+    SearchRequest within = request_;
+    within.distance_limit = limit;
     mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr}, near_);
     label_open_regions({adjacency_, request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
     OpenSets sets = this->sets();

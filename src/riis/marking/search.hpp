@@ -12,9 +12,9 @@
 
 namespace riis {
 
-struct SearchRequest {
+// A search among nodes, wherever they are stored.
+struct NodeSearch {
   const Surface &surface;
-  const Mesh &mesh;
   double distance_limit;
   const std::uint8_t *node_mask;  // or null
   Threads n_threads;
@@ -22,6 +22,10 @@ struct SearchRequest {
   TieRule ties = {};
 
   bool is_masked_out(std::int64_t node) const { return node_mask && !node_mask[node]; }
+};
+
+struct SearchRequest : NodeSearch {
+  const Mesh &mesh;
 };
 
 struct SearchReport {
