@@ -311,6 +311,9 @@ int main(int argc, char **argv) {
   Contest contest;
   Bars bars;
   for (const int valve : {0, 1}) measure(contest, bars, valve, about_n_nodes);
+  bars.add("update, mitral / aortic", contest.ratio("mitral: update", "aortic: update"), Wanted::at_most, 2.3);
+  bars.add("fixed update, mitral / aortic", contest.ratio("mitral: fixed update", "aortic: fixed update"),
+           Wanted::at_most, 1.8);
   for (const int n_landmarks : {30, 200}) {
     WarpedSteps steps("trileaflet", n_landmarks);
     measure_warps(contest, bars, steps, "annulus of " + std::to_string(n_landmarks) + " landmarks");

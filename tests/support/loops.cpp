@@ -121,7 +121,7 @@ loop_threads threads_of_a_loop() {
 int loops_while_a_thread_is_held(int n_loops) {
   pthread_t second = pthread_self(), second_again = pthread_self();
   run_on_both_threads([&] { second = pthread_self(); });
-  struct sigaction action{}, before{};
+  struct sigaction action = {}, before = {};
   action.sa_handler = hold;
   if (sigaction(SIGTRAP, &action, &before) != 0) return 0;
   is_held = is_released = 0;

@@ -123,8 +123,8 @@ struct OffsetJets {
   }
 };
 
-// Returns O from W and the base's tangent. The derivative of W is the edge's derivative minus the base's. Returns nothing if W may
-// be parallel to the base: O may have no direction then.
+// Returns O from W and the base's tangent. The derivative of W is the edge's derivative minus the base's. Returns nothing if W
+// may be parallel to the base: O may have no direction then.
 std::optional<OffsetJets> offset_jets(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
   const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
                                         edge.speed * edge.tangent.first() - base.speed * base.tangent.first());

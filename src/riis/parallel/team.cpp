@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// A thread that waits stays awake for a while, because waking it would take some microseconds. At first it keeps its processor, so
-// that it also comes at once if a caller's thread spins on the same processor. Later it offers the processor to other threads.
+// A thread that waits stays awake for a while, because waking it would take some microseconds. At first it keeps its processor,
+// so that it comes at once even if a caller's thread spins on the same processor. Later it offers the processor to other threads.
 // Then it sleeps. The thread sanitizer keeps a history of accesses, which waiting awake would fill.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
