@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// planted_race loop|openmp|walk race|order: runs the library's parallel loop, on its own threads or OpenMP's, or its walk. With `race`, the thread sanitizer has to report a
-// race between its bodies. With `order`, the loop or walk orders the accesses, and the sanitizer has to be silent. Exit status 3
-// means that no two threads took part, so nothing was shown.
+// planted_race loop|openmp|walk race|order: runs the library's parallel loop on its own threads or on OpenMP's, or its walk. With
+// `race`, the thread sanitizer has to report a race between the bodies. With `order`, the loop or walk orders the accesses, and
+// the sanitizer has to be silent. Exit status 3 means that no two threads took part, so nothing was shown.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
