@@ -329,6 +329,9 @@ int main(int argc, char **argv) {
   Contest contest;
   Bars bars;
   for (const int valve : {0, 1}) measure(contest, bars, valve, about_n_nodes);
+  bars.add("update, mitral / aortic", contest.ratio("mitral: update", "aortic: update"), Wanted::at_most, 2.3);
+  bars.add("fixed update, mitral / aortic", contest.ratio("mitral: fixed update", "aortic: fixed update"),
+           Wanted::at_most, 1.8);
   for (const char *kind : {"trileaflet", "coapting", "aortic", "mitral"})
     for (const int n_landmarks : {30, 200}) {
       WarpedSteps steps(kind, n_landmarks);

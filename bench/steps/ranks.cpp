@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench ranks: measures the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS
-// cuts a mesh of a million nodes into 2 to 64 parts. The ranks' steps run here one after the other, on one thread. The marks of
-// all parts together must equal those of the whole mesh, bit for bit. Otherwise the program ends with status 1.
+// cuts a mesh of a million nodes into 2 to 64 parts. The ranks' steps run here one after the other, on one thread, in turns with
+// an adapted and with a fixed triangulation. The marks of all parts together must equal those of the whole mesh, bit for bit.
+// Otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>
 #include <riis/riis.h>
@@ -24,6 +25,8 @@ using namespace bench;
 
 constexpr int n_steps = 21;  // steps of each part; their median counts
 using NodeDistances = std::vector<std::pair<std::int64_t, double>>;
+constexpr std::int32_t triangulations[] = {RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED};
+constexpr std::size_t n_triangulations = 2, adapted = 0, fixed_once = 1;
 
 double milliseconds_of(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double, std::milli>(time).count();
@@ -63,7 +66,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// A rank, with a whole surface of its own and the nodes of one part.
+// A rank, with whole surfaces of its own and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)
@@ -81,7 +84,10 @@ class Rank {
     riis_surface_options options;
     check(riis_surface_options_init(&options, sizeof options));
     options.n_threads = 1;
-    surface_ = make_surface(valve_.get(), &options);
+    for (std::size_t i = 0; i < n_triangulations; ++i) {
+      options.triangulation = triangulations[i];
+      sides_[i].surface = make_surface(valve_.get(), &options);
+    }
     check(riis_mark_options_init(&marking_, sizeof marking_));
     marking_.n_threads = 1;
     marking_.fields = RIIS_FIELD_VELOCITY;
@@ -93,30 +99,35 @@ class Rank {
 
   // Runs time steps, and keeps the median time of each of their parts.
   void run() {
-    std::vector<double> updates, markings;
+    std::vector<double> updates[n_triangulations], markings[n_triangulations];
     for (int i = 0; i < n_steps; ++i) {
       move();
-      const auto start = std::chrono::steady_clock::now();
-      check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
-      const auto updated = std::chrono::steady_clock::now();
-      check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
-      add_resistance(result_.get(), resistance_, K_, K_u_surface_.data());
-      updates.push_back(milliseconds_of(updated - start));
-      markings.push_back(milliseconds_of(std::chrono::steady_clock::now() - updated));
+      for (std::size_t k = 0; k < n_triangulations; ++k) {
+        const Side &side = sides_[k];
+        const auto start = std::chrono::steady_clock::now();
+        check(riis_surface_update_moving(side.surface.get(), valve_.get(), before_.get(), 1e-3, nullptr, nullptr));
+        const auto updated = std::chrono::steady_clock::now();
+        check(riis_mark_nodes(side.surface.get(), mesh_.get(), &marking_, side.result.get()));
+        add_resistance(side.result.get(), resistance_, K_, K_u_surface_.data());
+        updates[k].push_back(milliseconds_of(updated - start));
+        markings[k].push_back(milliseconds_of(std::chrono::steady_clock::now() - updated));
+      }
     }
-    update = median(updates);
-    marking = median(markings);
+    for (std::size_t k = 0; k < n_triangulations; ++k) {
+      sides_[k].update = median(updates[k]);
+      sides_[k].marking = median(markings[k]);
+    }
   }
 
   // Appends the marked nodes of the last step, with their numbers in the whole mesh.
-  void append_marks(NodeDistances &marks) const {
-    const riis_mark_list marked = marked_in(result_.get());
+  void append_marks(std::size_t triangulation, NodeDistances &marks) const {
+    const riis_mark_list marked = marked_in(sides_[triangulation].result.get());
     for (std::int64_t i = 0; i < marked.n_nodes; ++i)
       marks.emplace_back(ids_[static_cast<std::size_t>(marked.node_id[i])], marked.distance[i]);
   }
-  std::int64_t n_marked() const { return stats_of(result_.get()).n_marked; }
-
-  double update = 0, marking = 0;  // milliseconds a step
+  std::int64_t n_marked() const { return stats_of(sides_[adapted].result.get()).n_marked; }
+  double update(std::size_t triangulation) const { return sides_[triangulation].update; }
+  double marking(std::size_t triangulation) const { return sides_[triangulation].marking; }
 
  private:
   void move() {
@@ -125,12 +136,18 @@ class Rank {
     check(riis_valve_set_scalar(valve_.get(), "opening", opening_ = 0.001 * (step_ < 5 ? step_ : 10 - step_)));
   }
 
+  // A surface with one of the triangulations, and its steps.
+  struct Side {
+    Surface surface;
+    Result result = make_result();
+    double update = 0, marking = 0;  // milliseconds a step
+  };
+
   std::vector<std::int64_t> ids_;
   std::vector<double> xyz_;
   Valve valve_, before_;
   Mesh mesh_;
-  Surface surface_;
-  Result result_ = make_result();
+  Side sides_[n_triangulations];
   riis_mark_options marking_;
   riis_resistance resistance_;
   std::vector<double> K_, K_u_surface_;
@@ -139,33 +156,42 @@ class Rank {
 };
 
 struct Cost {
-  double update = 0, marking_mean = 0, marking_most = 0, step_most = 0, marked_mean = 0, marked_most = 0;
+  struct Times {
+    double update = 0, marking_mean = 0, marking_most = 0;
+    double step_most() const { return update + marking_most; }
+  };
+  Times of[n_triangulations];
+  double marked_mean = 0, marked_most = 0;
   int n_empty = 0;  // number of ranks without a marked node
 };
+using Marks = NodeDistances[n_triangulations];
 
-Cost cost_of(const CylinderNodes &nodes, const std::vector<idx_t> &part, idx_t n_parts, NodeDistances &marks) {
+Cost cost_of(const CylinderNodes &nodes, const std::vector<idx_t> &part, idx_t n_parts, Marks &marks) {
   std::vector<std::vector<std::int64_t>> ids(static_cast<std::size_t>(n_parts));
   for (std::size_t i = 0; i < part.size(); ++i)
     ids[static_cast<std::size_t>(part[i])].push_back(static_cast<std::int64_t>(i));
   Cost cost;
-  std::vector<double> updates;
-  marks.clear();
+  std::vector<double> updates[n_triangulations];
+  for (NodeDistances &of_one : marks) of_one.clear();
   for (std::vector<std::int64_t> &of_rank : ids) {
     Rank rank(nodes, std::move(of_rank));
     rank.run();
-    rank.append_marks(marks);
+    for (std::size_t k = 0; k < n_triangulations; ++k) {
+      rank.append_marks(k, marks[k]);
+      updates[k].push_back(rank.update(k));
+      cost.of[k].marking_mean += rank.marking(k) / n_parts;
+      cost.of[k].marking_most = std::max(cost.of[k].marking_most, rank.marking(k));
+    }
     const auto n_marked = static_cast<double>(rank.n_marked());
-    updates.push_back(rank.update);
-    cost.marking_mean += rank.marking / n_parts;
-    cost.marking_most = std::max(cost.marking_most, rank.marking);
     cost.marked_mean += n_marked / n_parts;
     cost.marked_most = std::max(cost.marked_most, n_marked);
     cost.n_empty += n_marked == 0;
   }
-  // Every rank makes the same surface, so one time stands for all.
-  cost.update = median(updates);
-  cost.step_most = cost.update + cost.marking_most;
-  std::sort(marks.begin(), marks.end());
+  for (std::size_t k = 0; k < n_triangulations; ++k) {
+    // Every rank makes the same surface, so one time stands for all.
+    cost.of[k].update = median(updates[k]);
+    std::sort(marks[k].begin(), marks[k].end());
+  }
   return cost;
 }
 
@@ -181,31 +207,37 @@ int main(int argc, char **argv) {
   const CylinderNodes nodes(cylinders[1], n_nodes_given(argc, argv, 1, 10));
   const auto n = static_cast<std::size_t>(nodes.n_nodes());
   Graph graph = graph_of(nodes);
-  NodeDistances whole, together;
+  Marks whole, together;
   const Cost alone = cost_of(nodes, std::vector<idx_t>(n, 0), 1, whole);
   std::printf(
-      "The mitral valve near opening 0, %lld nodes, %zu marked. On one rank a step takes %.2f ms: %.2f for the surface "
-      "and its velocity, %.2f for marks, K and K u_surface.\n\n",
-      static_cast<long long>(nodes.n_nodes()), whole.size(), alone.step_most, alone.update, alone.marking_most);
+      "The mitral valve near opening 0, %lld nodes, %zu marked. On one rank a step takes %.2f ms: %.2f for the "
+      "surface and its velocity, %.2f for marks, K and K u_surface. With a fixed triangulation it takes %.2f ms: "
+      "%.2f and %.2f.\n\n",
+      static_cast<long long>(nodes.n_nodes()), whole[adapted].size(), alone.of[adapted].step_most(),
+      alone.of[adapted].update, alone.of[adapted].marking_most, alone.of[fixed_once].step_most(),
+      alone.of[fixed_once].update, alone.of[fixed_once].marking_most);
   std::printf(
-      "| ranks | METIS balances | without marked nodes | marked: mean | most | surface, ms | marks: mean, ms | most, "
-      "ms "
-      "| step of the slowest, ms | marking is faster by |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "| ranks | METIS balances | without marked nodes | marked: mean | most | surface, ms | fixed | marks: mean, "
+      "ms | fixed | most, ms | fixed | step of the slowest, ms | fixed | marking is faster by "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::vector<idx_t> equal(n, 1), both(2 * n, 0);
   for (std::size_t i = 0; i < n; ++i) both[2 * i] = 1;
-  for (const auto &mark : whole) both[2 * static_cast<std::size_t>(mark.first) + 1] = 1;
+  for (const auto &mark : whole[adapted]) both[2 * static_cast<std::size_t>(mark.first) + 1] = 1;
   for (const idx_t n_parts : {2, 4, 8, 16, 32, 64}) {
     for (std::vector<idx_t> *weights : {&equal, &both}) {
       const Cost cost = cost_of(nodes, partition(graph, n_parts, *weights), n_parts, together);
-      if (!same_bits(whole, together)) {
-        std::fprintf(stderr, "the marks of %lld parts differ from the marks of the whole mesh\n",
-                     static_cast<long long>(n_parts));
-        return 1;
-      }
-      std::printf("| %lld | %s | %d | %.0f | %.0f | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
+      for (std::size_t k = 0; k < n_triangulations; ++k)
+        if (!same_bits(whole[k], together[k])) {
+          std::fprintf(stderr, "the marks of %lld parts differ from the marks of the whole mesh\n",
+                       static_cast<long long>(n_parts));
+          return 1;
+        }
+      const Cost::Times &a = cost.of[adapted], &f = cost.of[fixed_once];
+      std::printf("| %lld | %s | %d | %.0f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
                   static_cast<long long>(n_parts), weights == &equal ? "nodes" : "nodes and band", cost.n_empty,
-                  cost.marked_mean, cost.marked_most, cost.update, cost.marking_mean, cost.marking_most, cost.step_most,
-                  alone.marking_most / cost.marking_most);
+                  cost.marked_mean, cost.marked_most, a.update, f.update, a.marking_mean, f.marking_mean,
+                  a.marking_most, f.marking_most, a.step_most(), f.step_most(),
+                  alone.of[adapted].marking_most / a.marking_most);
     }
   }
   std::printf("\nThe marks of all parts together equal the marks of the whole mesh, bit for bit.\n");

@@ -134,12 +134,13 @@ int64_t chain_between(int64_t n_pieces, const double *control, double share0, do
 
 void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
               double *offset) {
-  put(Bulge(chain(n_base, base), chain(n_edge, edge), factor).at(u), offset);
+  put(Bulge(chain(n_base, base), chain(n_edge, edge), factor).place(u).offset, offset);
 }
 
 double bulge_linear_error(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor,
                           double u0, double u1, double enough) {
-  return Bulge(chain(n_base, base), chain(n_edge, edge), factor).linear_error(u0, u1, enough);
+  const Bulge bulge(chain(n_base, base), chain(n_edge, edge), factor);
+  return bulge.linear_error(bulge.place(u0), bulge.place(u1), enough);
 }
 
 double polyline_make(int64_t n, const double *points, int64_t *n_kept, double *t) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// planted_race loop|walk race|order: runs the library's parallel loop or walk. With `race`, the thread sanitizer has to report a
-// race between its bodies. With `order`, the loop or walk orders the accesses, and the sanitizer has to be silent. Exit status 3
-// means that no two threads took part, so nothing was shown.
+// planted_race loop|openmp|walk race|order: runs the library's parallel loop on its own threads or on OpenMP's, or its walk. With
+// `race`, the thread sanitizer has to report a race between the bodies. With `order`, the loop or walk orders the accesses, and
+// the sanitizer has to be silent. Exit status 3 means that no two threads took part, so nothing was shown.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -60,6 +60,11 @@ bool race_in_loop() {
   return is_written_again;
 }
 
+bool race_in_openmp() {
+  riis::openmp_for(4, 2, [](std::int64_t, int) { write_late(); });
+  return is_written_again;
+}
+
 bool race_in_walk() {
   riis::concurrent_walk({{0, 1}, {1, 2}, {2, 3}, {3, 4}}, 2,
                         [](const riis::Range &, const auto &, int) { write_late(); });
@@ -67,12 +72,21 @@ bool race_in_walk() {
 }
 
 // Each loop writes where another thread may have written in the previous loop.
-bool order_in_loop() {
+template <class Loop>
+bool order_in(const Loop &loop) {
   static int written[1000];
   int n_ran = 0;
   for (int repeat = 0; repeat < 50; ++repeat)
-    n_ran = riis::parallel_for(1000, 2, [&](std::int64_t i, int) { ++written[(7 * i + repeat) % 1000]; });
+    n_ran = loop([&](std::int64_t i, int) { ++written[(7 * i + repeat) % 1000]; });
   return n_ran == 2 && written[0] == 50;
+}
+
+bool order_in_loop() {
+  return order_in([](const auto &body) { return riis::parallel_for(1000, 2, body); });
+}
+
+bool order_in_openmp() {
+  return order_in([](const auto &body) { return riis::openmp_for(1000, 2, body); });
 }
 
 // If a body adds another body, that body runs after its adder's earlier writes, on either thread. The first body waits until the
@@ -94,8 +108,11 @@ bool order_in_walk() {
 
 int main(int argc, char **argv) {
   if (argc != 3) return 2;
-  const bool in_loop = std::strcmp(argv[1], "loop") == 0, is_race = std::strcmp(argv[2], "race") == 0;
-  const auto run = is_race ? (in_loop ? race_in_loop : race_in_walk) : (in_loop ? order_in_loop : order_in_walk);
+  const bool in_loop = std::strcmp(argv[1], "loop") == 0, in_openmp = std::strcmp(argv[1], "openmp") == 0;
+  const bool is_race = std::strcmp(argv[2], "race") == 0;
+  const auto race = in_loop ? race_in_loop : in_openmp ? race_in_openmp : race_in_walk;
+  const auto order = in_loop ? order_in_loop : in_openmp ? order_in_openmp : order_in_walk;
+  const auto run = is_race ? race : order;
   const bool two_took_part = run();
   std::printf("%s; written %d times\n", two_took_part ? "two threads took part" : "no two threads took part", planted);
   return two_took_part ? 0 : 3;

@@ -129,29 +129,38 @@ double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   return sum;
 }
 
-// Finds the parameters of ascending lengths, each from the previous parameter. Returns false if the lengths do not add up to the
-// length of the curve. The speed is then too far from a polynomial, as at a cusp, and one quadrature for each step is not enough.
-bool find_in_one_pass(const Speed &speed, double curve_length, const Vector<double> &behind, double *t) {
-  const double close_enough = 1e-14 * curve_length;
-  double at = 0, at_length = 0;
-  for (std::size_t k = 0; k < behind.size(); ++k) {
+// A part of a curve, from one parameter to another. The length of the whole curve decides which errors of lengths are negligible.
+struct SpeedOnPart {
+  Speed speed;
+  double from, to, length, whole_length;
+};
+
+// Finds the parameters of ascending lengths from the start of the part, each from the previous parameter. Returns false if the
+// lengths do not add up to the length of the part. The speed is then too far from a polynomial, as at a cusp, and one quadrature
+// for each step is not enough.
+bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t n, double *t) {
+  const Speed &speed = part.speed;
+  const double close_enough = 1e-14 * part.whole_length;
+  double at = part.from, at_length = 0;
+  for (std::size_t k = 0; k < n; ++k) {
     const double wanted = behind[k] - at_length, start = speed(at);
-    const double straight = std::min(at + wanted / start, 1.0);
-    double next = std::min(at + 2 * wanted / (start + speed(straight)), 1.0);
+    const double straight = std::min(at + wanted / start, part.to);
+    double next = std::min(at + 2 * wanted / (start + speed(straight)), part.to);
     if (!(next >= at)) return false;
     double made = stepwise_quadrature(speed, at, next);
     for (int i = 0; i < 6 && std::abs(made - wanted) > close_enough; ++i) {
-      const double closer = std::clamp(next - (made - wanted) / speed(next), at, 1.0);
+      const double closer = std::clamp(next - (made - wanted) / speed(next), at, part.to);
       made += std::abs(closer - next) < 1e-3 ? short_quadrature(speed, next, closer)
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
     // Near a cusp, Newton's method may not have converged yet. Then this fast way gives up.
-    if (!(std::abs(made - wanted) <= 1e-13 * curve_length)) return false;
+    if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;
   }
-  return std::abs(at_length + stepwise_quadrature(speed, at, 1) - curve_length) <= 1e-12 * curve_length;
+  const double excess = at_length + stepwise_quadrature(speed, at, part.to) - part.length;
+  return std::abs(excess) <= 1e-12 * part.whole_length;
 }
 
 }  // namespace
@@ -275,8 +284,18 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
 }
 
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t) {
-  if (curve_length > 0 && find_in_one_pass(Speed(curve), curve_length, behind, t)) return;
+  if (curve_length > 0 &&
+      find_in_one_pass({Speed(curve), 0, 1, curve_length, curve_length}, behind.data(), behind.size(), t))
+    return;
   for (std::size_t k = 0; k < behind.size(); ++k) t[k] = parameter_at_length(curve, curve_length, behind[k]);
+}
+
+bool divide_part(const Bezier &curve, double curve_length, double from, double to, double length,
+                 std::array<double, 7> &t) {
+  std::array<double, 7> behind;
+  for (std::size_t k = 0; k < 7; ++k) view(behind)[k] = 0.125 * static_cast<double>(k + 1) * length;
+  return curve_length > 0 &&
+         find_in_one_pass({Speed(curve), from, to, length, curve_length}, behind.data(), behind.size(), t.data());
 }
 
 }  // namespace riis

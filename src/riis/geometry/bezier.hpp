@@ -55,6 +55,11 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
 // the time of separate calls.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
+// Writes to t the parameters that divide the part between two parameters, which has this length, into eight parts of equal
+// length. Returns false if one pass over the part does not find them.
+bool divide_part(const Bezier &curve, double curve_length, double from, double to, double length,
+                 std::array<double, 7> &t);
+
 // Returns kappa, the largest distance of an inner control point from the segment between the first and the last. The paper takes
 // the distance from the line through both. That distance is 0/0 for a closed curve, and it misses control points beyond the
 // ends.

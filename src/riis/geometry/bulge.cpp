@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/array_view.hpp"
 #include "geometry/interval.hpp"
 
 namespace riis {
@@ -43,10 +44,10 @@ JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const 
   const JetVector along = JetVector::of(d1, d2, d3);
   const Jet size = root(dot_self(along)), inverse_size = inverse(size);
   const JetVector by_t = inverse_size * along;
-  const Interval t_u = speed * inverse_size.value;
+  const Interval t_u = speed * inverse_size.value, t_u_sq = square(t_u);
   const Interval t_uu = -(speed * speed) * (size.first * inverse_size.value * square(inverse_size.value));
   const auto by_u = [&](const Jet &a) {
-    return Jet{intersection(a.value, {-1, 1}), a.first * t_u, a.second * square(t_u) + a.first * t_uu};
+    return Jet{intersection(a.value, {-1, 1}), a.first * t_u, a.second * t_u_sq + a.first * t_uu};
   };
   return {by_u(by_t.x), by_u(by_t.y), by_u(by_t.z)};
 }
@@ -105,22 +106,40 @@ double norm(const IntervalVector &a) {
   return bound >= 0 ? bound : infinity;  // the length is NaN if infinite bounds cancelled
 }
 
-// Returns the offset O (bulge.hpp) with its derivatives, from W and the base's tangent. The derivative of W is the edge's
-// derivative minus the base's. Returns nothing if W may be parallel to the base, because O may have no direction there.
-std::optional<JetVector> offset_jet(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
+// O as the product of a factor and a vector, as jets.
+struct OffsetJets {
+  Jet factor;
+  JetVector across;
+
+  IntervalVector first() const {
+    const auto of = [&](const Jet &a) { return factor.first * a.value + factor.value * a.first; };
+    return {of(across.x), of(across.y), of(across.z)};
+  }
+  IntervalVector second() const {
+    const auto of = [&](const Jet &a) {
+      return factor.second * a.value + 2 * (factor.first * a.first) + factor.value * a.second;
+    };
+    return {of(across.x), of(across.y), of(across.z)};
+  }
+};
+
+// Returns the offset O (bulge.hpp) from W and the base's tangent. The derivative of W is the edge's derivative minus the base's.
+// Returns nothing if W may be parallel to the base, because O may have no direction there.
+std::optional<OffsetJets> offset_jets(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
   const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
                                         edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
   const JetVector across = cross(width, base.tangent);
   const Jet across_sq = dot_self(across);
   if (!(across_sq.value.low > 0)) return std::nullopt;
   // O is factor |W| M / |M| with M = W x T.
-  return (factor * root(dot_self(width) * inverse(across_sq))) * across;
+  return OffsetJets{factor * root(dot_self(width) * inverse(across_sq)), across};
 }
 
-// Returns O at the same share of the length of both curves.
-Vec3 offset_at(const Curve &base, const Curve &edge, double share, double factor) {
-  const Curve::Frame on_base = base.frame(share);
-  return arc_offset(edge.at(share) - on_base.point, on_base.tangent, factor);
+// Returns O at points at the same share of the length of both curves.
+Vec3 offset_at(const Curve &base, const PointOnPiece &on_base, const Curve &edge, const PointOnPiece &on_edge,
+               double factor) {
+  const Curve::Frame frame = base.frame(on_base);
+  return arc_offset(edge.at(on_edge) - frame.point, frame.tangent, factor);
 }
 
 }  // namespace
@@ -130,7 +149,10 @@ Bulge::Bulge(Curve base, Curve edge, double factor) : base_(std::move(base)), ed
   std::merge(of_base.begin(), of_base.end(), of_edge.begin(), of_edge.end(), std::back_inserter(joints_));
 }
 
-Vec3 Bulge::at(double u) const { return offset_at(base_, edge_, u, factor_); }
+Bulge::Place Bulge::place(double u) const {
+  const PointOnPiece on_base = base_.on_piece(u), on_edge = edge_.on_piece(u);
+  return {u, on_base, on_edge, offset_at(base_, on_base, edge_, on_edge, factor_)};
+}
 
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const double du = range.du;
@@ -139,6 +161,8 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
   Vector<Along> along_base, along_edge;
+  along_base.reserve(range.base.size());
+  along_edge.reserve(range.edge.size());
   for (const Bezier &piece : range.base) along_base.push_back(along_piece(piece, range.base_length, du));
   for (const Bezier &piece : range.edge) along_edge.push_back(along_piece(piece, range.edge_length, du));
   Vec3 bend{0, 0, 0};
@@ -154,35 +178,38 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
   double second = 0;
   for (const Along &b : along_base)
     for (const Along &e : along_edge) {
-      const std::optional<JetVector> offset = offset_jet(w, b, e, factor);
+      const std::optional<OffsetJets> offset = offset_jets(w, b, e, factor);
       second = std::max(second, offset ? norm(offset->second()) : infinity);
     }
   // Neither |O| nor the length of its linear interpolation exceeds |factor| |W|.
   return {second, 2 * std::abs(factor) * norm(w)};
 }
 
-double Bulge::linear_error(double u0, double u1, double enough) const {
-  const Curve base = base_.between(u0, u1), edge = edge_.length() > 0 ? edge_.between(u0, u1) : edge_;
-  const OffsetBounds bounds =
-      bound_offset({base.pieces(), edge.pieces(), base_.length(), edge_.length(), u1 - u0}, factor_);
+double Bulge::linear_error(const Place &from, const Place &to, double enough) const {
+  const Vector<Bezier> base = base_.pieces_between(from.on_base, to.on_base);
+  const Vector<Bezier> edge = edge_.length() > 0 ? edge_.pieces_between(from.on_edge, to.on_edge) : edge_.pieces();
+  const OffsetBounds bounds = bound_offset({base, edge, base_.length(), edge_.length(), to.u - from.u}, factor_);
   // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound on |O''| is used only
-  // between neighbouring points. With n parts, this bound contributes n^2 times less.
-  double error = infinity;
-  for (int n = 1; n <= 8 && !(error <= enough); n *= 8) error = sampled_error(base, edge, u0, u1, n, bounds.second);
+  // between neighbouring points. With eight parts, this bound contributes 64 times less.
+  double error = error_between(from.u, to.u, 1, bounds.second);
+  if (!(error <= enough)) error = sampled_error(from, to) + error_between(from.u, to.u, 8, bounds.second);
   return error <= bounds.largest ? error : bounds.largest;  // a NaN error also gives way to this bound
 }
 
-// Bounds the error of linear interpolation. Evaluates O at n - 1 points between u0 and u1, and uses the bound on |O''| between
-// them.
-double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, double u1, int n, double second) const {
+// Returns the largest distance of O from its linear interpolation, at the points that divide the range into eight parts.
+double Bulge::sampled_error(const Place &from, const Place &to) const {
+  const std::array<PointOnPiece, 7> on_base = base_.divide({from.u, from.on_base}, {to.u, to.on_base});
+  const std::array<PointOnPiece, 7> on_edge = edge_.divide({from.u, from.on_edge}, {to.u, to.on_edge});
   double off_line = 0;
-  if (n > 1) {
-    const Vec3 first = offset_at(base, edge, 0, factor_), last = offset_at(base, edge, 1, factor_);
-    for (int i = 1; i < n; ++i) {
-      const double share = static_cast<double>(i) / n;
-      off_line = std::max(off_line, distance(offset_at(base, edge, share, factor_), mix(first, last, share)));
-    }
+  for (std::size_t k = 0; k < 7; ++k) {
+    const Vec3 offset = offset_at(base_, view(on_base)[k], edge_, view(on_edge)[k], factor_);
+    off_line = std::max(off_line, distance(offset, mix(from.offset, to.offset, 0.125 * static_cast<double>(k + 1))));
   }
+  return off_line;
+}
+
+// Bounds the error of linear interpolation between n + 1 equidistant points, by the bound on |O''|.
+double Bulge::error_between(double u0, double u1, int n, double second) const {
   const double step = (u1 - u0) / n;
   double between = 0.125 * step * step * second;
   // O' may jump at a joint. The jump adds a kink of height |jump| a b / (a + b), where a and b are the distances to the
@@ -192,7 +219,7 @@ double Bulge::sampled_error(const Curve &base, const Curve &edge, double u0, dou
     const double behind = std::fmod(joint - u0, step);
     between += jump(joint) * behind * (step - behind) / step;
   }
-  return off_line + between;
+  return between;
 }
 
 // Bounds the size of the jump of O' at u, which is the difference between its values on both sides.
@@ -202,9 +229,9 @@ double Bulge::jump(double u) const {
     const auto along = [&](const Curve &curve) {
       return along_end(curve.piece_beside(u, after), curve.length(), !after);
     };
-    return offset_jet(w, along(base_), along(edge_), factor_);
+    return offset_jets(w, along(base_), along(edge_), factor_);
   };
-  const std::optional<JetVector> before = beside(false), after = beside(true);
+  const std::optional<OffsetJets> before = beside(false), after = beside(true);
   return before && after ? norm(after->first() - before->first()) : infinity;
 }
 

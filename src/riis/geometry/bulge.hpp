@@ -40,22 +40,28 @@ class Bulge {
   // Keeps copies of both curves. The edge may be a point.
   Bulge(Curve base, Curve edge, double factor);
 
-  // Returns O(u), which is 0 where base and edge touch.
-  Vec3 at(double u) const;
+  // The place u on both curves, and O there.
+  struct Place {
+    double u;
+    PointOnPiece on_base, on_edge;
+    Vec3 offset;  // 0 where base and edge touch
+  };
+  Place place(double u) const;
 
   // Returns the point where the arc at u begins.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // Bounds |O(u) - its linear interpolation between u0 and u1| for u0 <= u <= u1. The bound falls with (u1 - u0)^2. Where W gets
-  // parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. The bound is not refined further once it is at
-  // most `enough`.
-  double linear_error(double u0, double u1, double enough) const;
+  // Bounds |O(u) - its linear interpolation between both places| for u from one place to a later place. The bound falls with the
+  // square of the distance. Where W gets parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. The bound is
+  // not refined further once it is at most `enough`.
+  double linear_error(const Place &from, const Place &to, double enough) const;
 
   // Returns the u of the curves' joints, ascending. O may have kinks there.
   const Vector<double> &joints() const { return joints_; }
 
  private:
-  double sampled_error(const Curve &base, const Curve &edge, double u0, double u1, int n, double second) const;
+  double sampled_error(const Place &from, const Place &to) const;
+  double error_between(double u0, double u1, int n, double second) const;
   double jump(double u) const;
 
   Curve base_, edge_;

@@ -46,16 +46,17 @@ Vector<GridLine> lines_between(const Polyline &side0, const Polyline &side1, dou
 class ArcRefinement {
  public:
   ArcRefinement(const Bulge &bulge, const ArcLimits &limits, ArcLines &lines)
-      : bulge_(bulge), limits_(limits), lines_(lines) {}
+      : bulge_(bulge), limits_(limits), lines_(lines), last_(bulge.place(lines.u_lines.back().middle)) {}
 
-  void add_up_to(const GridLine &to, Vec3 offset, int depth) {
+  void add_up_to(const GridLine &to, const Bulge::Place &place, int depth) {
     if (lines_.u_lines.size() > limits_.max_lines) return;
-    const double from = lines_.u_lines.back().middle;
-    const double error = bulge_.linear_error(from, to.middle, limits_.max_error);
+    const double from = last_.u;
+    const double error = bulge_.linear_error(last_, place, limits_.max_error);
     if (error <= limits_.max_error) {
       lines_.u_lines.push_back(to);
-      lines_.offsets.push_back(offset);
+      lines_.offsets.push_back(place.offset);
       lines_.errors.push_back(error);
+      last_ = place;
       return;
     }
     constexpr int max_depth = 24;
@@ -66,8 +67,8 @@ class ArcRefinement {
            "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there");
     }
     const double u = cut(from, to.middle);
-    add_up_to({u, u, u}, bulge_.at(u), depth + 1);
-    add_up_to(to, offset, depth + 1);
+    add_up_to({u, u, u}, bulge_.place(u), depth + 1);
+    add_up_to(to, place, depth + 1);
   }
 
  private:
@@ -82,6 +83,7 @@ class ArcRefinement {
   const Bulge &bulge_;
   const ArcLimits &limits_;
   ArcLines &lines_;
+  Bulge::Place last_;  // the place of the last line
 };
 
 }  // namespace
@@ -198,8 +200,11 @@ ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset
   const Vector<GridLine> given = lines_between(*sides.side_v0, *sides.side_v1, limits.max_merge_shift);
   ArcLines lines{{given.front()}, {offset_u0}, {}};
   ArcRefinement refinement(bulge, limits, lines);
-  for (std::size_t i = 1; i < given.size(); ++i)
-    refinement.add_up_to(given[i], i + 1 == given.size() ? offset_u1 : bulge.at(given[i].middle), 0);
+  for (std::size_t i = 1; i < given.size(); ++i) {
+    Bulge::Place place = bulge.place(given[i].middle);
+    if (i + 1 == given.size()) place.offset = offset_u1;
+    refinement.add_up_to(given[i], place, 0);
+  }
   return lines;
 }
 

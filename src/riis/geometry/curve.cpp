@@ -122,13 +122,21 @@ PointOnPiece Curve::on_piece(double share) const {
   return {piece, parameter_at_length(pieces_[piece], length(piece), behind - start)};
 }
 
-Vec3 Curve::at(double share) const {
-  const PointOnPiece where = on_piece(share);
-  return evaluate(pieces_[where.piece], where.t);
+std::array<PointOnPiece, 7> Curve::divide(const Place &from, const Place &to) const {
+  std::array<PointOnPiece, 7> points;
+  std::array<double, 7> t;
+  const std::size_t piece = from.where.piece;
+  const double part = to.share - from.share, end = to.where.piece == piece ? to.where.t : 1;
+  const bool is_one_piece = to.where.piece == piece || (to.where.piece == piece + 1 && to.where.t == 0);
+  if (is_one_piece && divide_part(pieces_[piece], length(), from.where.t, end, part * length(), t))
+    for (std::size_t k = 0; k < 7; ++k) view(points)[k] = {piece, view(t)[k]};
+  else
+    for (std::size_t k = 0; k < 7; ++k)
+      view(points)[k] = on_piece(from.share + 0.125 * static_cast<double>(k + 1) * part);
+  return points;
 }
 
-Curve::Frame Curve::frame(double share) const {
-  const PointOnPiece where = on_piece(share);
+Curve::Frame Curve::frame(const PointOnPiece &where) const {
   const Bezier &piece = pieces_[where.piece];
   const Vec3 along = derivative(piece, where.t);
   const double speed = riis::length(along);
@@ -143,8 +151,7 @@ Bezier Curve::piece_beside(double share, bool after) const {
   return where.t < 1 ? split(piece, where.t).first : piece;
 }
 
-Curve Curve::between(double share0, double share1) const {
-  const PointOnPiece from = on_piece(share0), to = on_piece(share1);
+Vector<Bezier> Curve::pieces_between(const PointOnPiece &from, const PointOnPiece &to) const {
   Vector<Bezier> part;
   for (std::size_t i = from.piece; i <= to.piece; ++i) {
     if (i == to.piece && to.t == 0 && i > from.piece) break;
@@ -153,7 +160,7 @@ Curve Curve::between(double share0, double share1) const {
     if (i == from.piece && from.t > 0) piece = split(piece, i == to.piece ? from.t / to.t : from.t).second;
     part.push_back(piece);
   }
-  return Curve(std::move(part));
+  return part;
 }
 
 Curve Curve::reversed() const {

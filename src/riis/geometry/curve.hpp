@@ -40,15 +40,30 @@ class Curve {
   struct Frame {
     Vec3 point, tangent;
   };
-  Frame frame(double share) const;
-  Vec3 at(double share) const;
+  Frame frame(double share) const { return frame(on_piece(share)); }
+  Frame frame(const PointOnPiece &where) const;
+  Vec3 at(double share) const { return at(on_piece(share)); }
+  Vec3 at(const PointOnPiece &where) const { return evaluate(pieces_[where.piece], where.t); }
+
+  // Finds the point at a share of the length, by Newton's method.
+  PointOnPiece on_piece(double share) const;
+  // Returns the points that divide the part between two shares, from.share < to.share, into eight parts of equal length.
+  struct Place {
+    double share;
+    PointOnPiece where;
+  };
+  std::array<PointOnPiece, 7> divide(const Place &from, const Place &to) const;
 
   // Returns a part of one piece. If `after` is true, the part begins at this share of the length and ends with the piece.
   // Otherwise it begins with the piece and ends at this share.
   Bezier piece_beside(double share, bool after) const;
 
   // Returns the part from share0 to share1, share0 < share1.
-  Curve between(double share0, double share1) const;
+  Curve between(double share0, double share1) const {
+    return Curve(pieces_between(on_piece(share0), on_piece(share1)));
+  }
+  // Returns the pieces of the part from one point to a later point.
+  Vector<Bezier> pieces_between(const PointOnPiece &from, const PointOnPiece &to) const;
 
   Curve reversed() const;
 
@@ -56,8 +71,6 @@ class Curve {
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
-  PointOnPiece on_piece(double share) const;
-
   Vector<Bezier> pieces_;
   Vector<double> ends_;  // the length from the start of the curve to the end of each piece
 };

@@ -37,7 +37,9 @@ inline Interval operator*(Interval a, Interval b) {
   return {std::min(std::min(p, q), std::min(r, s)), std::max(std::max(p, q), std::max(r, s))};
 }
 inline Interval operator*(double a, Interval b) {
-  const double p = bound_product(a, b.low), q = bound_product(a, b.high);
+  double p = a * b.low, q = a * b.high;
+  const double sum = p + q;
+  if (!(sum - sum == 0)) p = bound_product(a, b.low), q = bound_product(a, b.high);
   return {std::min(p, q), std::max(p, q)};
 }
 inline Interval square(Interval a) {

@@ -56,7 +56,7 @@ struct Pose {
 struct LandmarkFit {
   Pose pose;
   std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
-  std::vector<Vec3> places;       // the landmarks' places on the valve, in its frame; the mean place if there are several offsets
+  std::vector<Vec3> places;       // places of the landmarks on the valve, in its frame; with several offsets their mean
   double noise;                   // the noise on which standard errors rest, in centimetres
   double rotation_error;          // degrees
   double position_error;          // standard error of the landmarks' mean, in centimetres

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. No other file uses OpenMP.
+// Loops over a fixed number of blocks. Loops of a time step run on the library's own threads, and the exhaustive search runs on
+// OpenMP's. No other file uses OpenMP.
 #pragma once
 
 #include <omp.h>
@@ -7,9 +8,11 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <mutex>
 
 #include "common/float_environment.hpp"
 #include "parallel/range.hpp"
+#include "parallel/team.hpp"
 #include "parallel/threads.hpp"
 
 namespace riis {
@@ -33,56 +36,99 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads, and returns how many threads ran.
-// Blocks are handed out in ascending order, so each thread sees ascending block numbers. If bodies throw, all threads stop, and
-// then the exception of the lowest block is rethrown. It is the exception that a single thread would meet, because all lower
-// blocks were handed out earlier and ran to their end.
-// The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as nesting
-// allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no memory.
-// If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, and the next loop has to wait for new ones.
+// The blocks of a loop, which are handed out in ascending order. So each thread sees ascending block numbers. If bodies throw,
+// all threads stop, and then the exception of the lowest block is rethrown. It is the exception that a single thread would meet,
+// because all lower blocks were handed out earlier and ran to their end.
 template <class Body>
-int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  if (n_blocks <= 1 || (n_threads > 1 && !begin_threads())) n_threads = 1;
-  if (n_threads == 1) {
-    for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
-    return 1;
-  }
-  std::atomic<std::int64_t> next_block{0};
-  std::exception_ptr first_exception;
-  std::int64_t first_to_fail = n_blocks;
-  int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) \
-    shared(n_blocks, body, next_block, first_exception, first_to_fail, n_ran)
-  {
+class Blocks {
+ public:
+  Blocks(std::int64_t n_blocks, const Body &body) : n_blocks_(n_blocks), body_(body), first_to_fail_(n_blocks) {}
+
+  // Runs blocks until none is left. Each thread of the loop calls this once.
+  void run(int thread) {
     const FloatEnvironment environment;
-    const int thread = omp_get_thread_num();
-    if (thread == 0) n_ran = omp_get_num_threads();
     std::int64_t block = 0;
     try {
-      while ((block = next_block.fetch_add(1, std::memory_order_relaxed)) < n_blocks) body(block, thread);
+      while ((block = next_block_.fetch_add(1, std::memory_order_relaxed)) < n_blocks_) body_(block, thread);
     } catch (...) {
-      next_block.store(n_blocks, std::memory_order_relaxed);
-#pragma omp critical(riis_first_exception)
-      {
-        if (block < first_to_fail) {
-          first_to_fail = block;
-          first_exception = std::current_exception();
-        }
+      next_block_.store(n_blocks_, std::memory_order_relaxed);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (block < first_to_fail_) {
+        first_to_fail_ = block;
+        first_exception_ = std::current_exception();
       }
     }
   }
-  if (first_exception) std::rethrow_exception(first_exception);
+  void rethrow() const {
+    if (first_exception_) std::rethrow_exception(first_exception_);
+  }
+
+ private:
+  const std::int64_t n_blocks_;
+  const Body &body_;
+  std::atomic<std::int64_t> next_block_{0};
+  std::mutex mutex_;
+  std::int64_t first_to_fail_;
+  std::exception_ptr first_exception_;
+};
+
+// Runs body(block, thread) once for every block in [0, n_blocks) on the calling thread.
+template <class Body>
+int run_alone(std::int64_t n_blocks, const Body &body) {
+  for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
+  return 1;
+}
+
+// Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads of OpenMP, and returns how many
+// threads ran. The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as
+// nesting allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no
+// memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
+// threads that are left out, and the next loop has to wait for new ones.
+template <class Body>
+int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+  if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
+  Blocks<Body> blocks(n_blocks, body);
+  int n_ran = 1;
+#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran)
+  {
+    const int thread = omp_get_thread_num();
+    if (thread == 0) n_ran = omp_get_num_threads();
+    blocks.run(thread);
+  }
+  blocks.rethrow();
   return n_ran;
 }
 
-// Runs body(range, thread) for [0, n) in ranges of per_block, as the loop over blocks does. The last range may be shorter.
+// Does the same on threads of the library's own (team.hpp), and so does not wait for a thread that another process holds up. The
+// threads are OpenMP's in two cases: inside a caller's parallel region, and if the user binds OpenMP's threads to places.
 template <class Body>
-int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
-  return parallel_for((n + per_block - 1) / per_block, n_threads, [&](std::int64_t block, int thread) {
+int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+  if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
+  if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
+  Blocks<Body> blocks(n_blocks, body);
+  const int n_ran = run_by_team(
+      n_threads, [](void *context, int thread) { static_cast<Blocks<Body> *>(context)->run(thread); }, &blocks);
+  blocks.rethrow();
+  return n_ran;
+}
+
+// Calls body(range, thread) for the ranges of per_block numbers in [0, n). The last range may be shorter.
+template <class Body>
+auto by_ranges(std::int64_t n, std::int64_t per_block, const Body &body) {
+  return [n, per_block, &body](std::int64_t block, int thread) {
     const std::int64_t begin = block * per_block;
     body(Range{begin, begin + per_block < n ? begin + per_block : n}, thread);
-  });
+  };
+}
+
+// Do the same for [0, n) in ranges of per_block, with body(range, thread). The last range may be shorter.
+template <class Body>
+int parallel_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
+  return parallel_for((n + per_block - 1) / per_block, n_threads, by_ranges(n, per_block, body));
+}
+template <class Body>
+int openmp_for_ranges(std::int64_t n, std::int64_t per_block, int n_threads, const Body &body) {
+  return openmp_for((n + per_block - 1) / per_block, n_threads, by_ranges(n, per_block, body));
 }
 
 }  // namespace riis

@@ -22,7 +22,6 @@ class Threads {
   operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
 
   // Returns the number of threads for a part of the call that has n_items of work. A default number becomes 1 below `few` items.
-  // All other parts use the same number, because GCC's run-time ends the threads that a smaller team leaves out.
   int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
 
  private:
@@ -31,8 +30,8 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records that it does. A child of fork() may not use several threads
-// if the library had used them before the fork: the run-times of OpenMP and TBB would wait for ever for threads that the child
-// lacks.
+// if the library had used them before the fork: the child lacks these threads, and the run-times of OpenMP and TBB would wait for
+// them for ever.
 bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.

@@ -132,8 +132,9 @@ class PlannedArcs {
     const Curve &base = set_.curve_of(patch_.v0), &edge = set_.curve_of(patch_.v1);
     if (on_base.size() > 1 || on_edge.size() > 1) {
       // For a range inside which O' may jump, calls Bulge::linear_error, which takes jumps into account. bound_offset does not.
-      made.off_line = made.largest = Bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge)
-                                         .linear_error(shares_[i], shares_[j], offset_share * max_error_);
+      const Bulge bulge(along(set_, patch_.v0), along(set_, patch_.v1), patch_.bulge);
+      made.off_line = made.largest =
+          bulge.linear_error(bulge.place(shares_[i]), bulge.place(shares_[j]), offset_share * max_error_);
       return made;
     }
     const OffsetBounds bounds =

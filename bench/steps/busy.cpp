@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. The same
+// steps are also measured while the two processes are stopped, and after a loop of the caller's own OpenMP threads. It prints
+// times and bars.
+//   argv[1]  thousands of nodes instead of a million, for a quick look
+#include <riis/riis.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "shared/contest.hpp"
+#include "shared/cylinder.hpp"
+#include "shared/handles.hpp"
+#include "shared/time_steps.hpp"
+
+namespace {
+
+using namespace bench;
+
+constexpr int most_turns = 400;
+constexpr std::chrono::seconds longest{5};  // for all turns of a subject
+
+[[noreturn]] void fail(const char *what) {
+  std::perror(what);
+  std::exit(1);
+}
+
+// Leaves this process and its later children two of its processors.
+void keep_two_processors() {
+  cpu_set_t all, two;
+  if (sched_getaffinity(0, sizeof all, &all) != 0) fail("sched_getaffinity");
+  CPU_ZERO(&two);
+  for (int i = 0; i < CPU_SETSIZE && CPU_COUNT(&two) < 2; ++i)
+    if (CPU_ISSET(i, &all)) CPU_SET(i, &two);
+  if (CPU_COUNT(&two) < 2) {
+    std::fprintf(stderr, "this process may use only one processor\n");
+    std::exit(1);
+  }
+  if (sched_setaffinity(0, sizeof two, &two) != 0) fail("sched_setaffinity");
+}
+
+// Two processes that compute without end. They are stopped at first, and end with this process.
+class BusyProcesses {
+ public:
+  BusyProcesses() {
+    for (pid_t &process : processes_) {
+      process = fork();
+      if (process < 0) fail("fork");
+      if (process > 0) continue;
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      for (volatile unsigned i = 0;;) i = i + 1;
+    }
+    send(SIGSTOP);
+  }
+  ~BusyProcesses() {
+    send(SIGKILL);
+    for (const pid_t process : processes_) waitpid(process, nullptr, 0);
+  }
+  BusyProcesses(const BusyProcesses &) = delete;
+  BusyProcesses &operator=(const BusyProcesses &) = delete;
+
+  void send(int signal) const {
+    for (const pid_t process : processes_) kill(process, signal);
+  }
+
+ private:
+  std::array<pid_t, 2> processes_{};
+};
+
+struct Times {
+  double least, mean;  // milliseconds
+};
+
+// A call to be measured with 1 and with 2 threads.
+struct Subject {
+  std::string name;
+  std::array<std::function<void()>, 2> calls;
+};
+
+// Measures both calls in turns. before() is not timed.
+std::array<Times, 2> measure(const Subject &subject, const std::function<void()> &before) {
+  std::array<std::vector<double>, 2> times;
+  const auto first_start = std::chrono::steady_clock::now();
+  for (int turn = 0; turn < most_turns && std::chrono::steady_clock::now() - first_start < longest; ++turn)
+    for (std::size_t i = 0; i < 2; ++i) {
+      before();
+      const auto start = std::chrono::steady_clock::now();
+      subject.calls[i]();
+      times[i].push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    }
+  std::array<Times, 2> made{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    double sum = 0;
+    for (const double time : times[i]) sum += time;
+    made[i] = {*std::min_element(times[i].begin(), times[i].end()), sum / static_cast<double>(times[i].size())};
+  }
+  return made;
+}
+
+// A caller's loop of about 0.2 ms on two threads of OpenMP.
+void openmp_loop() {
+#pragma omp parallel num_threads(2)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    while (std::chrono::steady_clock::now() - start < std::chrono::microseconds(200)) {
+    }
+  }
+}
+
+// Time steps on 1 and on 2 threads, on the same mesh.
+struct Steps {
+  explicit Steps(const riis_mesh *mesh) {
+    for (int i = 0; i < 2; ++i) {
+      StepOptions options;
+      options.n_threads = 1 + i;
+      steps.push_back(std::make_unique<TimeSteps>(mesh, options));
+    }
+  }
+  template <class Call>
+  Subject subject(const std::string &name, const Call &call) {
+    return {name, {[this, call] { call(*steps[0]); }, [this, call] { call(*steps[1]); }}};
+  }
+  std::vector<std::unique_ptr<TimeSteps>> steps;
+};
+
+}  // namespace
+
+int main(int argc, char **argv) {
+  keep_two_processors();
+  const std::int64_t n_nodes = n_nodes_given(argc, argv, 1, 10);
+  const BusyProcesses busy;
+  const CylinderNodes few(wide_cylinder, 10'000), many(wide_cylinder, n_nodes);
+  const Mesh mesh_of_few = mesh_over(few), mesh_of_many = mesh_over(many);
+  for (const Mesh *mesh : {&mesh_of_few, &mesh_of_many}) check(riis_mesh_prepare(mesh->get(), 2));
+  Steps with_few(mesh_of_few.get()), with_many(mesh_of_many.get());
+  const std::string n_few = std::to_string(few.n_nodes()), n_many = std::to_string(many.n_nodes());
+  const auto step = [](TimeSteps &steps) {
+    steps.move();
+    steps.step();
+  };
+  const std::vector<Subject> subjects = {
+      with_few.subject("update of the surface",
+                       [](TimeSteps &steps) {
+                         steps.move();
+                         steps.update();
+                       }),
+      with_few.subject("marking, " + n_few + " nodes", [](TimeSteps &steps) { steps.mark(); }),
+      with_few.subject("step, " + n_few + " nodes", step), with_many.subject("step, " + n_many + " nodes", step)};
+
+  Bars bars;
+  std::printf(
+      "Milliseconds on two processors, with 1 and with 2 threads, in turns.\n\n"
+      "| | idle: least, 1 | 2 | after an OpenMP loop: least, 1 | 2 | mean, 1 | 2 | busy: mean, 1 | 2 | 2 / 1 |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const Subject &subject : subjects) {
+    const auto nothing = [] {};
+    measure(subject, nothing);
+    const std::array<Times, 2> idle = measure(subject, nothing), after_loop = measure(subject, openmp_loop);
+    busy.send(SIGCONT);
+    const std::array<Times, 2> beside = measure(subject, nothing);
+    busy.send(SIGSTOP);
+    const double ratio = beside[1].mean / beside[0].mean;
+    std::printf("| %s | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f |\n", subject.name.c_str(),
+                idle[0].least, idle[1].least, after_loop[0].least, after_loop[1].least, after_loop[0].mean,
+                after_loop[1].mean, beside[0].mean, beside[1].mean, ratio);
+    std::fflush(stdout);
+    bars.add(subject.name + ", busy: 2 threads / 1", ratio, Wanted::at_most, 2);
+  }
+  std::printf("\n");
+  bars.print();
+  return 0;
+}

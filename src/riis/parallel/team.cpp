@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "parallel/team.hpp"
+
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <utility>
+
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// A thread that waits stays awake for a while, because waking it would take some microseconds. At first it keeps its processor,
+// so that it comes at once even if a caller's thread spins on the same processor. Later it offers the processor to other threads.
+// Then it sleeps. The thread sanitizer keeps a history of accesses, which waiting awake would fill.
+using std::chrono::microseconds;
+#if defined(RIIS_STD_THREADS)
+constexpr microseconds longest_awake{0}, longest_alone{0};
+#else
+constexpr microseconds longest_awake{200}, longest_alone{50};
+#endif
+
+void pause_briefly() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+// Waits awake until the condition holds, and returns whether it does.
+template <class Condition>
+bool wait_awake(const Condition &holds) {
+  const auto start = std::chrono::steady_clock::now();
+  for (;;) {
+    for (int i = 0; i < 16; ++i) {
+      if (holds()) return true;
+      pause_briefly();
+    }
+    const auto waited = std::chrono::steady_clock::now() - start;
+    if (waited > longest_awake) return false;
+    if (waited > longest_alone) sched_yield();
+  }
+}
+
+// The state of a team's loop, in one word: the number of workers inside the loop, the number of places for further workers, and
+// the number of the loop. So a worker takes a place only in a loop that still has one.
+struct State {
+  static constexpr std::uint64_t one_inside = 1, one_place = std::uint64_t{1} << 16, one_loop = std::uint64_t{1} << 32;
+  static constexpr std::uint64_t all_places = one_loop - one_place;
+  std::uint64_t word;
+
+  int n_inside() const { return static_cast<int>(word & 0xffff); }
+  int n_places() const { return static_cast<int>(word >> 16 & 0xffff); }
+  std::uint32_t loop() const { return static_cast<std::uint32_t>(word >> 32); }
+  bool has_place_after(std::uint32_t last_loop) const { return loop() != last_loop && n_places() > 0; }
+};
+
+// A calling thread with its workers. A team serves one loop at a time. Teams and their workers exist until the process ends.
+class Team {
+ public:
+  // Starts workers until the team has n_workers. Returns the number of workers, which is less if the system refuses a thread.
+  int grow_to(int n_workers) {
+    if (n_workers_ < n_workers) {
+      n_processors_ = default_thread_count();
+      // A caller's handlers of signals run on the caller's threads. An error's signal cannot be put off.
+      sigset_t blocked, before;
+      sigfillset(&blocked);
+      for (const int error : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&blocked, error);
+      pthread_attr_t detached;
+      if (pthread_attr_init(&detached) != 0) return n_workers_;
+      pthread_attr_setdetachstate(&detached, PTHREAD_CREATE_DETACHED);
+      pthread_sigmask(SIG_SETMASK, &blocked, &before);
+      pthread_t thread;
+      while (n_workers_ < n_workers && pthread_create(&thread, &detached, serve, this) == 0) ++n_workers_;
+      pthread_sigmask(SIG_SETMASK, &before, nullptr);
+      pthread_attr_destroy(&detached);
+    }
+    return std::min(n_workers_, n_workers);
+  }
+
+  void run(int n_places, int n_busy_threads, void (*work)(void *, int), void *context) {
+    work_ = work, context_ = context;
+    waits_awake_.store(n_busy_threads <= n_processors_, std::memory_order_relaxed);
+    const State closed{state_.load(std::memory_order_relaxed)};
+    const auto n = static_cast<std::uint64_t>(n_places);
+    state_.store(closed.word + State::one_loop + n * State::one_place);
+    // A worker that is awake comes by itself, if the system lets it.
+    const int n_to_wake = n_places - (n_workers_ - n_asleep_.load());
+    if (n_to_wake > 0) {
+      // A worker that has counted itself as asleep holds the mutex until it sleeps.
+      { const std::lock_guard<std::mutex> lock(mutex_); }
+      for (int i = 0; i < n_to_wake; ++i) may_start_.notify_one();
+    }
+    work(context, 0);
+    if (State{state_.fetch_and(~State::all_places)}.n_inside() > 0) wait_for_workers();
+  }
+
+  Team *next = nullptr;  // the next idle team
+
+ private:
+  static void *serve(void *team) {
+    static_cast<Team *>(team)->work_for_ever();
+    return nullptr;
+  }
+
+  [[noreturn]] void work_for_ever() {
+    // The first loop may have begun before this thread. The number of a loop is never 0.
+    for (std::uint32_t last_loop = 0;;) {
+      State state{state_.load()};
+      if (!state.has_place_after(last_loop)) {
+        wait_for_place(last_loop);
+        continue;
+      }
+      if (!state_.compare_exchange_strong(state.word, state.word - State::one_place + State::one_inside)) continue;
+      last_loop = state.loop();
+      work_(context_, state.n_places());
+      const State left{state_.fetch_sub(State::one_inside)};
+      if (left.n_inside() == 1 && caller_sleeps_.load()) {
+        { const std::lock_guard<std::mutex> lock(mutex_); }
+        may_end_.notify_one();
+      }
+    }
+  }
+
+  void wait_for_place(std::uint32_t last_loop) {
+    const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
+    if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
+    std::unique_lock<std::mutex> lock(mutex_);
+    n_asleep_.fetch_add(1);
+    may_start_.wait(lock, has_place);
+    n_asleep_.fetch_sub(1);
+  }
+
+  void wait_for_workers() {
+    const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
+    if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
+    std::unique_lock<std::mutex> lock(mutex_);
+    caller_sleeps_.store(true);
+    may_end_.wait(lock, is_empty);
+    caller_sleeps_.store(false);
+  }
+
+  std::atomic<std::uint64_t> state_{0};
+  void (*work_)(void *, int) = nullptr;
+  void *context_ = nullptr;
+  std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
+  std::atomic<int> n_asleep_{0};
+  std::mutex mutex_;
+  std::condition_variable may_start_, may_end_;
+  int n_workers_ = 0, n_processors_ = 1;
+};
+
+// The idle teams. They are not destroyed when the process ends, because their workers still wait.
+std::mutex teams_mutex;
+Team *idle_teams = nullptr;
+std::atomic<int> n_threads_in_loops{0};
+
+Team *borrow_team() {
+  {
+    const std::lock_guard<std::mutex> lock(teams_mutex);
+    if (Team *const team = idle_teams) {
+      idle_teams = team->next;
+      return team;
+    }
+  }
+  return new Team;
+}
+
+void give_back(Team *team) noexcept {
+  const std::lock_guard<std::mutex> lock(teams_mutex);
+  team->next = std::exchange(idle_teams, team);
+}
+
+}  // namespace
+
+int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {
+  Team *const team = borrow_team();
+  const int n_workers = team->grow_to(n_threads - 1);
+  const int n_busy = n_threads_in_loops.fetch_add(1 + n_workers, std::memory_order_relaxed) + 1 + n_workers;
+  team->run(n_workers, n_busy, work, context);
+  n_threads_in_loops.fetch_sub(1 + n_workers, std::memory_order_relaxed);
+  give_back(team);
+  return 1 + n_workers;
+}
+
+}  // namespace riis

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "loops.h"
+
+#include <omp.h>
+#include <pthread.h>
+#include <signal.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+#include "parallel/parallel_for.hpp"
+
+using namespace riis;
+
+namespace {
+
+struct Seen {
+  bool is_right = true;
+  int n_ran = 0;
+  std::int64_t n_of_caller = 0;  // number of blocks that the calling thread ran
+};
+
+Seen run_loop(std::int64_t n_blocks, int n_threads) {
+  struct Thread {
+    std::int64_t last = -1;
+    std::atomic<int> n_inside{0};
+  };
+  std::vector<std::atomic<int>> n_runs(static_cast<std::size_t>(n_blocks));
+  std::vector<Thread> threads(static_cast<std::size_t>(n_threads));
+  std::atomic<bool> is_right{true};
+  std::atomic<std::int64_t> n_of_caller{0};
+  const std::thread::id caller = std::this_thread::get_id();
+  Seen seen;
+  seen.n_ran = parallel_for(n_blocks, n_threads, [&](std::int64_t block, int number) {
+    const bool is_caller = std::this_thread::get_id() == caller;
+    if (number < 0 || number >= n_threads || (number == 0) != is_caller) {
+      is_right = false;
+      return;
+    }
+    Thread &thread = threads[static_cast<std::size_t>(number)];
+    if (thread.n_inside.fetch_add(1) != 0 || block <= thread.last) is_right = false;
+    thread.last = block;
+    n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
+    if (is_caller) n_of_caller.fetch_add(1, std::memory_order_relaxed);
+    thread.n_inside.fetch_sub(1);
+  });
+  for (const std::atomic<int> &n : n_runs)
+    if (n.load(std::memory_order_relaxed) != 1) is_right = false;
+  seen.is_right = is_right && seen.n_ran >= 1 && seen.n_ran <= n_threads;
+  seen.n_of_caller = n_of_caller;
+  return seen;
+}
+
+void wait_for(const std::atomic<int> &number, int value) {
+  while (number.load() < value) std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+// Runs a loop of two blocks in which each of two threads has to run one. Calls look() on the second thread.
+template <class Look>
+void run_on_both_threads(const Look &look) {
+  std::atomic<int> n_come{0};
+  parallel_for(2, 2, [&](std::int64_t, int thread) {
+    n_come.fetch_add(1);
+    wait_for(n_come, 2);
+    if (thread == 1) look();
+  });
+}
+
+std::atomic<int> is_held{0}, is_released{0};
+
+void hold(int) {
+  is_held = 1;
+  while (is_released == 0) {
+    const timespec brief{0, 100'000};
+    nanosleep(&brief, nullptr);
+  }
+}
+
+}  // namespace
+
+int loop_once(int64_t n_blocks, int n_threads) {
+  const Seen seen = run_loop(n_blocks, n_threads);
+  return seen.is_right ? seen.n_ran : -1;
+}
+
+int loops_at_once(int n_callers, int n_loops) {
+  std::atomic<bool> are_right{true};
+  std::vector<std::thread> callers;
+  for (int caller = 0; caller < n_callers; ++caller)
+    callers.emplace_back([&, caller] {
+      for (int i = 0; i < n_loops; ++i)
+        if (!run_loop(1 + (7 * i + caller) % 50, 1 + (i + caller) % 4).is_right) are_right = false;
+    });
+  for (std::thread &caller : callers) caller.join();
+  return are_right;
+}
+
+int loop_in_a_region(int n_levels) {
+  const int n_levels_before = omp_get_max_active_levels();
+  omp_set_max_active_levels(n_levels);
+  int n_ran[2] = {0, 0};
+#pragma omp parallel num_threads(2)
+  n_ran[omp_get_thread_num()] = loop_once(100, 2);
+  omp_set_max_active_levels(n_levels_before);
+  return n_ran[0] == n_ran[1] ? n_ran[0] : -1;
+}
+
+loop_threads threads_of_a_loop() {
+  loop_threads seen{};
+  run_on_both_threads([&] {
+    sigset_t blocked;
+    pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
+    seen = {omp_in_parallel(), sigismember(&blocked, SIGALRM) == 0, sigismember(&blocked, SIGSEGV) == 0};
+  });
+  return seen;
+}
+
+int loops_while_a_thread_is_held(int n_loops) {
+  pthread_t second = pthread_self(), second_again = pthread_self();
+  run_on_both_threads([&] { second = pthread_self(); });
+  struct sigaction action = {}, before = {};
+  action.sa_handler = hold;
+  if (sigaction(SIGTRAP, &action, &before) != 0) return 0;
+  is_held = is_released = 0;
+  if (pthread_kill(second, SIGTRAP) != 0) return 0;
+  wait_for(is_held, 1);
+  bool are_right = true;
+  for (int i = 0; i < n_loops; ++i) {
+    const Seen seen = run_loop(100, 2);
+    are_right = are_right && seen.is_right && seen.n_ran == 2 && seen.n_of_caller == 100;
+  }
+  is_released = 1;
+  run_on_both_threads([&] { second_again = pthread_self(); });
+  sigaction(SIGTRAP, &before, nullptr);
+  return are_right && pthread_equal(second, second_again);
+}

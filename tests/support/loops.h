@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * C wrappers of the loops of src/riis/parallel. The assertions stay in C, because a failed assertion leaves by longjmp. A loop is
+ * correct if it runs each block once, if each thread sees ascending blocks, and if no two threads have one number. */
+#ifndef RIIS_TEST_LOOPS_H
+#define RIIS_TEST_LOOPS_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns how many threads the loop had, or -1 if it was not correct. */
+int loop_once(int64_t n_blocks, int n_threads);
+/* Starts n_callers threads. Each runs n_loops loops with 1 to 4 threads. Returns 1 if all loops are correct. */
+int loops_at_once(int n_callers, int n_loops);
+/* Runs a loop on two threads inside a parallel region of the caller, which may nest n_levels regions. Returns how many threads
+ * each loop had, or -1. */
+int loop_in_a_region(int n_levels);
+
+typedef struct loop_threads {
+  int are_openmps;         /* the loop is a parallel region of OpenMP */
+  int takes_signals;       /* the second thread does not block SIGALRM */
+  int takes_error_signals; /* the second thread does not block SIGSEGV */
+} loop_threads;
+loop_threads threads_of_a_loop(void);
+
+/* A handler of a signal holds up the second thread of a loop. Runs n_loops loops on two threads, which must end meanwhile, and
+ * releases the thread. Returns 1 if all loops are correct, if the calling thread did all their work, and if the second thread
+ * then takes part again. */
+int loops_while_a_thread_is_held(int n_loops);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
