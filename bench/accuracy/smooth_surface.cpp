@@ -43,7 +43,7 @@ std::size_t SmoothSurface::image_of(std::int32_t patch_id) const {
 }
 
 SmoothSurface::AcrossU SmoothSurface::across_u(const SmoothPatch &patch, double u) const {
-  return {patch.v0.at(u), patch.v1.at(u), patch.bulge ? patch.bulge->at(u) : Vec3{0, 0, 0}};
+  return {patch.v0.at(u), patch.v1.at(u), patch.bulge ? patch.bulge->place(u).offset : Vec3{0, 0, 0}};
 }
 
 SmoothSurface::AcrossV SmoothSurface::across_v(const SmoothPatch &patch, double v) const {

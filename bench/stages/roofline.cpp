@@ -288,7 +288,7 @@ class StagedSteps {
   const riis::Surface &content() const { return riis::content_of(steps_.surface()); }
 
   void search(const riis::Kernels &kernels) {
-    const riis::SearchRequest request{content(), mesh_, half_thickness, nullptr, 1, riis::best_instruction_set()};
+    const riis::SearchRequest request{{content(), half_thickness, nullptr, 1, riis::best_instruction_set()}, mesh_};
     riis::search_clusters(request, mesh_.clusters(1), kernels, marks_.cluster_scratch, found_);
   }
   void put_in_order() {

@@ -220,7 +220,8 @@ void set_series_arrays(const Case &all, std::vector<MovingValve> &valves, const 
 }
 
 void print_summary(const Case &all, const SeriesTable &table, const std::vector<const SeriesFiles *> &lists,
-                   std::int64_t n_nodes, std::optional<std::int64_t> n_written, Report &report) {
+                   const std::string &foam_case, std::int64_t n_nodes, std::optional<std::int64_t> n_written,
+                   Report &report) {
   if (all.options.quiet) return;
   const std::vector<double> &times = all.options.series.times;
   std::string text = take_notes() + "times     " + counted(view(times).size(), "time") + " from " +
@@ -234,8 +235,7 @@ void print_summary(const Case &all, const SeriesTable &table, const std::vector<
     report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +
                              files->folder());
   }
-  if (!writing.foam_case().empty())
-    report.written.push_back(writing.foam_case() + ", fields of " + counted(view(times).size(), "time"));
+  if (!foam_case.empty()) report.written.push_back(foam_case + ", fields of " + counted(view(times).size(), "time"));
   if (!all.options.series.table.empty()) report.written.push_back(all.options.series.table);
   for (const std::string &path : report.written) text += "written   " + path + "\n";
   write_text("-", text);
@@ -275,7 +275,7 @@ ExitCode run_series(Case &all) {
   if (UnbrokenWrite::has_signal())
     std::fprintf(stderr, "riis: interrupted: %zu of %zu written\n", writing.n_done(), options.series.times.size());
   else
-    print_summary(all, writing.table(), {&writing.meshes(), &writing.surfaces()}, n_nodes,
+    print_summary(all, writing.table(), {&writing.meshes(), &writing.surfaces()}, writing.foam_case(), n_nodes,
                   writing.meshes().is_wanted() ? std::optional(n_written) : std::nullopt, report);
   return writing.table().most_marked() == 0 && !options.allow_none ? exit_none_marked : exit_fine;
 }

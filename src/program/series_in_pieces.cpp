@@ -78,7 +78,7 @@ class SeriesInPieces {
       if (ranks::is_first()) std::fprintf(stderr, "riis: interrupted: not all pieces are written\n");
       return exit_fine;
     }
-    print_summary(all_, table_, {&lists_, &surfaces_}, n_nodes, std::nullopt, report);
+    print_summary(all_, table_, {&lists_, &surfaces_}, "", n_nodes, std::nullopt, report);
     return table_.most_marked() == 0 && !options().allow_none ? exit_none_marked : exit_fine;
   }
 
