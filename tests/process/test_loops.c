@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The loops of a time step run on the library's own threads, and do not wait for a thread that does not come. In a process whose
- * user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a caller's parallel region, the threads are OpenMP's. */
+ * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run on a team for a while, which does
+ * not wait for a thread that does not come. In a process whose user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a
+ * caller's parallel region, the threads are always OpenMP's. */
 #include "loops.h"
 #include "test_support.h"
 
@@ -11,17 +12,19 @@ static int is_bound(void) { return omp_get_proc_bind() != omp_proc_bind_false; }
 static void each_block_runs_once(void **state) {
   (void)state;
   const int n_threads[] = {2, 5, 3, 1, 4, 2};
-  const int n_repeats =
-      is_bound() ? 2 : 50; /* OpenMP's threads wait for each other, which takes long on a busy machine */
-  for (int repeat = 0; repeat < n_repeats; ++repeat)
+  for (int repeat = 0; repeat < 50; ++repeat)
     for (int i = 0; i < 6; ++i)
-      for (int64_t n_blocks = 0; n_blocks < 40; n_blocks += 13)
-        assert_int_equal(loop_once(n_blocks, n_threads[i]), n_blocks > 1 ? n_threads[i] : 1);
+      for (int64_t n_blocks = 0; n_blocks < 40; n_blocks += 13) {
+        const int n_expected = n_blocks > 1 ? n_threads[i] : 1;
+        assert_int_equal(team_loop_once(n_blocks, n_threads[i]), n_expected);
+        /* OpenMP's threads wait for each other, which takes long on a busy machine. */
+        if (repeat < 2) assert_int_equal(loop_once(n_blocks, n_threads[i]), n_expected);
+      }
 }
 
 static void callers_do_not_disturb_each_other(void **state) {
   (void)state;
-  assert_true(loops_at_once(5, is_bound() ? 5 : 300));
+  assert_true(loops_at_once(5, is_bound() ? 5 : 100));
 }
 
 static void a_callers_region_may_nest(void **state) {
@@ -33,15 +36,55 @@ static void a_callers_region_may_nest(void **state) {
 static void the_threads_leave_signals_to_the_caller(void **state) {
   (void)state;
   const loop_threads seen = threads_of_a_loop();
-  assert_int_equal(seen.are_openmps, is_bound());
-  assert_int_equal(seen.takes_signals, is_bound());
+  assert_false(seen.takes_signals);
   assert_true(seen.takes_error_signals);
 }
 
 /* This would wait for ever if a loop waited for all of its threads. */
 static void loops_end_while_a_thread_is_held(void **state) {
   (void)state;
-  if (!is_bound()) assert_true(loops_while_a_thread_is_held(200));
+  assert_true(loops_while_a_thread_is_held(200));
+}
+
+static void a_long_wait_chooses_a_team(void **state) {
+  (void)state;
+  if (is_bound())
+    assert_false(wait_long_for_a_thread());
+  else
+    assert_true(wait_long_for_a_thread());
+}
+
+/* Times are in milliseconds here. */
+static int takes_team_at(double now, int n_loops, const double *waited, const double *ended) {
+  int64_t times[2][8] = {{0}};
+  for (int i = 0; i < n_loops; ++i) {
+    times[0][i] = (int64_t)(1e6 * waited[i]);
+    times[1][i] = (int64_t)(1e6 * ended[i]);
+  }
+  return choice_after(n_loops, times[0], times[1], (int64_t)(1e6 * now));
+}
+
+static void the_choice_lasts_for_a_while(void **state) {
+  (void)state;
+  const double brief[] = {1.9}, waits[8] = {10, 5, 5, 5, 5, 5, 5, 5};
+  const double ended[] = {100, 400, 1000, 20000};
+  assert_false(takes_team_at(1, 0, NULL, NULL));
+  assert_false(takes_team_at(101, 1, brief, ended)); /* blocks of unequal length */
+  assert_true(takes_team_at(101, 1, waits, ended));
+  assert_true(takes_team_at(349, 1, waits, ended));
+  assert_false(takes_team_at(351, 1, waits, ended));
+  /* The second wait comes soon after the pause, so the next pause is twice as long. */
+  assert_true(takes_team_at(899, 2, waits, ended));
+  assert_false(takes_team_at(901, 2, waits, ended));
+  assert_true(takes_team_at(1999, 3, waits, ended));
+  assert_false(takes_team_at(2001, 3, waits, ended));
+  /* After a calm time the pause is short again. */
+  assert_true(takes_team_at(20249, 4, waits, ended));
+  assert_false(takes_team_at(20251, 4, waits, ended));
+  /* No pause is longer than 8 s. */
+  const double ends[8] = {0, 300, 900, 2000, 4100, 8200, 16300, 24400};
+  assert_true(takes_team_at(32399, 8, waits, ends));
+  assert_false(takes_team_at(32401, 8, waits, ends));
 }
 
 int main(void) {
@@ -51,6 +94,8 @@ int main(void) {
       cmocka_unit_test(a_callers_region_may_nest),
       cmocka_unit_test(the_threads_leave_signals_to_the_caller),
       cmocka_unit_test(loops_end_while_a_thread_is_held),
+      cmocka_unit_test(a_long_wait_chooses_a_team),
+      cmocka_unit_test(the_choice_lasts_for_a_while),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,7 @@ struct Seen {
   std::int64_t n_of_caller = 0;  // number of blocks that the calling thread ran
 };
 
-Seen run_loop(std::int64_t n_blocks, int n_threads) {
+Seen run_loop(std::int64_t n_blocks, int n_threads, bool by_team = false) {
   struct Thread {
     std::int64_t last = -1;
     std::atomic<int> n_inside{0};
@@ -34,7 +34,7 @@ Seen run_loop(std::int64_t n_blocks, int n_threads) {
   std::atomic<std::int64_t> n_of_caller{0};
   const std::thread::id caller = std::this_thread::get_id();
   Seen seen;
-  seen.n_ran = parallel_for(n_blocks, n_threads, [&](std::int64_t block, int number) {
+  const auto body = [&](std::int64_t block, int number) {
     const bool is_caller = std::this_thread::get_id() == caller;
     if (number < 0 || number >= n_threads || (number == 0) != is_caller) {
       is_right = false;
@@ -46,7 +46,8 @@ Seen run_loop(std::int64_t n_blocks, int n_threads) {
     n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
     if (is_caller) n_of_caller.fetch_add(1, std::memory_order_relaxed);
     thread.n_inside.fetch_sub(1);
-  });
+  };
+  seen.n_ran = by_team ? team_for(n_blocks, n_threads, body) : parallel_for(n_blocks, n_threads, body);
   for (const std::atomic<int> &n : n_runs)
     if (n.load(std::memory_order_relaxed) != 1) is_right = false;
   seen.is_right = is_right && seen.n_ran >= 1 && seen.n_ran <= n_threads;
@@ -58,11 +59,11 @@ void wait_for(const std::atomic<int> &number, int value) {
   while (number.load() < value) std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
 
-// Runs a loop of two blocks in which each of two threads has to run one. Calls look() on the second thread.
+// Runs a loop of two blocks on a team. Each of two threads has to run one block. Calls look() on the second thread.
 template <class Look>
 void run_on_both_threads(const Look &look) {
   std::atomic<int> n_come{0};
-  parallel_for(2, 2, [&](std::int64_t, int thread) {
+  team_for(2, 2, [&](std::int64_t, int thread) {
     n_come.fetch_add(1);
     wait_for(n_come, 2);
     if (thread == 1) look();
@@ -86,13 +87,42 @@ int loop_once(int64_t n_blocks, int n_threads) {
   return seen.is_right ? seen.n_ran : -1;
 }
 
+int team_loop_once(int64_t n_blocks, int n_threads) {
+  const Seen seen = run_loop(n_blocks, n_threads, true);
+  return seen.is_right ? seen.n_ran : -1;
+}
+
+int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now) {
+  LoopChoice choice;
+  for (int i = 0; i < n_loops; ++i) choice.record(waited[i], ended[i]);
+  return choice.takes_team(now);
+}
+
+int next_loop_is_on_a_team() {
+  bool are_openmps = true;
+  parallel_for(2, 2, [&](std::int64_t block, int) {
+    if (block == 0) are_openmps = omp_in_parallel() != 0;
+  });
+  return !are_openmps;
+}
+
+int wait_long_for_a_thread() {
+  std::atomic<int> n_come{0};
+  parallel_for(2, 2, [&](std::int64_t, int thread) {
+    n_come.fetch_add(1);
+    wait_for(n_come, 2);
+    if (thread == 1) std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  });
+  return next_loop_is_on_a_team();
+}
+
 int loops_at_once(int n_callers, int n_loops) {
   std::atomic<bool> are_right{true};
   std::vector<std::thread> callers;
   for (int caller = 0; caller < n_callers; ++caller)
     callers.emplace_back([&, caller] {
       for (int i = 0; i < n_loops; ++i)
-        if (!run_loop(1 + (7 * i + caller) % 50, 1 + (i + caller) % 4).is_right) are_right = false;
+        if (!run_loop(1 + (7 * i + caller) % 50, 1 + (i + caller) % 4, i % 4 != 0).is_right) are_right = false;
     });
   for (std::thread &caller : callers) caller.join();
   return are_right;
@@ -113,7 +143,7 @@ loop_threads threads_of_a_loop() {
   run_on_both_threads([&] {
     sigset_t blocked;
     pthread_sigmask(SIG_SETMASK, nullptr, &blocked);
-    seen = {omp_in_parallel(), sigismember(&blocked, SIGALRM) == 0, sigismember(&blocked, SIGSEGV) == 0};
+    seen = {sigismember(&blocked, SIGALRM) == 0, sigismember(&blocked, SIGSEGV) == 0};
   });
   return seen;
 }
@@ -129,7 +159,7 @@ int loops_while_a_thread_is_held(int n_loops) {
   wait_for(is_held, 1);
   bool are_right = true;
   for (int i = 0; i < n_loops; ++i) {
-    const Seen seen = run_loop(100, 2);
+    const Seen seen = run_loop(100, 2, true);
     are_right = are_right && seen.is_right && seen.n_ran == 2 && seen.n_of_caller == 100;
   }
   is_released = 1;

@@ -12,20 +12,29 @@ extern "C" {
 
 /* Returns how many threads the loop had, or -1 if it was not correct. */
 int loop_once(int64_t n_blocks, int n_threads);
-/* Starts n_callers threads. Each runs n_loops loops with 1 to 4 threads. Returns 1 if all loops are correct. */
+/* Does the same on a team. */
+int team_loop_once(int64_t n_blocks, int n_threads);
+/* Records loops of OpenMP, times in nanoseconds, and returns whether a loop that begins now takes a team. */
+int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);
+/* Runs a loop and returns whether it ran on a team. */
+int next_loop_is_on_a_team(void);
+/* Runs a loop in which the calling thread waits 300 ms for the other thread. Returns whether the next loop runs on a team. */
+int wait_long_for_a_thread(void);
+/* Starts n_callers threads. Each runs n_loops loops with 1 to 4 threads, three of four on teams. Returns 1 if all loops are
+ * correct. */
 int loops_at_once(int n_callers, int n_loops);
 /* Runs a loop on two threads inside a parallel region of the caller, which may nest n_levels regions. Returns how many threads
  * each loop had, or -1. */
 int loop_in_a_region(int n_levels);
 
 typedef struct loop_threads {
-  int are_openmps;         /* the loop is a parallel region of OpenMP */
   int takes_signals;       /* the second thread does not block SIGALRM */
   int takes_error_signals; /* the second thread does not block SIGSEGV */
 } loop_threads;
+/* Returns what the second thread of a team does with signals. */
 loop_threads threads_of_a_loop(void);
 
-/* A handler of a signal holds up the second thread of a loop. Runs n_loops loops on two threads, which must end meanwhile, and
+/* A handler of a signal holds up the second thread of a team. Runs n_loops loops on two threads, which must end meanwhile, and
  * releases the thread. Returns 1 if all loops are correct, if the calling thread did all their work, and if the second thread
  * then takes part again. */
 int loops_while_a_thread_is_held(int n_loops);

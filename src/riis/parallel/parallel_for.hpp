@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. Loops of a time step run on the library's own threads, and the exhaustive search runs on
-// OpenMP's. No other file uses OpenMP.
+// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step run on OpenMP's threads
+// or, after a long wait for one of them, on a team. No other file uses OpenMP.
 #pragma once
 
 #include <omp.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <mutex>
@@ -83,33 +84,60 @@ int run_alone(std::int64_t n_blocks, const Body &body) {
 // threads ran. The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as
 // nesting allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no
 // memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, and the next loop has to wait for new ones.
-template <class Body>
-int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+// threads that are left out, and the next loop has to wait for new ones. Calls worked() when the calling thread has no more work.
+template <class Body, class Worked>
+int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Worked &worked) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks<Body> blocks(n_blocks, body);
   int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran)
+#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, worked)
   {
     const int thread = omp_get_thread_num();
     if (thread == 0) n_ran = omp_get_num_threads();
     blocks.run(thread);
+    if (thread == 0) worked();
   }
   blocks.rethrow();
   return n_ran;
 }
-
-// Does the same on threads of the library's own (team.hpp), and so does not wait for a thread that another process holds up. The
-// threads are OpenMP's in two cases: inside a caller's parallel region, and if the user binds OpenMP's threads to places.
 template <class Body>
-int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+  return openmp_for(n_blocks, n_threads, body, [] {});
+}
+
+// Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up.
+template <class Body>
+int team_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
-  if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
   Blocks<Body> blocks(n_blocks, body);
   const int n_ran = run_by_team(
       n_threads, [](void *context, int thread) { static_cast<Blocks<Body> *>(context)->run(thread); }, &blocks);
   blocks.rethrow();
   return n_ran;
+}
+
+inline std::int64_t nanoseconds() noexcept {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+// Does the same on threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's parallel
+// region, and if the user binds OpenMP's threads to places.
+template <class Body>
+int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
+  if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
+  if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
+#if defined(RIIS_STD_THREADS)
+  return team_for(n_blocks, n_threads, body);  // the thread sanitizer then sees the loops of a time step on a team
+#else
+  const std::int64_t begin = nanoseconds();
+  if (loop_choice.takes_team(begin)) return team_for(n_blocks, n_threads, body);
+  std::int64_t has_worked = begin;
+  const int n_ran = openmp_for(n_blocks, n_threads, body, [&has_worked] { has_worked = nanoseconds(); });
+  const std::int64_t end = nanoseconds();
+  loop_choice.record(end - has_worked, end);
+  return n_ran;
+#endif
 }
 
 // Calls body(range, thread) for the ranges of per_block numbers in [0, n). The last range may be shorter.

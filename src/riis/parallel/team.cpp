@@ -182,6 +182,8 @@ void give_back(Team *team) noexcept {
 
 }  // namespace
 
+LoopChoice loop_choice;
+
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {
   Team *const team = borrow_team();
   const int n_workers = team->grow_to(n_threads - 1);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of loops. Between loops they wait, first awake and then asleep. A loop does not wait for a thread that another
-// process keeps from coming: the calling thread then does the work.
+// Threads for the loops of a time step on a busy machine. Between loops they wait, first awake and then asleep. A loop does not
+// wait for a thread that another process keeps from coming: the calling thread then does the work.
 #pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
 
 namespace riis {
 
@@ -9,5 +13,32 @@ namespace riis {
 // comes before the call on the calling thread has returned. Returns after all these calls have returned. The result is the number
 // of threads that were called, which is less than n_threads only if the system refuses a thread. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
+
+// Chooses between OpenMP's threads and a team. OpenMP's threads begin a loop sooner, and they are also the threads of the caller's
+// own loops. But a loop waits for all of them at its end, for as long as another process holds a processor. After such a wait,
+// teams run the loops for a while. Each further such wait doubles this time. All times are in nanoseconds.
+class LoopChoice {
+ public:
+  static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 8'000'000'000;
+
+  bool takes_team(std::int64_t now) const noexcept { return now < until_.load(std::memory_order_relaxed); }
+  // Records a loop of OpenMP that ended now. The calling thread had then waited so long for the other threads. On a quiet machine
+  // it waits for one block at most, which takes less than a millisecond.
+  void record(std::int64_t waited, std::int64_t now) noexcept {
+    if (waited < long_wait) return;
+    const std::int64_t last = until_.load(std::memory_order_relaxed);
+    const bool is_first = last == 0 || now - last > longest_pause;
+    const std::int64_t pause =
+        is_first ? first_pause : std::min(2 * pause_.load(std::memory_order_relaxed), longest_pause);
+    pause_.store(pause, std::memory_order_relaxed);
+    until_.store(now + pause, std::memory_order_relaxed);
+  }
+
+ private:
+  std::atomic<std::int64_t> until_{0}, pause_{first_pause};
+};
+
+// The choice of this process. The loops of several threads of the caller may record at once; any of their values serves.
+extern LoopChoice loop_choice;
 
 }  // namespace riis
