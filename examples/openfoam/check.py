@@ -272,15 +272,18 @@ def moving(cases):
             require(later[name] > 0.15, f"{name}: |Fz| after 20 ms is what riisSource cures: {later[name]:.3f} N")
 
     print("The same, by other ranks, solvers and valves. The largest difference of a force from that of 1 rank:")
-    for first, names in (("hexahedra-24-riisSource", ("ranks-2", "ranks-4", "two-valves", "pisoFoam")),
-                         ("tetrahedra-riisSource", ("tetrahedra-ranks-2", "tetrahedra-ranks-4"))):
+    # Corrections for edges that are not orthogonal to faces do not converge within a step, so tetrahedra differ more.
+    for first, share, names in (("hexahedra-24-riisSource", 1e-3, ("ranks-2", "ranks-4", "two-valves", "pisoFoam")),
+                                ("tetrahedra-riisSource", 1e-2, ("tetrahedra-ranks-2", "tetrahedra-ranks-4"))):
         whole = forces(cases / first)
+        largest_force = abs(whole[:, 1:]).max()
         for name in names:
             rows = forces(cases / name)
             require(rows.shape == whole.shape, f"{name} has {len(whole)} steps, not {len(rows)}")
             largest = abs(rows - whole).max()
             print(f"  {name:<24} {largest:.1e} N")
-            require(largest < 1e-3, f"{name} has the forces of {first} to 1e-3 N: {largest:.1e}")
+            require(largest < share * largest_force,
+                    f"{name} has the forces of {first} to {share:g} of the largest, {largest_force:.3f} N: {largest:.1e}")
     still = [forces(cases / f"rest-{solver}") for solver in ("PCG", "riisSource")]
     require((still[0] == still[1]).all() and abs(still[0][-1, 3]) > 0.01,
             f"a valve at rest has the same force, not 0, with riisSource and without: {still[0][-1, 3]} and {still[1][-1, 3]} N")
