@@ -223,7 +223,7 @@ def write_stl(path, triangles):
             file.write(struct.pack("<12fH", *normal, *a, *b, *c, 0))
 
 
-def write_landmarks(path, root, rng, noise, n_attachment):
+def write_landmarks(path, root, rng, noise, n_attachment=0):
     points = [{"id": str(i + 1), "label": name, "position": [round(x + rng.gauss(0, noise), 3) for x in place],
                "positionStatus": "defined"} for i, (name, place) in enumerate(root.landmarks(n_attachment))]
     markups = {"type": "Fiducial", "coordinateSystem": "LPS", "coordinateUnits": "mm", "controlPoints": points}

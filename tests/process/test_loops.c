@@ -40,7 +40,7 @@ static void the_threads_leave_signals_to_the_caller(void **state) {
   assert_true(seen.takes_error_signals);
 }
 
-/* This would wait for ever if a loop waited for all of its threads. */
+/* This would wait for ever if a loop waited for all of its threads. It is the first test, so the team has only one more thread. */
 static void loops_end_while_a_thread_is_held(void **state) {
   (void)state;
   assert_true(loops_while_a_thread_is_held(200));
@@ -89,11 +89,11 @@ static void the_choice_lasts_for_a_while(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(loops_end_while_a_thread_is_held),
       cmocka_unit_test(each_block_runs_once),
       cmocka_unit_test(callers_do_not_disturb_each_other),
       cmocka_unit_test(a_callers_region_may_nest),
       cmocka_unit_test(the_threads_leave_signals_to_the_caller),
-      cmocka_unit_test(loops_end_while_a_thread_is_held),
       cmocka_unit_test(a_long_wait_chooses_a_team),
       cmocka_unit_test(the_choice_lasts_for_a_while),
   };

@@ -107,12 +107,16 @@ int next_loop_is_on_a_team() {
 }
 
 int wait_long_for_a_thread() {
-  std::atomic<int> n_come{0};
-  parallel_for(2, 2, [&](std::int64_t, int thread) {
-    n_come.fetch_add(1);
-    wait_for(n_come, 2);
-    if (thread == 1) std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  });
+  // On a busy machine an earlier wait may have chosen a team, for 8 seconds at most.
+  for (bool are_openmps = false; !are_openmps;) {
+    std::atomic<int> n_come{0};
+    parallel_for(2, 2, [&](std::int64_t, int thread) {
+      n_come.fetch_add(1);
+      wait_for(n_come, 2);
+      if (thread == 0) are_openmps = omp_in_parallel() != 0;
+      if (thread == 1) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    });
+  }
   return next_loop_is_on_a_team();
 }
 

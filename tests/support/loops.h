@@ -18,7 +18,8 @@ int team_loop_once(int64_t n_blocks, int n_threads);
 int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);
 /* Runs a loop and returns whether it ran on a team. */
 int next_loop_is_on_a_team(void);
-/* Runs a loop in which the calling thread waits 300 ms for the other thread. Returns whether the next loop runs on a team. */
+/* Runs a loop of OpenMP in which the calling thread waits 100 ms for the other thread. Returns whether the next loop runs on a
+ * team. */
 int wait_long_for_a_thread(void);
 /* Starts n_callers threads. Each runs n_loops loops with 1 to 4 threads, three of four on teams. Returns 1 if all loops are
  * correct. */
@@ -34,9 +35,9 @@ typedef struct loop_threads {
 /* Returns what the second thread of a team does with signals. */
 loop_threads threads_of_a_loop(void);
 
-/* A handler of a signal holds up the second thread of a team. Runs n_loops loops on two threads, which must end meanwhile, and
- * releases the thread. Returns 1 if all loops are correct, if the calling thread did all their work, and if the second thread
- * then takes part again. */
+/* A handler of a signal holds up the second thread of a team. No earlier loop may have used more than two threads. Runs n_loops
+ * loops on two threads, which must end meanwhile, and releases the thread. Returns 1 if all loops are correct, if the calling thread
+ * did all their work, and if the second thread then takes part again. */
 int loops_while_a_thread_is_held(int n_loops);
 
 #ifdef __cplusplus

@@ -9,8 +9,10 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <utility>
 
 #include "parallel/parallel_for.hpp"
@@ -159,8 +161,13 @@ class Team {
   int n_workers_ = 0, n_processors_ = 1;
 };
 
-// The idle teams. They are not destroyed when the process ends, because their workers still wait.
+// The idle teams. They are not destroyed when the process ends, because their workers still wait. There are as many teams as
+// threads of the caller that were inside loops at once. The first few teams need no allocation, so they are no part of a call's
+// memory.
+constexpr std::size_t n_first_teams = 16;
+alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;
+std::size_t n_made = 0;
 Team *idle_teams = nullptr;
 std::atomic<int> n_threads_in_loops{0};
 
@@ -171,6 +178,7 @@ Team *borrow_team() {
       idle_teams = team->next;
       return team;
     }
+    if (n_made < n_first_teams) return new (first_teams[n_made++]) Team;
   }
   return new Team;
 }
