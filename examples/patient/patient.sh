@@ -121,8 +121,8 @@ random_patients() {
   return "$patient_failed"
 }
 
-# attachment_of_patient SEED NOISE WARP FILE: places the valve by landmarks with this noise. Writes a distance into the file: 95 % of
-# the valve's attachment lie within it of the patient's attachment.
+# attachment_of_patient SEED NOISE WARP FILE: places the valve by landmarks with this noise. Writes a distance into the file: 95 %
+# of the valve's attachment lie within it of the patient's attachment.
 attachment_of_patient() {
   local make=$here/examples/patient/make_patient.py
   python3 -B "$make" "$4.d" --random --seed "$1" --attachment 3 --noise "$2" &&

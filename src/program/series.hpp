@@ -55,8 +55,8 @@ void move_to_least_openings(const Case &all, std::vector<MovingValve> &valves);
 // Moves the valves to a step, marks the nodes, and sets the arrays in the part.
 void set_series_arrays(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *nodes, riis_vtk_mesh *part,
                        std::size_t step);
-// Prints the summary at the end of a series. `foam_case` is the case of OpenFOAM that got fields, or "". `n_written` is the number
-// of nodes in each file, or nothing if it is not printed.
+// Prints the summary at the end of a series. `foam_case` is the case of OpenFOAM that got fields, or "". `n_written` is the
+// number of nodes in each file, or nothing if it is not printed.
 void print_summary(const Case &all, const SeriesTable &table, const std::vector<const SeriesFiles *> &lists,
                    const std::string &foam_case, std::int64_t n_nodes, std::optional<std::int64_t> n_written,
                    Report &report);

@@ -16,7 +16,7 @@ extern const bool has_hdf5;
 // Reads n numbers of a dataset as doubles or as 64-bit integers. Fails unless the dataset has exactly n and the file holds them.
 // is_single tells whether they are real numbers of 32 bits in the file.
 template <class Number>
-std::vector<Number> read_hdf5(const std::string &path, const std::string &dataset, std::int64_t n, bool &is_single);
+std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 
 // An HDF5 file that is complete or does not exist, as ReplacingFile.
 class Hdf5Writer {

@@ -80,8 +80,8 @@ class Source {
   std::string_view word() { return take_word(rest_); }
 
   // Returns the number that a word is.
-  std::int64_t integer_of(std::string_view word) const;
-  double real_of(std::string_view word) const;
+  std::int64_t integer_of(std::string_view text) const;
+  double real_of(std::string_view text) const;
   // Reads the next number. A binary one has n_bytes bytes, and a real one of 4 bytes is a float.
   std::int64_t integer(int n_bytes);
   double real(int n_bytes);

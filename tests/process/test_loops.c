@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run on a team for a while, which does
- * not wait for a thread that does not come. In a process whose user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a
- * caller's parallel region, the threads are always OpenMP's. */
+ * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run on a team for a while, which
+ * does not wait for a thread that does not come. In a process whose user binds OpenMP's threads to places (OMP_PROC_BIND), and
+ * inside a caller's parallel region, the threads are always OpenMP's. */
 #include "loops.h"
 #include "test_support.h"
 
@@ -40,7 +40,8 @@ static void the_threads_leave_signals_to_the_caller(void **state) {
   assert_true(seen.takes_error_signals);
 }
 
-/* This would wait for ever if a loop waited for all of its threads. It is the first test, so the team has only one more thread. */
+/* This would wait for ever if a loop waited for all of its threads. It is the first test, so the team has only one more
+ * thread. */
 static void loops_end_while_a_thread_is_held(void **state) {
   (void)state;
   assert_true(loops_while_a_thread_is_held(200));

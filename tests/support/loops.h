@@ -36,8 +36,8 @@ typedef struct loop_threads {
 loop_threads threads_of_a_loop(void);
 
 /* A handler of a signal holds up the second thread of a team. No earlier loop may have used more than two threads. Runs n_loops
- * loops on two threads, which must end meanwhile, and releases the thread. Returns 1 if all loops are correct, if the calling thread
- * did all their work, and if the second thread then takes part again. */
+ * loops on two threads, which must end meanwhile, and releases the thread. Returns 1 if all loops are correct, if the calling
+ * thread did all their work, and if the second thread then takes part again. */
 int loops_while_a_thread_is_held(int n_loops);
 
 #ifdef __cplusplus

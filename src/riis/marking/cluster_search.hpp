@@ -65,8 +65,8 @@ bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 // Returns whether most triangles are farther than the limit from most nodes near the surface.
 bool has_few_near(const NodeSearch &request);
 
-// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels` must be those of the
-// request's instructions, except that ./run bench roofline passes kernels that count operations.
+// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
+// must be those of the request's instructions, except that ./run bench roofline passes kernels that count operations.
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

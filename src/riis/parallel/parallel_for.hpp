@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step run on OpenMP's threads
-// or, after a long wait for one of them, on a team. No other file uses OpenMP.
+// SPDX-License-Identifier: Apache-2.0 Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops
+// of a time step run on OpenMP's threads or, after a long wait for one of them, on a team. No other file uses OpenMP.
 #pragma once
 
 #include <omp.h>

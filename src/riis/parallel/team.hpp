@@ -14,9 +14,9 @@ namespace riis {
 // of threads that were called, which is less than n_threads only if the system refuses a thread. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
-// Chooses between OpenMP's threads and a team. OpenMP's threads begin a loop sooner, and they are also the threads of the caller's
-// own loops. But a loop waits for all of them at its end, for as long as another process holds a processor. After such a wait,
-// teams run the loops for a while. Each further such wait doubles this time. All times are in nanoseconds.
+// Chooses between OpenMP's threads and a team. OpenMP's threads begin a loop sooner, and they are also the threads of the
+// caller's own loops. But a loop waits for all of them at its end, for as long as another process holds a processor. After such a
+// wait, teams run the loops for a while. Each further such wait doubles this time. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 8'000'000'000;
