@@ -2,6 +2,7 @@
 #include "program/mesh_reading.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -17,6 +19,7 @@
 #include <set>
 #include <utility>
 
+#include "program/outputs.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_source.hpp"
 
@@ -43,10 +46,12 @@ class PassingFolder {
     if (!mkdtemp(path_.data()))
       throw Refusal{exit_bad_data, "no temporary folder can be made in " + fs::path(path_).parent_path().string() +
                                        ": " + std::strerror(errno) + "; TMPDIR may name another place"};
+    remove_if_ended(path_, mesh());
   }
   ~PassingFolder() {
     std::error_code error;
     fs::remove_all(path_, error);
+    remove_if_ended("", "");
   }
   PassingFolder(const PassingFolder &) = delete;
   PassingFolder &operator=(const PassingFolder &) = delete;
@@ -57,12 +62,17 @@ class PassingFolder {
   std::string path_;
 };
 
-// Limits the memory of this process, because a damaged file may claim any size. An honest file needs a few times its size, and
-// up to a thousand times if it is compressed. The address sanitizer reserves terabytes, so there is no limit under it.
+// Limits the memory of this process, because damaged files may claim any size. Honest files need a few times their size, and up
+// to a thousand times if they are compressed. The address sanitizer reserves terabytes, so there is no limit under it.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
+  std::uintmax_t size = fs::file_size(path, error);
+  for (const std::string &file : data_files_of(path)) {
+    std::error_code unknown;
+    const std::uintmax_t more = fs::file_size(file, unknown);
+    if (!unknown) size += more;
+  }
   std::ifstream statm("/proc/self/statm");
   std::uintmax_t n_pages = 0;
   if (error || !(statm >> n_pages)) return;
@@ -82,9 +92,14 @@ struct Answer {
 };
 
 // Reads the mesh, writes it again as a .vtu, and answers through the pipe.
-[[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer) {
+[[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
   // Readers print errors of their own. This process's message goes through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
+  // This process ends with its parent, and removes nothing of its parent's.
+  for (const int ending : {SIGINT, SIGTERM, SIGHUP})
+    if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
   for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
   const rlimit none = {0, 0};
   setrlimit(RLIMIT_CORE, &none);
@@ -131,13 +146,13 @@ MeshFile read_by_child(const std::string &path) {
   const PassingFolder folder;
   int ends[2];
   if (pipe(ends) != 0) throw Refusal{exit_bad_data, std::string("no pipe to a child process: ") + std::strerror(errno)};
-  const pid_t child = fork();
+  const pid_t parent = getpid(), child = fork();
   if (child < 0) {
     close(ends[0]);
     close(ends[1]);
     throw Refusal{exit_bad_data, std::string("no child process to read ") + path + ": " + std::strerror(errno)};
   }
-  if (child == 0) read_as_child(path, folder.mesh(), ends[1]);
+  if (child == 0) read_as_child(path, folder.mesh(), ends[1], parent);
   close(ends[1]);
   const Answer answer = answer_of(ends[0]);
   close(ends[0]);
@@ -149,6 +164,8 @@ MeshFile read_by_child(const std::string &path) {
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
     throw Refusal{exit_bad_data,
                   path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status))};
+  if (answer.status == RIIS_OUT_OF_MEMORY)
+    throw Refusal{exit_bad_data, answer.text + "; its reader may take 2 GB and a thousand times the size of its files"};
   if (answer.status != RIIS_OK)
     throw Refusal{
         exit_bad_data,
@@ -165,6 +182,26 @@ bool has_poly_mesh(const fs::path &folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> data_files_of(const std::string &path) {
+  if (!has_ending(path, ".xdmf") && !has_ending(path, ".xmf")) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::vector<std::string> found;
+  constexpr std::size_t longest = PATH_MAX;
+  while (std::getline(file, text, '<')) {
+    text.erase(0, text.find('>') + 1);
+    if (text.size() > longest) continue;  // numbers
+    const std::size_t begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
+    if (begin == std::string::npos) continue;
+    text = text.substr(begin, end + 1 - begin);
+    const std::string name = text.substr(0, text.find(":/"));  // a dataset may follow the file
+    const fs::path place = fs::path(path).parent_path() / name;
+    std::error_code error;
+    if (fs::is_regular_file(place, error)) found.push_back(place.string());
+  }
+  return found;
+}
 
 MeshFile read_mesh_file(const std::string &path) {
   if (may_crash(path)) return read_by_child(path);

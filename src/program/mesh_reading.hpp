@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "program/handles.hpp"
 
@@ -10,6 +11,8 @@ namespace riis::program {
 
 // Reads a mesh. Keeps the reader's note, such as that the file has single precision, for the summary.
 MeshFile read_mesh_file(const std::string &path);
+// Returns the files that an .xdmf file takes numbers from, as far as they exist, and none for other files.
+std::vector<std::string> data_files_of(const std::string &path);
 // Returns the lines of the notes since the last call, for the beginning of the summary.
 std::string take_notes();
 

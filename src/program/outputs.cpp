@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -85,14 +87,19 @@ NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> 
   for (const std::string &path : more_inputs)
     inputs.push_back({series.case_file.empty() ? "--surface" : "--case", path});
   for (const std::string &path : options.pieces) inputs.push_back({"MESH", path});
+  for (const std::string &path : data_files_of(options.mesh)) inputs.push_back({"MESH", path});
   return inputs;
 }
+
+// Returns the file of an .xdmf file's numbers.
+std::string numbers_of(const std::string &xdmf) { return fs::path(xdmf).replace_extension("h5").string(); }
 
 NamedFiles outputs_of(const MarkOptions &options) {
   // Fields of OpenFOAM go into a folder.
   const bool is_folder = is_foam_case(options.output) || is_foam_time(options.output);
   NamedFiles outputs = {{"--output", is_folder ? "" : options.output},
                         {options.surface_output_option, options.surface_output}};
+  if (has_ending(options.output, ".xdmf")) outputs.push_back({"--output", numbers_of(options.output)});
   for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
@@ -215,6 +222,7 @@ void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
   else if (has_pieces || !has_ending(path, ".xdmf"))
     check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
   check_place(path);
+  if (has_ending(path, ".xdmf")) check_place(numbers_of(path));
 }
 
 }  // namespace
@@ -323,6 +331,9 @@ std::vector<std::string> held_locks;
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
+// A file of this process and its folder, which a signal that ends the process removes. Empty names stand for none.
+char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
+
 void remove_held() {
   for (const std::string &path : held_locks) unlink(path.c_str());
 }
@@ -331,6 +342,8 @@ void remove_held() {
 // follows.
 void remove_and_end(int signal) {
   remove_held();
+  unlink(scratch_file);
+  rmdir(scratch_folder);
   std::raise(signal);
 }
 
@@ -408,6 +421,13 @@ int take(const std::string &output, const std::string &lock) {
 }
 
 }  // namespace
+
+void remove_if_ended(const std::string &folder, const std::string &file) {
+  if (folder.size() >= PATH_MAX || file.size() >= PATH_MAX) return;
+  const SignalsWait wait;
+  std::strcpy(scratch_folder, folder.c_str());
+  std::strcpy(scratch_file, file.c_str());
+}
 
 OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
   const SignalsWait wait;

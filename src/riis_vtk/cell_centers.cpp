@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <tuple>
 #include <utility>
 
 #include <vtkCell.h>
@@ -78,14 +80,30 @@ Vector center_of_cell(vtkCell *cell) {
   return volume > 0 ? 1 / volume * moment : mean;
 }
 
-// A face, by its three smallest nodes, and a cell that it belongs to.
+// A face, by its nodes, and a cell that it belongs to. Faces may have three nodes in common, if these lie on one edge. So the other
+// nodes count also, by their number and a hash.
 struct FaceOfCell {
-  std::array<vtkIdType, 3> nodes;
+  std::array<vtkIdType, 3> smallest;
+  std::uint64_t others;
   std::int64_t cell;
+
+  bool is_face_of(const FaceOfCell &other) const { return smallest == other.smallest && others == other.others; }
   bool operator<(const FaceOfCell &other) const {
-    return nodes != other.nodes ? nodes < other.nodes : cell < other.cell;
+    return std::tie(smallest, others, cell) < std::tie(other.smallest, other.others, other.cell);
   }
 };
+
+FaceOfCell face_of(vtkCell *face, std::int64_t cell) {
+  vtkIdList *const ids = face->GetPointIds();
+  std::vector<vtkIdType> nodes(ids->begin(), ids->end());
+  std::sort(nodes.begin(), nodes.end());
+  std::uint64_t others = nodes.size();
+  for (std::size_t i = 3; i < nodes.size(); ++i) {
+    others = (others ^ static_cast<std::uint64_t>(nodes[i])) * 0x9e3779b97f4a7c15u;
+    others ^= others >> 32;
+  }
+  return {{nodes[0], nodes[1], nodes[2]}, others, cell};
+}
 
 }  // namespace
 
@@ -102,16 +120,11 @@ CellCenters centers_of(vtkUnstructuredGrid *grid) {
                       "; centres are those of linear volume cells and polyhedra");
     const Vector center = center_of_cell(cell);
     centers.xyz.insert(centers.xyz.end(), center.begin(), center.end());
-    for (int face = 0; face < cell->GetNumberOfFaces(); ++face) {
-      vtkIdList *const ids = cell->GetFace(face)->GetPointIds();
-      std::vector<vtkIdType> nodes(ids->begin(), ids->end());
-      std::partial_sort(nodes.begin(), nodes.begin() + 3, nodes.end());
-      faces.push_back({{nodes[0], nodes[1], nodes[2]}, i});
-    }
+    for (int face = 0; face < cell->GetNumberOfFaces(); ++face) faces.push_back(face_of(cell->GetFace(face), i));
   }
   std::sort(faces.begin(), faces.end());
   for (std::size_t i = 1; i < faces.size(); ++i)
-    if (faces[i - 1].nodes == faces[i].nodes && faces[i - 1].cell != faces[i].cell)
+    if (faces[i - 1].is_face_of(faces[i]) && faces[i - 1].cell != faces[i].cell)
       centers.pairs.insert(centers.pairs.end(), {faces[i - 1].cell, faces[i].cell});
   return centers;
 }

@@ -99,6 +99,7 @@ class XmlParser {
     made.name = name();
     for (skip_blanks(); rest_[0] != '>' && rest_[0] != '/'; skip_blanks()) read_attribute(made);
     if (rest_[0] == '/') {
+      made.text = rest_.substr(0, 0);
       skip_past(">");
       return made;
     }

@@ -55,6 +55,29 @@ static void test_xdmf(void **state) {
   RUN_REFUSED(2, "o.doc must end in .vtu", "mark", scratch_path("in.vtu"), "--output", scratch_path("o.doc"));
 }
 
+/* The .h5 of an .xdmf is an output, and an input of each .xdmf that names it. */
+static void test_numbers_of_xdmf(void **state) {
+  (void)state;
+  RUN_REFUSED(2, "o.h5 is also the file of --output", "mark", scratch_path("in.vtu"), "--half-thickness", "0.3",
+              "--output", scratch_path("o.xdmf"), "--stats", scratch_path("o.h5"));
+  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--output", scratch_path("whole.xdmf"));
+  if (scratch_exists("whole.h5")) {
+    size_t n = 0;
+    char *text = scratch_read(scratch_path("whole.xdmf"), &n);
+    scratch_write("other.xdmf", text, n);
+    free(text);
+    RUN_REFUSED(2, "whole.h5 is also the file of MESH", "mark", scratch_path("other.xdmf"), "--half-thickness", "0.3",
+                "--prefix", "again", "--output", scratch_path("whole.xdmf"));
+    RUN_FINE("mark", scratch_path("other.xdmf"), "--half-thickness", "0.3");
+  }
+  scratch_write_text("empty.xdmf",
+                     "<Xdmf><Domain><Grid><Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">"
+                     "<DataItem Dimensions=\"1 4\" Format=\"XML\"/></Topology><Geometry GeometryType=\"XYZ\">"
+                     "<DataItem Dimensions=\"4 3\" Format=\"XML\"/></Geometry></Grid></Domain></Xdmf>");
+  RUN_REFUSED(1, "empty.xdmf: ", "mark", scratch_path("empty.xdmf"), "--half-thickness", "0.3");
+  assert_null(strstr(program_err, "signal"));
+}
+
 /* Damages bytes of a file. The program refuses the file in one line, or reads it, and no signal ends it. */
 static void damage(const char *name, const char *mesh, int n_trials) {
   size_t n = 0;
@@ -249,10 +272,8 @@ static void test_foam(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_notes),
-      cmocka_unit_test(test_xdmf),
-      cmocka_unit_test(test_damaged),
-      cmocka_unit_test(test_foam),
+      cmocka_unit_test(test_notes),   cmocka_unit_test(test_xdmf), cmocka_unit_test(test_numbers_of_xdmf),
+      cmocka_unit_test(test_damaged), cmocka_unit_test(test_foam),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

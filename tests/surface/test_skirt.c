@@ -564,7 +564,9 @@ static void skirts_of_warped_cusps_cross_nothing(void **state) {
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", between(0.1, 0.3)));
     for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
-      const riis_surface *surface = new_surface(valve, NULL);
+      riis_surface_options options = surface_options();
+      options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+      const riis_surface *surface = new_surface(valve, &options);
       CHECK_OK(riis_find_crossings(surface, NULL, crossings));
       riis_crossing_list list;
       CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));

@@ -171,6 +171,7 @@ std::size_t n_made = 0;
 Team *idle_teams = nullptr;
 std::atomic<int> n_threads_in_loops{0};
 
+// Returns NULL if there is no memory for a team.
 Team *borrow_team() {
   {
     const std::lock_guard<std::mutex> lock(teams_mutex);
@@ -180,7 +181,7 @@ Team *borrow_team() {
     }
     if (n_made < n_first_teams) return new (first_teams[n_made++]) Team;
   }
-  return new Team;
+  return new (std::nothrow) Team;
 }
 
 void give_back(Team *team) noexcept {
@@ -194,6 +195,10 @@ LoopChoice loop_choice;
 
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {
   Team *const team = borrow_team();
+  if (!team) {  // there is no memory, and a loop must not fail for that
+    work(context, 0);
+    return 1;
+  }
   const int n_workers = team->grow_to(n_threads - 1);
   const int n_busy = n_threads_in_loops.fetch_add(1 + n_workers, std::memory_order_relaxed) + 1 + n_workers;
   team->run(n_workers, n_busy, work, context);

@@ -11,7 +11,7 @@ namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
 // comes before the call on the calling thread has returned. Returns after all these calls have returned. The result is the number
-// of threads that were called, which is less than n_threads only if the system refuses a thread. No call may throw.
+// of threads that were called, which is less than n_threads only if the system refuses a thread or memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads and a team. OpenMP's threads begin a loop sooner, and they are also the threads of the

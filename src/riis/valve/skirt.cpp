@@ -86,11 +86,11 @@ class SkirtMaker {
     const Patch parent = set_.patches[held.patch];
     const Curve inner = along(set_, held.side), outer = outer_curve(side, inner, parent, lengths);
     const std::size_t rim = add_curve(outer);
+    Patch strip{{rim}, held.side, {line(outer.first(), inner.first())}, {line(outer.last(), inner.last())}, {}};
     if (!set_.material.empty()) {
       set_.material.resize(set_.curves.size());
       set_.material[rim] = material_of_outer(inner, held.side, outer);
     }
-    Patch strip{{rim}, held.side, {line(outer.first(), inner.first())}, {line(outer.last(), inner.last())}, {}};
     for (std::size_t i = first_image; i < first_image + n_images; ++i) {
       PatchImage image = parent.images[i];
       image.leaflet_id = leaflet_id_;
