@@ -84,7 +84,7 @@ A .pvtu file lists the pieces of a mesh, .vtu files. The pieces are read, marked
 passages are those of the whole mesh. Nodes of two pieces are the same node if their global ids are equal (the point array
 with VTK's attribute GlobalIds, vtkGlobalIds, GlobalNodeId or GlobalPointIds). Without global ids, all their coordinates must be
 equal. Ghost cells (vtkGhostType 1) do not count. --output marked.pvtu writes the pieces to the folder marked.
-A series reads each piece once. Pictures, movies, --steps and --search paper need the whole mesh.
+A series reads each piece once. Pictures, movies, --cells, --steps and --search paper need the whole mesh.
 A program built with RIIS_PROGRAM_MPI shares out the pieces: mpirun -n 8 riis mark mesh.pvtu --threads 1 --output marked.pvtu
 )"},
     {"units", "units of lengths, and the scale",

@@ -155,7 +155,8 @@ class LooseNodes {
 // the shared nodes.
 void release_free_memory();
 
-// Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted at once.
+// Counts nodes of several kinds, such as the marked nodes at each time. Nodes inside a piece are counted when the piece is
+// added. Nodes that pieces share are counted at the end, each once.
 class NodeCounts {
  public:
   explicit NodeCounts(std::size_t n_kinds) : n_inside_(n_kinds) {}

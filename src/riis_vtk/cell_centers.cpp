@@ -80,8 +80,8 @@ Vector center_of_cell(vtkCell *cell) {
   return volume > 0 ? 1 / volume * moment : mean;
 }
 
-// A face, by its nodes, and a cell that it belongs to. Faces may have three nodes in common, if these lie on one edge. So the other
-// nodes count also, by their number and a hash.
+// A face, by its nodes, and a cell that it belongs to. Different faces may have three nodes in common, if these lie on one edge.
+// So the other nodes count also, by their number and a hash.
 struct FaceOfCell {
   std::array<vtkIdType, 3> smallest;
   std::uint64_t others;

@@ -486,8 +486,8 @@ class Scan {
   std::int64_t n_cells_ = -1;  // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
-  // The arrays, from their beginnings on. In files up to version 4 there are no offsets, because each cell's corners follow their
-  // number.
+  // Each view begins at its array. Files up to version 4 have no offsets: each cell begins with its number of corners, and its
+  // corners follow.
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;

@@ -191,7 +191,7 @@ static void wrong_warps_are_refused(void **state) {
   const char *const to = scratch_path("x.vtp");
   char out[256], file[256];
   snprintf(out, sizeof out, "%s", to);
-  RUN_REFUSED(2, "riisSource takes no warp", "place", patient_json("w.json"), "--valve", "coapting", "--warp", "exact",
+  RUN_REFUSED(2, "riisValve takes no warp", "place", patient_json("w.json"), "--valve", "coapting", "--warp", "exact",
               "--foam", "-");
   scratch_write_text("pairs.csv", "0,0,0,0,0,0\n1,0,0,1,0,0\n0,1,0,0,1\n");
   snprintf(file, sizeof file, "%s", scratch_path("pairs.csv"));

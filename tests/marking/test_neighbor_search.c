@@ -340,7 +340,7 @@ static void masked_nodes_are_left_out(void **state) {
     riis_marks *fresh = new_result();
     check_same_as_exhaustive(surface, mesh, options, fresh);
     const riis_mark_stats stats =
-        /* The search starts from the marks with another mask. */
+        /* After the first trial, the search starts from the last trial's marks, which had another mask. */
         check_same_as_exhaustive(surface, mesh, options, reused);
     const found_nodes found = within_in(reused);
     for (int64_t i = 0; i < found.n; ++i) assert_true(mask[found.node_id[i]]);

@@ -638,7 +638,8 @@ static void skirts_reach_walls_and_no_farther(void **state) {
     CHECK_AT_MOST(farthest, allowed);
     assert_true(all.n_triangles > triangles_of(bare).n_triangles);
 
-    /* The lengths belong to the shape: another skirt is refused by a fixed triangulation, and a copy has the same. */
+    /* The skirt's lengths belong to the valve's shape. So a copy of the valve has the same lengths, and a fixed triangulation
+     * refuses a valve with other lengths. */
     riis_valve *copy = NULL;
     CHECK_OK(riis_valve_copy(valve, &copy));
     own(copy);

@@ -297,8 +297,9 @@ static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary)
   return n;
 }
 
-/* VTK follows the faces of polyhedra without checks while it reads them. The files are text or binary. They have counts or,
- * from version 5 on, offsets. The type 298 becomes 42 in a byte. */
+/* VTK follows the faces of polyhedra without checks while it reads them. The files are text
+ * of version 3, binary of version 3, or text of version 5, which has offsets in place of counts. 42 is the type of a polyhedron.
+ * The type 298 also becomes 42 if it is stored in a byte. */
 static void test_polyhedra(void **state) {
   (void)state;
   const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";

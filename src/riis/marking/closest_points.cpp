@@ -22,7 +22,7 @@ constexpr std::int64_t points_per_batch = 1 << 16;
 
 constexpr std::int64_t points_per_block = 2048;
 
-// The points of a batch that may be within the limit.
+// Those points of a batch that may be within the limit.
 struct Batch {
   UnfilledVector<double> xyz;
   UnfilledVector<std::int64_t> ids;

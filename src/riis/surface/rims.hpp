@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rim of a valve: the sides of patches that no other patch and no other image shares.
+// The rim of a valve: the sides that a patch shares neither with another patch nor with another image of a patch. An image is a
+// turned or mirrored copy.
 // In: patches; an edge of a triangle. Out: the sides on the rim, and whether the edge lies on one of them.
 #pragma once
 
