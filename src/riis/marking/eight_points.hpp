@@ -25,8 +25,8 @@ struct EightPoints {
     set_lane(pairs.point, lane, p);
   }
 
-  // Finds the side of each point and whether its closest point is on the rim. The closest points must have been located. Each array
-  // may be null.
+  // Finds the side of each point and whether its closest point is on the rim. The closest points must have been located. Each
+  // array may be null.
   void find_sides(const Pseudonormals &normals, const Kernels &simd, std::int32_t *side,
                   std::int32_t *is_on_rim) const {
     alignas(64) Lanes normal_there;
