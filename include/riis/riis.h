@@ -48,8 +48,8 @@
  *   surface's last content), 16,384 nodes, cells or faces, or 2048 points. It never exceeds the number of processors
  *   in the calling thread's affinity mask. By default, a part of a call with little work takes one thread.
  *   OMP_NUM_THREADS and omp_set_num_threads have no effect. With n_threads 1, no thread is started. If the
- *   system refuses a thread or its memory, OpenMP (RIIS_SEARCH_EXHAUSTIVE) and TBB end the process
- *   (docs/building.md). The threads of loops block signals other than those of errors.
+ *   system refuses a thread or its memory, OpenMP and TBB end the process (docs/building.md).
+ *   Threads of the library's own loops block signals other than those of errors.
  * - fork(): if the library has used several threads, a child process may use only 1, and 0 means 1 there. More threads
  *   are refused as RIIS_UNAVAILABLE. A child cannot make surfaces if another thread was inside the library at the fork.
  * - Environment: calls, and log functions within them, run with the default floating-point environment. Each call

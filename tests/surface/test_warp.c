@@ -9,6 +9,7 @@
 #include "searches.h"
 
 #include "random_meshes.h"
+#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -165,7 +166,7 @@ static void solve_dense(int n, double *a, double *b) {
 
 static void the_map_solves_its_equations(void **state) {
   (void)state;
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(20); ++trial) {
     const int owned_before = n_owned(), n = 5 + (int)between(0, 40), m = n + 4;
     double from[3 * max_landmarks], to[3 * max_landmarks], probe[3], got[3];
     double *a = own(calloc((size_t)(m * m), sizeof *a)), *b = own(calloc((size_t)(3 * m), sizeof *b));
@@ -233,7 +234,7 @@ static void the_map_solves_its_equations(void **state) {
 
 static void affine_and_planar_maps_are_reproduced(void **state) {
   (void)state;
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
     const int owned_before = n_owned(), n = 8 + (int)between(0, 30), is_planar = trial % 2;
     const affine turn = {.linear = {{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}}, .shift = {1, 2, 3}};
     double from[3 * max_landmarks], to[3 * max_landmarks];
@@ -265,7 +266,7 @@ static void affine_and_planar_maps_are_reproduced(void **state) {
 static void a_landmark_adds_no_kink(void **state) {
   (void)state;
   double worst = 0;
-  for (int trial = 0; trial < 10; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {
     const int owned_before = n_owned(), n = 30;
     double from[3 * max_landmarks], to[3 * max_landmarks];
     for (int i = 0; i < n; ++i) {
@@ -454,7 +455,7 @@ static void warped_curves_are_near_mapped_curves(void **state) {
 /* The patches that are read out make the same valve again, if they are Coons patches. */
 static void patches_make_the_same_valve(void **state) {
   (void)state;
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
     const int owned_before = n_owned(), is_warped = trial / 2 % 2;
     riis_valve *valve = new_valve(kinds[trial % 2]), *again = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 4 ? 0 : between(0, 1)));
@@ -703,7 +704,7 @@ static int velocity_at_label(const riis_triangles *t, int32_t patch, const doubl
 static void a_moving_annulus_has_its_velocities(void **state) {
   (void)state;
   static const char *const with_warp[4] = {"trileaflet", "coapting", "aortic", "mitral"};
-  for (int trial = 0; trial < 8; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {
     const int owned_before = n_owned(), is_fixed = trial / 4;
     const riis_surface_options options =
         random_placement(is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
