@@ -467,7 +467,7 @@ static void random_valves_open_well(void **state) {
   assert_int_equal(n_crossing, 0);
   assert_true(n_refused < n);
   assert_true(low > 0.999 && high < 1.001);
-  CHECK_AT_MOST(creases[0], 1e-3);
+  CHECK_AT_MOST(creases[0], 0.1); /* degrees, with the finite differences of this test */
   CHECK_AT_MOST(creases[1], 2);
   assert_int_equal(n_wrong, 0);
 }
