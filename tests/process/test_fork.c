@@ -103,8 +103,11 @@ static void memory_is_free_in_children(void **state) {
   children_go_on_beside(go_on_stepping);
 }
 
+/* The address sanitizer of gcc 12 does not unlock its own allocator in a child, so a child waits for ever if the other thread was
+ * allocating an object of the same size. */
 static void locks_are_free_in_children(void **state) {
   (void)state;
+  if (is_sanitized()) skip();
   children_go_on_beside(go_on_locking);
 }
 
