@@ -83,19 +83,22 @@ static int child_goes_on(const riis_valve *valve) {
          WEXITSTATUS(outcome) == child_passed;
 }
 
-/* The other thread holds a lock part of the time, so some forks happen while a lock is held. */
+/* The other thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
+ * not unlock its own allocator in a child. There a child waits for ever if the other thread was allocating an object of the same
+ * size, so these tests are left out. */
 static void children_go_on_beside(void *(*other)(void *)) {
+  if (is_sanitized()) skip();
   pthread_t thread;
   riis_status status_of_thread = RIIS_OK;
   int n_passed = 0;
   riis_valve *valve = new_valve("mitral");
   atomic_store(&is_over, 0);
   assert_int_equal(pthread_create(&thread, NULL, other, &status_of_thread), 0);
-  for (int i = 0; i < fewer_if_sanitized(n_forks) && n_passed == i; ++i) n_passed += child_goes_on(valve);
+  for (int i = 0; i < n_forks && n_passed == i; ++i) n_passed += child_goes_on(valve);
   atomic_store(&is_over, 1);
   assert_int_equal(pthread_join(thread, NULL), 0);
   CHECK_OK(status_of_thread);
-  assert_int_equal(n_passed, fewer_if_sanitized(n_forks));
+  assert_int_equal(n_passed, n_forks);
 }
 
 static void memory_is_free_in_children(void **state) {
@@ -103,11 +106,8 @@ static void memory_is_free_in_children(void **state) {
   children_go_on_beside(go_on_stepping);
 }
 
-/* The address sanitizer of gcc 12 does not unlock its own allocator in a child, so a child waits for ever if the other thread was
- * allocating an object of the same size. */
 static void locks_are_free_in_children(void **state) {
   (void)state;
-  if (is_sanitized()) skip();
   children_go_on_beside(go_on_locking);
 }
 
