@@ -162,8 +162,8 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
                 });
 }
 
-// Declares all options that determine a placed surface and its half thickness.
-void declare_placed_valve(Command &command, ValveOptions &options) {
+// Declares all options that determine a placed surface, except for its half thickness.
+void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
   declare_open_state(command, options);
@@ -171,6 +171,11 @@ void declare_placed_valve(Command &command, ValveOptions &options) {
   declare_skirt(command, options);
   declare_file(command, options);
   declare_placement(command, options);
+}
+
+// Declares all options that determine a placed surface and its half thickness.
+void declare_placed_valve(Command &command, ValveOptions &options) {
+  declare_surface_in_place(command, options);
   declare_half_thickness(command, options);
 }
 
@@ -291,13 +296,7 @@ void declare_mark(Command command, MarkOptions &options) {
   command.text("MESH", "FILE", mesh_help, options.mesh);
   command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
                options.at_cells);
-  declare_valve(command, options);
-  declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
-  declare_file(command, options);
-  declare_placement(command, options);
+  declare_surface_in_place(command, options);
   declare_marking(command, options);
   command.group("Output");
   CLI::Option *const output = command.text(
@@ -351,13 +350,7 @@ void declare_leaks(Command command, MarkOptions &options) {
                     [&options](const std::string &text) { options.drop = parse_number(text, "--drop"); });
   drop->needs(resistance);
   resistance->needs(drop);
-  declare_valve(command, options);
-  declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
-  declare_file(command, options);
-  declare_placement(command, options);
+  declare_surface_in_place(command, options);
   command.group("Marking");
   declare_half_thickness(command, options);
   declare_search(command, options);

@@ -31,9 +31,7 @@ namespace fs = std::filesystem;
 // Returns whether a damaged file of this format can crash its reader: HDF5, or VTK's reader of Exodus.
 bool may_crash(const std::string &path) {
   static const std::set<std::string> endings = {".xdmf", ".xmf", ".e", ".exo", ".ex2", ".exii"};
-  std::string ending = fs::path(path).extension().string();
-  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return endings.count(ending) != 0;
+  return endings.count(ending_of(path)) != 0;
 }
 
 // A folder for the mesh that a child process passes on. The destructor removes the folder.

@@ -191,11 +191,13 @@ int replace_file(const std::string &path, const std::string &text) {
 
 }  // namespace
 
-bool has_ending(const std::string &path, const std::string &ending) {
-  std::string found = fs::path(path).extension().string();
-  for (char &c : found) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return found == ending;
+std::string ending_of(const std::string &path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
 }
+
+bool has_ending(const std::string &path, const std::string &ending) { return ending_of(path) == ending; }
 
 fs::path place_of(const std::string &path) {
   std::error_code error;

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/xml_text.hpp"
 #include "program/outputs.hpp"
 #include "program/refusal.hpp"
 #include "program/report.hpp"

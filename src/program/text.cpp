@@ -82,25 +82,6 @@ std::string text_of_file(const std::string &path) {
   return text.str();
 }
 
-// ---- Xml text ----
-
-std::string in_xml(const std::string &text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
 // ---- Times ----
 
 namespace {

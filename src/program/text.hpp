@@ -39,10 +39,6 @@ std::string trimmed(const std::string &text);
 std::vector<std::string> csv_lines(const std::string &text);
 std::vector<std::string> csv_cells(const std::string &line);
 
-// Escapes text, so that it can stand between XML tags or in an attribute.
-
-std::string in_xml(const std::string &text);
-
 // In: the times of a series as the user writes them. Out: the times in ascending order.
 
 // The largest number of times in a series.

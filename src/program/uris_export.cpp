@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "common/xml_text.hpp"
 #include "program/crossings.hpp"
 #include "program/outputs.hpp"
 #include "program/progress.hpp"

@@ -259,12 +259,6 @@ const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", 
 const std::set<std::string> surfaces_of_meshio = {".obj", ".off"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
-std::string ending_of(const std::string &path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
-}
-
 // Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
 std::string shell_word(std::string path) {
   if (path[0] == '-') path.insert(0, "./");

@@ -31,6 +31,7 @@
 #include <vtkXMLParser.h>
 
 #include "common/array_view.hpp"
+#include "common/xml_text.hpp"
 #include "riis_vtk/grid_files.hpp"
 #include "riis_vtk/mesh.hpp"
 
@@ -398,34 +399,18 @@ std::vector<std::string> checked_files(std::int64_t n_files, const char *const *
 
 // ---- Writing ----
 
-// Returns the text of an attribute.
-std::string in_attribute(const std::string &text) {
-  std::string made;
-  for (const char c : text) {
-    if (c == '&')
-      made += "&amp;";
-    else if (c == '<')
-      made += "&lt;";
-    else if (c == '"')
-      made += "&quot;";
-    else
-      made += c;
-  }
-  return made;
-}
-
 std::string pieces_text(const std::vector<Declared> &arrays) {
   std::string text;
   for (const Declared &array : arrays) {
     text += joined("      <", array.type == "String" ? "PArray" : "PDataArray", " type=\"", array.type, "\" Name=\"",
-                   in_attribute(array.name), "\" NumberOfComponents=\"", array.n_components, "\"/>\n");
+                   in_xml(array.name), "\" NumberOfComponents=\"", array.n_components, "\"/>\n");
   }
   return text;
 }
 
 std::string pieces_text(const riis_vtk_pieces &pieces, const std::string &path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const std::string ids = pieces.global_ids.empty() ? "" : " GlobalIds=\"" + in_attribute(pieces.global_ids) + "\"";
+  const std::string ids = pieces.global_ids.empty() ? "" : " GlobalIds=\"" + in_xml(pieces.global_ids) + "\"";
   std::string text = joined(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n  <PUnstructuredGrid GhostLevel=\"",
@@ -437,7 +422,7 @@ std::string pieces_text(const riis_vtk_pieces &pieces, const std::string &path) 
     const std::filesystem::path source(file);
     const std::string name =
         (source.is_absolute() == folder.is_absolute() ? source.lexically_proximate(folder) : source).string();
-    text += joined("    <Piece Source=\"", in_attribute(name), "\"/>\n");
+    text += joined("    <Piece Source=\"", in_xml(name), "\"/>\n");
   }
   return text + "  </PUnstructuredGrid>\n</VTKFile>\n";
 }

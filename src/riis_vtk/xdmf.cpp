@@ -16,6 +16,7 @@
 #include <vtkTypeInt64Array.h>
 
 #include "common/array_view.hpp"
+#include "common/xml_text.hpp"
 #include "riis_vtk/hdf5_file.hpp"
 #include "riis_vtk/other_files.hpp"
 #include "riis_vtk/small_xml.hpp"
@@ -341,21 +342,6 @@ class XdmfFile {
 
 // ---- Writing ----
 
-std::string xml_text(const std::string &text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
-
 const Topology *topology_of(int vtk_type) {
   if (vtk_type == VTK_LINE) vtk_type = VTK_POLY_LINE;
   if (vtk_type == VTK_VERTEX) vtk_type = VTK_POLY_VERTEX;
@@ -394,7 +380,7 @@ class XdmfWriter {
     text_ += joined("<DataItem NumberType=\"", type, "\" Precision=\"8\" Dimensions=\"", n_rows);
     if (n_columns > 1) text_ += joined(" ", n_columns);
     text_ += hdf5_ ? "\" Format=\"HDF\">" : "\" Format=\"XML\">\n";
-    if (hdf5_) text_ += xml_text(fs::path(hdf5_->path()).filename().string()) + ":/" + xml_text(dataset);
+    if (hdf5_) text_ += in_xml(fs::path(hdf5_->path()).filename().string()) + ":/" + in_xml(dataset);
   }
 
   template <class Number>
@@ -457,7 +443,7 @@ class XdmfWriter {
       if (!array || !array->GetName()) continue;
       const std::string name = array->GetName();
       const int n_columns = array->GetNumberOfComponents();
-      text_ += joined("<Attribute Name=\"", xml_text(name), "\" AttributeType=\"",
+      text_ += joined("<Attribute Name=\"", in_xml(name), "\" AttributeType=\"",
                       n_columns == 1   ? "Scalar"
                       : n_columns == 3 ? "Vector"
                                        : "Matrix",
