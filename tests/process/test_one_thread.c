@@ -230,12 +230,12 @@ static void little_work_by_default(void **state) {
   check_markings(25);
 }
 
-/* The loops and TBB each start at most one more thread. */
+/* OpenMP and TBB each start at most one more thread. A loop that waited long for OpenMP's thread starts one of the library's. */
 static void two_threads_are_more(void **state) {
   (void)state;
   const riis_surface_options options = options_with(2, RIIS_TRIANGULATION_ADAPTED, 0.005);
   new_surface(new_valve("aortic"), &options);
-  assert_in_range(n_threads_now(), n_threads_at_first + 1, n_threads_at_first + 2);
+  assert_in_range(n_threads_now(), n_threads_at_first + 1, n_threads_at_first + 3);
 }
 
 int main(void) {

@@ -31,10 +31,12 @@ TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::v
 
 // Measures parts of one leaflet near the others. Between two points, the distance from the others changes by at most the distance
 // of the two points. So a part is wholly within reach or wholly out of reach if its middle is far enough within or beyond the
-// reach. Other parts are halved until they are small. On a small part, the distance counts as a linear function.
+// reach. Other parts are halved until they are small. On a small part, the distance counts as a linear function. A small part has
+// an eighth of the reach, or 1/2000 of the surface's extent if that is more. So a tiny reach cannot ask for endless work.
 class Measuring {
  public:
-  Measuring(const TriangleScene &scene, double reach) : scene_(scene), reach_(reach) {}
+  Measuring(const TriangleScene &scene, double reach, double extent)
+      : scene_(scene), reach_(reach), small_(std::max(reach / 8, extent / 2000)) {}
 
   double area(Vec3 a, Vec3 b, Vec3 c) const {
     const Vec3 middle = (1.0 / 3) * (a + b + c);
@@ -43,7 +45,7 @@ class Measuring {
     if (away > reach_ + radius) return 0;
     const double whole = 0.5 * length(cross(b - a, c - a));
     if (away + radius <= reach_) return whole;
-    if (radius <= small * reach_)
+    if (radius <= small_)
       return whole * share_below({distance_from(a, radius) - reach_, distance_from(b, radius) - reach_,
                                   distance_from(c, radius) - reach_});
     // Halves the longest edge.
@@ -57,7 +59,7 @@ class Measuring {
     const double whole = distance(a, b), radius = 0.5 * whole, away = distance_from(middle, radius);
     if (away > reach_ + radius) return 0;
     if (away + radius <= reach_) return whole;
-    if (radius > small * reach_) return length_of(a, middle) + length_of(middle, b);
+    if (radius > small_) return length_of(a, middle) + length_of(middle, b);
     const double at_a = distance_from(a, radius) - reach_, at_b = distance_from(b, radius) - reach_;
     if (at_a <= 0 && at_b <= 0) return whole;
     if (at_a > 0 && at_b > 0) return 0;
@@ -65,8 +67,6 @@ class Measuring {
   }
 
  private:
-  static constexpr double small = 1.0 / 8;  // size of a small part, as a share of the reach
-
   double halves(Vec3 tip, Vec3 from, Vec3 to) const {
     const Vec3 middle = 0.5 * (from + to);
     return area(tip, from, middle) + area(tip, middle, to);
@@ -90,7 +90,20 @@ class Measuring {
 
   const TriangleScene &scene_;
   double reach_;
+  double small_;  // the radius of a small part
 };
+
+// Returns the diagonal of the box around a surface.
+double extent_of(const TriangleSet &set) {
+  std::array<double, 3> least, most;
+  least.fill(std::numeric_limits<double>::infinity());
+  most.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < set.xyz.size(); ++i) {
+    least[i % 3] = std::min(least[i % 3], set.xyz[i]);
+    most[i % 3] = std::max(most[i % 3], set.xyz[i]);
+  }
+  return length({most[0] - least[0], most[1] - least[1], most[2] - least[2]});
+}
 
 }  // namespace
 
@@ -98,6 +111,7 @@ std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::v
                                             const std::vector<std::int32_t> &omitted, int n_threads) {
   std::map<std::int32_t, std::vector<std::int64_t>> triangles;
   for (std::int64_t i = 0; i < set.n_triangles(); ++i) triangles[view(set.leaflet_id)[i]].push_back(i);
+  const double extent = extent_of(set);
   std::map<std::int32_t, Contact> made;
   for (const auto &[leaflet_id, own] : triangles) {
     Contact &contact = made[leaflet_id] = {0, 0};
@@ -106,7 +120,7 @@ std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::v
     if (rest.n_triangles() == 0) continue;
     TriangleScene scene;
     scene.make(rest, n_threads);
-    const Measuring measuring(scene, reach);
+    const Measuring measuring(scene, reach, extent);
     std::vector<double> areas(own.size());
     parallel_for(view(own).size(), n_threads, [&, &mine = own](std::int64_t i, int) {
       const auto [a, b, c] = set.corners(view(mine)[i]);
