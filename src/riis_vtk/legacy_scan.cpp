@@ -162,11 +162,14 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // An unknown version is refused, because VTK would read such a file as one of an old version.
+    // An unknown version is refused, because VTK would read such a file as one of an old version. The same holds for a number that
+    // is too large for VTK.
     const std::size_t dot = version.find('.');
-    if (dot == std::string::npos) refuse("has the version '", version.substr(0, 40), "'");
-    version_ = number_of(version.substr(0, dot));
-    number_of(version.substr(dot + 1));
+    std::int64_t minor = 0;
+    constexpr std::size_t longest = 16;
+    if (version.size() > longest || dot == std::string::npos || !read_number(version.substr(0, dot), version_) ||
+        !read_number(version.substr(dot + 1), minor) || version_ < 1 || version_ > 5 || minor < 0 || minor > 99)
+      refuse("has the version '", version.substr(0, 40), "'");
     line();
     const std::string encoding = next();
     if (encoding != "ascii" && encoding != "binary") refuse("is neither ASCII nor BINARY");

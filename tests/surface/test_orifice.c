@@ -113,12 +113,12 @@ static void perimeters_are_derivatives_of_areas(void **state) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);
     const riis_resistance how = resistance(0.1, RIIS_RIM_ROUND);
     const riis_orifice found = orifice_of(surface, &how);
-    const double slit = 0.1 * how.half_thickness, step = 0.3 * slit;
+    const double slit = 0.1 * how.half_thickness, step = 0.9 * slit;
     const riis_resistance less = resistance((slit - step) / found.rim_reach, RIIS_RIM_ROUND),
                           more = resistance((slit + step) / found.rim_reach, RIIS_RIM_ROUND);
     const double lost = orifice_of(surface, &less).effective_area - orifice_of(surface, &more).effective_area;
     /* Takes the mean perimeter over the step, because a slit that closes within the step loses both of its edges. */
-    enum { n_parts = 8 };
+    enum { n_parts = 16 };
     double mean = 0;
     for (int i = 0; i <= n_parts; ++i) {
       const riis_resistance at = resistance(10 * (slit + step * (2.0 * i / n_parts - 1)), RIIS_RIM_ROUND);

@@ -559,7 +559,11 @@ static void skirts_of_warped_cusps_cross_nothing(void **state) {
     riis_warp *warp = NULL;
     CHECK_OK(riis_warp_create(&from, NULL, &warp));
     own(warp);
-    CHECK_OK(riis_warp_set_targets(warp, &to));
+    /* If the warp folds, the landmarks move half as far. */
+    while (riis_warp_set_targets(warp, &to) != RIIS_OK) {
+      assert_non_null(strstr(riis_last_error(), "folds"));
+      for (int k = 0; k < 3 * n; ++k) targets[k] = 0.5 * (sources[k] + targets[k]);
+    }
     CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", between(0.1, 0.3)));
     for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {

@@ -84,6 +84,18 @@ static void test_other_content(void **state) {
                      "# vtk DataFile Version 3.0\npoly\nASCII\nDATASET POLYDATA\nPOINTS 3 double\n0 0 0 1 0 0 0 1 0\n"
                      "POLYGONS 1 4\n3 0 1 2\n");
   expect_file_error("polydata.vtk", "holds polydata, not unstructured_grid");
+  /* VTK takes a version that it cannot read for an old one. */
+  static const char *const versions[] = {"4294967300.1", "6.0", "-5.1", "0.9", "5", "5.1x", "5.100", "00000000000000005.1"};
+  for (size_t i = 0; i < sizeof versions / sizeof *versions; ++i) {
+    char text[256], reason[64];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version %s\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 float\n0 0 0 1 0 0 0 1 0\n"
+             "CELLS 2 3\nOFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n0 1 2\nCELL_TYPES 1\n5\n",
+             versions[i]);
+    scratch_write_text("version.vtk", text);
+    snprintf(reason, sizeof reason, "has the version '%s'", versions[i]);
+    expect_file_error("version.vtk", reason);
+  }
   scratch_write_text("not_closed.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>\n</VTKFile>\n");
   expect_file_error("not_closed.vtu", "mismatched tag");
 }

@@ -25,6 +25,12 @@ struct Both {
 Both operator+(Both a, Both b) { return {a.size + b.size, a.change + b.change}; }
 Both operator*(Both a, Both b) { return {a.size * b.size, a.change * b.size + a.size * b.change}; }
 Both operator*(double a, Both b) { return {a * b.size, a * b.change}; }
+
+// Limits for halving ranges: the number of rounds, the number of ranges, and the width of a range.
+constexpr int most_rounds = 12;
+constexpr std::size_t most_ranges = 1024;
+constexpr double narrow = 2e-5;
+
 // Bounds are tight if the least length on a range is at least this share of the largest length.
 constexpr double tight_share = 0.9;
 
@@ -46,12 +52,11 @@ double least_on_segment(Vec3 a, Vec3 b) {
 // Bounds the distance of a function from the line between its ends, if its second derivative is at most `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
-// A range of u. On it, the curve is a part of one Bézier piece in each state.
-struct CurveRange {
-  const Bezier *now, *before;
-  double t_now[2], t_before[2];
-  double length_now, length_before;  // lengths of the whole curves
-  double width;                      // width of the range, in u
+// A part of one Bézier piece of a curve, on a range of u.
+struct CurvePart {
+  const Bezier *piece;
+  double t[2];
+  double length;  // the length of the whole curve
 };
 
 // Bounds for a curve on a range of u: its unit tangent with the first and second derivative by u, and the length of the whole
@@ -85,22 +90,22 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
 }
 
 // Bounds a curve on a range. The bounds are infinite if the curve's tangent may vanish in one of the two states.
-AlongCurve along(const CurveRange &on) {
-  const double from = std::min(on.t_now[0], on.t_before[0]), to = std::max(on.t_now[1], on.t_before[1]);
-  const Derivatives now = sizes_on(*on.now, from, to), before = sizes_on(*on.before, from, to);
+AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double width) {
+  const double from = std::min(at_now.t[0], at_before.t[0]), to = std::max(at_now.t[1], at_before.t[1]);
+  const Derivatives now = sizes_on(*at_now.piece, from, to), before = sizes_on(*at_before.piece, from, to);
   const double least = std::min(now.least_first, before.least_first), first = larger(now.first, before.first),
                second = larger(now.second, before.second), third = larger(now.third, before.third);
-  const double whole = larger(on.length_now, on.length_before);
-  const Both length{whole, std::abs(on.length_now - on.length_before)};
+  const double whole = larger(at_now.length, at_before.length);
+  const Both length{whole, std::abs(at_now.length - at_before.length)};
   if (!(least > 0)) {
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
   // At the same u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
   // growth in between that the rates dt/du = length / |B'| allow.
-  const Derivatives change = changes_on(*on.now, *on.before, from, to);
-  const double at_ends = larger(std::abs(on.t_now[0] - on.t_before[0]), std::abs(on.t_now[1] - on.t_before[1]));
-  const double half = 0.5 * on.width, rate_change = length.change / least + whole * change.first / (least * least);
+  const Derivatives change = changes_on(*at_now.piece, *at_before.piece, from, to);
+  const double at_ends = larger(std::abs(at_now.t[0] - at_before.t[0]), std::abs(at_now.t[1] - at_before.t[1]));
+  const double half = 0.5 * width, rate_change = length.change / least + whole * change.first / (least * least);
   const double by_itself = half * whole * second / (least * least);
   const double shift =
       by_itself < 1 ? std::min((at_ends + half * rate_change) / (1 - by_itself), to - from) : to - from;
@@ -119,8 +124,8 @@ AlongCurve along(const CurveRange &on) {
           tangent,
           bent,
           length * on_second,
-          on.length_now * on.length_now * now.second / (now.least_first * now.least_first),
-          on.length_before * on.length_before * before.second / (before.least_first * before.least_first),
+          at_now.length * at_now.length * now.second / (now.least_first * now.least_first),
+          at_before.length * at_before.length * before.second / (before.least_first * before.least_first),
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
@@ -165,8 +170,13 @@ class SideInBoth {
   double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
-  // Returns whether the range after share i is in the same piece in both states. If not, a joint has passed through it.
-  bool is_same_piece(std::size_t i) const { return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_; }
+  // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or if
+  // the range is narrow and the comparison has no tight bounds. Such ranges are on a short piece at a curve's end, whose length
+  // changes many times over as a joint approaches the end.
+  bool is_compared(std::size_t i) const {
+    if (at_now_.piece(i) + more_before_ != at_before_.piece(i) + more_now_) return false;
+    return width(i) > narrow || compared(i).is_tight;
+  }
 
   // Returns whether a piece of one of the states begins at share i.
   bool is_joint(std::size_t i) const {
@@ -178,22 +188,23 @@ class SideInBoth {
       const Both none{0, 0};
       return {none, none, none, none, 0, 0, true};
     }
-    const std::size_t piece = at_now_.piece(i), piece_before = at_before_.piece(i);
-    const auto end = [&](const CurvePoints &points, std::size_t from) {
-      return points.piece(i + 1) == from ? points.parameter(i + 1) : 1.0;
-    };
-    const Bezier &now = now_.pieces()[piece], &before = before_.pieces()[piece_before];
-    const double now0 = at_now_.parameter(i), now1 = end(at_now_, piece), before0 = at_before_.parameter(i),
-                 before1 = end(at_before_, piece_before);
-    const double length_now = now_.length(), length_before = before_.length();
-    if (is_same_piece(i))
-      return along({&now, &before, {now0, now1}, {before0, before1}, length_now, length_before, width(i)});
-    return either(
-        along({&now, &now, {now0, now1}, {now0, now1}, length_now, length_now, width(i)}),
-        along({&before, &before, {before0, before1}, {before0, before1}, length_before, length_before, width(i)}));
+    if (is_compared(i)) return compared(i);
+    const CurvePart now = part(at_now_, now_, i), before = part(at_before_, before_, i);
+    return either(along(now, now, width(i)), along(before, before, width(i)));
   }
 
  private:
+  AlongCurve compared(std::size_t i) const {
+    return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
+  }
+
+  // Returns the part of a Bézier piece that is the range after share i.
+  CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
+    const std::size_t piece = points.piece(i);
+    return {&curve.pieces()[piece], {points.parameter(i), points.piece(i + 1) == piece ? points.parameter(i + 1) : 1.0},
+            curve.length()};
+  }
+
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
@@ -204,10 +215,6 @@ class SideInBoth {
 void add_joints(const Curve &curve, Vector<double> &shares) {
   for (const double joint : curve.joints()) shares.push_back(joint);
 }
-
-// Limits for halving ranges: the number of rounds, and the number of ranges.
-constexpr int most_rounds = 12;
-constexpr std::size_t most_ranges = 1024;
 
 // The lines of a grid and, between them, the joints of curves. Ranges too wide for tight bounds are halved.
 class Shares {
@@ -227,15 +234,15 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges for which is_tight(i) is false. Returns whether there were any. Once there are too many ranges, returns
-  // false. This happens for a curve whose bounds never get tight.
+  // Halves the ranges that are not narrow and for which is_tight(i) is false. Returns whether there were any. Once there are too
+  // many ranges, returns false. This happens for a curve whose bounds never get tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
     Vector<double> made;
     for (std::size_t i = 0; i + 1 < all_.size(); ++i) {
       made.push_back(all_[i]);
-      if (!is_tight(i)) made.push_back(0.5 * (all_[i] + all_[i + 1]));
+      if (all_[i + 1] - all_[i] > narrow && !is_tight(i)) made.push_back(0.5 * (all_[i] + all_[i + 1]));
     }
     made.push_back(1);
     std::swap(made, all_);
@@ -329,7 +336,7 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
     double error = 0, largest = 0;
     for (std::size_t i = from; i < to; ++i) {
       const AlongCurve on = side.between(i);
-      const double second = side.is_same_piece(i) ? on.second_of_point().change : on.size_now + on.size_before;
+      const double second = side.is_compared(i) ? on.second_of_point().change : on.size_now + on.size_before;
       // The error of linear interpolation is the integral of Green's function times the second derivative. Green's function is at
       // most x (width - x) / width, and its integral is at most width squared / 8.
       const double x0 = shares.all()[i] - start, x1 = shares.all()[i + 1] - start, x = std::clamp(0.5 * width, x0, x1);
@@ -457,7 +464,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
       largest = larger(largest, on.largest);
       slides = larger(slides, slid.change(on));
       has_joint = has_joint || (i > from && is_joint(i));
-      if (on_base.is_same_piece(i) && on_edge.is_same_piece(i)) {
+      if (on_base.is_compared(i) && on_edge.is_compared(i)) {
         second = larger(second, (of_factor * on.second).change);
         first = larger(first, (of_factor * on.first).change);
       } else {
