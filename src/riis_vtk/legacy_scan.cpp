@@ -162,8 +162,8 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // An unknown version is refused, because VTK would read such a file as one of an old version. The same holds for a number that
-    // is too large for VTK.
+    // An unknown version is refused, because VTK would read such a file as one of an old version. The same holds for a number
+    // that is too large for VTK.
     const std::size_t dot = version.find('.');
     std::int64_t minor = 0;
     constexpr std::size_t longest = 16;

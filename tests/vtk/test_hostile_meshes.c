@@ -85,7 +85,8 @@ static void test_other_content(void **state) {
                      "POLYGONS 1 4\n3 0 1 2\n");
   expect_file_error("polydata.vtk", "holds polydata, not unstructured_grid");
   /* VTK takes a version that it cannot read for an old one. */
-  static const char *const versions[] = {"4294967300.1", "6.0", "-5.1", "0.9", "5", "5.1x", "5.100", "00000000000000005.1"};
+  static const char *const versions[] = {"4294967300.1",       "6.0", "-5.1", "0.9", "5", "5.1x", "5.100",
+                                         "00000000000000005.1"};
   for (size_t i = 0; i < sizeof versions / sizeof *versions; ++i) {
     char text[256], reason[64];
     snprintf(text, sizeof text,

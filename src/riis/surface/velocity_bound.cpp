@@ -170,9 +170,9 @@ class SideInBoth {
   double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
-  // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or if
-  // the range is narrow and the comparison has no tight bounds. Such ranges are on a short piece at a curve's end, whose length
-  // changes many times over as a joint approaches the end.
+  // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or
+  // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short piece at a curve's end, whose
+  // length changes many times over as a joint approaches the end.
   bool is_compared(std::size_t i) const {
     if (at_now_.piece(i) + more_before_ != at_before_.piece(i) + more_now_) return false;
     return width(i) > narrow || compared(i).is_tight;
@@ -201,7 +201,8 @@ class SideInBoth {
   // Returns the part of a Bézier piece that is the range after share i.
   CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
     const std::size_t piece = points.piece(i);
-    return {&curve.pieces()[piece], {points.parameter(i), points.piece(i + 1) == piece ? points.parameter(i + 1) : 1.0},
+    return {&curve.pieces()[piece],
+            {points.parameter(i), points.piece(i + 1) == piece ? points.parameter(i + 1) : 1.0},
             curve.length()};
   }
 
