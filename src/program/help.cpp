@@ -192,7 +192,7 @@ Paths are relative to the file. A MESH, --times and --distance-limit on the comm
 A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a
 .pvd. Such a file may have a "period". A valve may have "parameters" and "open_parameters", each an object or a file, and
 "scale", "surface_unit", "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals",
-"leaflets" and "skip_zero_area", as the options of these names. "opening" is a number or one of
+"leaflets", "skip_zero_area", "skirt" and "wall", as the options of these names. "opening" is a number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
@@ -201,6 +201,7 @@ A "warp" takes landmarks on the valve to landmarks in the patient, exactly or sm
   {"sources": [[1,0,0], [0,1,0], ...], "targets": [[1.1,0,0], [0,1.2,0], ...], "noise": 0.03, "coordinates": "mesh"}
 With "times", and perhaps "period" and "interpolation", "targets" has an array of points for each time. "open" may have the
 "sources" and "targets" of the open state. With "coordinates": "valve", landmarks are those of the valve before its placement.
+"check_leaks": [x,y,z, x,y,z] has two points, as riis check leaks --between (riis help leaks).
 If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
 the valves. Without times there is one mesh, --output marked.vtu.
 )"},

@@ -99,15 +99,27 @@ Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *
 
 namespace {
 
-// Reads the wall. The wall is already in the mesh's frame, so no placement applies to it.
-Surface read_wall(const ValveOptions &options) {
+// Reads the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
+Surface read_wall(const ValveOptions &options, double scale = 1) {
   riis_vtk_surface *handle = nullptr;
   check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, &handle), options.wall, Content::surface);
   const SurfaceFile file(handle);
   ValveOptions as_it_is;
   as_it_is.surface = options.wall;
   as_it_is.surface_options.zero_area = RIIS_ZERO_AREA_SKIP;
+  as_it_is.surface_options.scale = scale;
   return surface_of_file(as_it_is, file.get(), FileVelocity::none);
+}
+
+// Returns a hint if the skirt would reach the wall in another unit.
+std::string hint_of_unit(const ValveOptions &options, const riis_valve *valve) {
+  for (const char *factor : {"0.1", "10", "0.01", "100", "0.001", "1000"}) {
+    const Valve copy = copy_of(valve);
+    const Surface wall = read_wall(options, std::stod(factor));
+    if (riis_valve_set_skirt_to_wall(copy.get(), wall.get(), *options.skirt, &options.surface_options) == RIIS_OK)
+      return std::string("; with its lengths times ") + factor + " the wall would be: save it in the mesh's unit";
+  }
+  return "";
 }
 
 }  // namespace
@@ -120,7 +132,10 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   }
   const Surface wall = read_wall(options);
   const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
-  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_bad_data, options.wall + ": " + riis_last_error()};
+  if (status == RIIS_INVALID_ARGUMENT) {
+    const std::string reason = options.wall + ": " + riis_last_error();
+    throw Refusal{exit_bad_data, reason + hint_of_unit(options, valve)};
+  }
   check(status, subject);
 }
 

@@ -138,9 +138,9 @@ class FoamFile {
     for (std::int64_t i = 0; i < n; ++i) {
       std::array<std::string, 2> patch = {std::string(token()), ""};
       expect("{");
-      for (std::string_view word = token(); word != "}"; word = token()) {
-        if (word.empty()) fail_file(path_, "is truncated: it ends within a patch");
-        if (word == "type") patch[1] = std::string(token());
+      for (std::string_view key = token(); key != "}"; key = token()) {
+        const std::string first_word = entry();
+        if (key == "type") patch[1] = first_word;
       }
       found.push_back(patch);
     }
@@ -185,6 +185,20 @@ class FoamFile {
     }
     in_->skip(length);
     return rest.substr(0, length);
+  }
+
+  // Reads the rest of a patch's entry: words that end with ";", or a dictionary in braces. Returns the first word.
+  std::string entry() {
+    std::string first;
+    for (std::int64_t depth = 0;;) {
+      const std::string_view word = token();
+      if (word.empty()) fail_file(path_, "is truncated: it ends within a patch");
+      if (first.empty()) first = word;
+      if (word == "}" && depth == 0) in_->refuse("a \"}\" is in the place of a \";\"");
+      if (word == "{") ++depth;
+      if (word == "}") --depth;
+      if (depth == 0 && (word == ";" || word == "}")) return first;
+    }
   }
 
   void expect(std::string_view wanted) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -450,6 +451,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
+      while (!datasets_.insert(dataset).second) dataset += '_';  // the names a/b and a_b would meet otherwise
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {
         std::vector<double> values(static_cast<std::size_t>(n * n_columns));
@@ -468,6 +470,7 @@ class XdmfWriter {
   std::string path_, text_;
   vtkUnstructuredGrid *grid_;
   std::optional<Hdf5Writer> hdf5_;
+  std::set<std::string> datasets_;  // names of arrays in the HDF5 file
 };
 
 }  // namespace

@@ -193,8 +193,8 @@ static void write_case(void) {
   write_list("neighbour", "labelList", neighbor);
   write_list(
       "boundary", "polyBoundaryMesh",
-      "2\n(\n  walls { type wall; nFaces 864; startFace 4752; }\n  side { type symmetryPlane; nFaces 0; startFace "
-      "5616; }\n)\n");
+      "2\n(\n  walls { type wall; coupling { type cyclic; } nFaces 864; startFace 4752; }\n"
+      "  side { inGroups 2 (type sides); type symmetryPlane; nFaces 0; startFace 5616; }\n)\n");
   scratch_write_text("centers.vtk", centers);
   char *all[] = {points, centers, faces, owner, neighbor};
   for (int i = 0; i < 5; ++i) free(all[i]);

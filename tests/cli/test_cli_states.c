@@ -369,24 +369,25 @@ static void test_shared_sides(void **state) {
 
 /* ---- Skirts, surfaces from files ---- */
 
-/* Writes a square tube around the z axis, whose sides are 2 away from the axis. */
-static void write_wall(void) {
-  static const double corner[4][2] = {{2, 2}, {-2, 2}, {-2, -2}, {2, -2}};
+/* Writes a square tube around the z axis, whose sides are 2 units away from the axis. */
+static void write_wall(const char *name, double unit) {
+  const double corner[4][2] = {{2 * unit, 2 * unit}, {-2 * unit, 2 * unit}, {-2 * unit, -2 * unit}, {2 * unit, -2 * unit}};
+  const double end = 5 * unit;
   char text[4096] = "solid wall\n";
   for (int i = 0; i < 4; ++i) {
     const double *a = corner[i], *b = corner[(i + 1) % 4];
     for (int k = 0; k < 2; ++k)
       snprintf(text + strlen(text), sizeof text - strlen(text),
-               "facet normal 0 0 0\nouter loop\nvertex %g %g -5\nvertex %g %g %d\nvertex %g %g 5\nendloop\nendfacet\n",
-               a[0], a[1], b[0], b[1], k ? 5 : -5, k ? a[0] : b[0], k ? a[1] : b[1]);
+               "facet normal 0 0 0\nouter loop\nvertex %g %g %g\nvertex %g %g %g\nvertex %g %g %g\nendloop\nendfacet\n",
+               a[0], a[1], -end, b[0], b[1], k ? end : -end, k ? a[0] : b[0], k ? a[1] : b[1], end);
   }
   strcat(text, "endsolid wall\n");
-  scratch_write_text("wall.stl", text);
+  scratch_write_text(name, text);
 }
 
 static void test_skirts_and_files(void **state) {
   (void)state;
-  write_wall();
+  write_wall("wall.stl", 1);
   char wall[256], file[256];
   snprintf(wall, sizeof wall, "%s", scratch_path("wall.stl"));
   snprintf(file, sizeof file, "%s", scratch_path("skirt.vtp"));
@@ -437,6 +438,9 @@ static void test_skirts_and_files(void **state) {
               "--skirt", "1");
   RUN_REFUSED(1, "wall is not within longest, 0.1", "states", csv, "--valve", "trileaflet", "--skirt", "0.1", "--wall",
               wall);
+  write_wall("millimetres.stl", 10);
+  RUN_REFUSED(1, "with its lengths times 0.1 the wall would be: save it in the mesh's unit", "states", csv, "--valve",
+              "trileaflet", "--skirt", "2", "--wall", scratch_path("millimetres.stl"));
   RUN_REFUSED(1, "none.stl", "states", csv, "--skirt", "1", "--wall", scratch_path("none.stl"));
   RUN_REFUSED(2, "is also the file of --wall", "states", wall, "--valve", "trileaflet", "--skirt", "2", "--wall", wall);
   scratch_write_text("case.json", "{\"valves\": [{\"valve\": \"trileaflet\", \"wall\": \"wall.stl\"}]}");
