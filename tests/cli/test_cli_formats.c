@@ -191,10 +191,9 @@ static void write_case(void) {
   write_list("faces", "faceList", faces);
   write_list("owner", "labelList", owner);
   write_list("neighbour", "labelList", neighbor);
-  write_list(
-      "boundary", "polyBoundaryMesh",
-      "2\n(\n  walls { type wall; coupling { type cyclic; } nFaces 864; startFace 4752; }\n"
-      "  side { inGroups 2 (type sides); type symmetryPlane; nFaces 0; startFace 5616; }\n)\n");
+  write_list("boundary", "polyBoundaryMesh",
+             "2\n(\n  walls { type wall; coupling { type cyclic; } nFaces 864; startFace 4752; }\n"
+             "  side { inGroups 2 (type sides); type symmetryPlane; nFaces 0; startFace 5616; }\n)\n");
   scratch_write_text("centers.vtk", centers);
   char *all[] = {points, centers, faces, owner, neighbor};
   for (int i = 0; i < 5; ++i) free(all[i]);

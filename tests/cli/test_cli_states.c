@@ -371,7 +371,8 @@ static void test_shared_sides(void **state) {
 
 /* Writes a square tube around the z axis, whose sides are 2 units away from the axis. */
 static void write_wall(const char *name, double unit) {
-  const double corner[4][2] = {{2 * unit, 2 * unit}, {-2 * unit, 2 * unit}, {-2 * unit, -2 * unit}, {2 * unit, -2 * unit}};
+  const double corner[4][2] = {
+      {2 * unit, 2 * unit}, {-2 * unit, 2 * unit}, {-2 * unit, -2 * unit}, {2 * unit, -2 * unit}};
   const double end = 5 * unit;
   char text[4096] = "solid wall\n";
   for (int i = 0; i < 4; ++i) {

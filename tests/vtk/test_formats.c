@@ -329,6 +329,12 @@ static void test_cut_and_changed(void **state) {
       scratch_write(names[kind], wholes[kind], length);
       expect_refused(riis_vtk_mesh_read(scratch_path(names[kind]), &mesh), RIIS_FILE_ERROR, names[kind]);
     }
+    if (kind >= 2) {
+      memcpy(text, wholes[kind], n);
+      text[n / 2] = 0;
+      scratch_write(names[kind], text, n);
+      expect_refused(riis_vtk_mesh_read(scratch_path(names[kind]), &mesh), RIIS_FILE_ERROR, "a byte of value 0");
+    }
     for (int trial = 0; trial < 300; ++trial) {
       memcpy(text, wholes[kind], n);
       for (int k = 0; k < 1 + trial % 3; ++k) {
