@@ -1243,8 +1243,8 @@ typedef struct riis_coaptation {
  *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
- * Areas are right to 1e-3 of the contact's outline times reach (docs/theory.md, section 15). For a reach below 1/250 of
- * the surface's extent, the result is coarser: details below 1/2000 of the extent are not resolved.
+ * Areas are right to 1e-3 of the contact's outline times reach (docs/theory.md, section 15). The extent of a surface
+ * is the diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent are lost.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);

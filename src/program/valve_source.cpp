@@ -99,11 +99,14 @@ Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *
 
 namespace {
 
-// Reads the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
-Surface read_wall(const ValveOptions &options, double scale = 1) {
+SurfaceFile read_wall(const ValveOptions &options) {
   riis_vtk_surface *handle = nullptr;
   check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, &handle), options.wall, Content::surface);
-  const SurfaceFile file(handle);
+  return SurfaceFile(handle);
+}
+
+// Makes the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
+Surface make_wall(const ValveOptions &options, const SurfaceFile &file, double scale = 1) {
   ValveOptions as_it_is;
   as_it_is.surface = options.wall;
   as_it_is.surface_options.zero_area = RIIS_ZERO_AREA_SKIP;
@@ -111,11 +114,11 @@ Surface read_wall(const ValveOptions &options, double scale = 1) {
   return surface_of_file(as_it_is, file.get(), FileVelocity::none);
 }
 
-// Returns a hint if the skirt would reach the wall in another unit.
-std::string hint_of_unit(const ValveOptions &options, const riis_valve *valve) {
+// Returns a hint if the skirt would reach the wall in another unit, and "" otherwise.
+std::string hint_of_unit(const ValveOptions &options, const SurfaceFile &file, const riis_valve *valve) {
   for (const char *factor : {"0.1", "10", "0.01", "100", "0.001", "1000"}) {
     const Valve copy = copy_of(valve);
-    const Surface wall = read_wall(options, std::stod(factor));
+    const Surface wall = make_wall(options, file, std::stod(factor));
     if (riis_valve_set_skirt_to_wall(copy.get(), wall.get(), *options.skirt, &options.surface_options) == RIIS_OK)
       return std::string("; with its lengths times ") + factor + " the wall would be: save it in the mesh's unit";
   }
@@ -130,17 +133,18 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
     return;
   }
-  const Surface wall = read_wall(options);
+  const SurfaceFile file = read_wall(options);
+  const Surface wall = make_wall(options, file);
   const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
     const std::string reason = options.wall + ": " + riis_last_error();
-    throw Refusal{exit_bad_data, reason + hint_of_unit(options, valve)};
+    throw Refusal{exit_bad_data, reason + hint_of_unit(options, file, valve)};
   }
   check(status, subject);
 }
 
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
-  const Surface wall = read_wall(options);
+  const Surface wall = make_wall(options, read_wall(options));
   riis_gap gap;
   check(riis_surface_get_gap(surface, wall.get(), nullptr, &gap, sizeof gap), options.wall);
   return gap;

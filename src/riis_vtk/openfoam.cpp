@@ -139,8 +139,8 @@ class FoamFile {
       std::array<std::string, 2> patch = {std::string(token()), ""};
       expect("{");
       for (std::string_view key = token(); key != "}"; key = token()) {
-        const std::string first_word = entry();
-        if (key == "type") patch[1] = first_word;
+        const std::string value = entry("a patch");
+        if (key == "type") patch[1] = value;
       }
       found.push_back(patch);
     }
@@ -187,17 +187,16 @@ class FoamFile {
     return rest.substr(0, length);
   }
 
-  // Reads the rest of a patch's entry: words that end with ";", or a dictionary in braces. Returns the first word.
-  std::string entry() {
-    std::string first;
+  // Reads the rest of an entry: words up to a ";", or a dictionary in braces. Returns the words, joined.
+  std::string entry(const char *within) {
+    std::string words;
     for (std::int64_t depth = 0;;) {
       const std::string_view word = token();
-      if (word.empty()) fail_file(path_, "is truncated: it ends within a patch");
-      if (first.empty()) first = word;
-      if (word == "}" && depth == 0) in_->refuse("a \"}\" is in the place of a \";\"");
+      if (word.empty() || (word == "}" && depth == 0)) fail_file(path_, "is truncated: it ends within ", within);
+      if (word == ";" && depth == 0) return words;
+      words += word;
       if (word == "{") ++depth;
-      if (word == "}") --depth;
-      if (depth == 0 && (word == ";" || word == "}")) return first;
+      if (word == "}" && --depth == 0) return words;
     }
   }
 
@@ -214,11 +213,7 @@ class FoamFile {
     std::string format = "ascii", arch;
     for (std::string_view key = token(); key != "}"; key = token()) {
       if (key.empty()) fail_file(path_, "is truncated: it ends within its header");
-      std::string value;
-      for (std::string_view word = token(); word != ";"; word = token()) {
-        if (word.empty() || word == "}") fail_file(path_, "is truncated: it ends within its header");
-        value += word;
-      }
+      const std::string value = entry("its header");
       if (key == "format") format = value;
       if (key == "arch") arch = value;
       if (key == "class") class_ = value;

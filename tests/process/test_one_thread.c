@@ -230,7 +230,7 @@ static void little_work_by_default(void **state) {
   check_markings(25);
 }
 
-/* OpenMP and TBB each start at most one more thread. A loop that waited long for OpenMP's thread starts one of the library's. */
+/* OpenMP and TBB each start at most one more thread. After a long wait for OpenMP's thread, the library starts one of its own. */
 static void two_threads_are_more(void **state) {
   (void)state;
   const riis_surface_options options = options_with(2, RIIS_TRIANGULATION_ADAPTED, 0.005);

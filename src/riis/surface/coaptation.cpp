@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "common/array_view.hpp"
+#include "geometry/bounds.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/triangle_scene.hpp"
 
@@ -95,14 +95,9 @@ class Measuring {
 
 // Returns the diagonal of the box around a surface.
 double extent_of(const TriangleSet &set) {
-  std::array<double, 3> least, most;
-  least.fill(std::numeric_limits<double>::infinity());
-  most.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < set.xyz.size(); ++i) {
-    least[i % 3] = std::min(least[i % 3], set.xyz[i]);
-    most[i % 3] = std::max(most[i % 3], set.xyz[i]);
-  }
-  return length({most[0] - least[0], most[1] - least[1], most[2] - least[2]});
+  Bounds box;
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) box.add(set.vertex(i));
+  return 2 * length(box.half_extent());
 }
 
 }  // namespace
