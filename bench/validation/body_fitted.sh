@@ -151,7 +151,7 @@ in_turn() {
   return "$status"
 }
 
-# A case with walls has the name fitted-VALVE-SIZE. A case with solid leaflets has the name solid-VALVE-EPS-SIZE, and a case of riis
+# A case with walls has the name fitted-VALVE-SIZE, a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the name
 # riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the edges in the band. Lengths are in centimetres.
 meshes='' cases='' blood=''
 # fitted VALVE SIZE [FAR]: adds a case with walls and its mesh. FAR is the length of the edges elsewhere, by default 0.13.
