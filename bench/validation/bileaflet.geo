@@ -9,6 +9,7 @@ DefineConstant[ size = 0.05 ];  // length of the edges in the band
 DefineConstant[ band = 0.1 ];   // half thickness of the band
 DefineConstant[ far = 0.13 ];   // length of the edges far from the band
 DefineConstant[ opening = 1 ];
+DefineConstant[ solid = 0 ];    // with fitted = 0: half the thickness of a solid leaflet with square edges, or 0
 
 // The valve's defaults.
 R = 1.1; hinge = 0.22; closed = 30 * Pi / 180; angle = (30 + 55 * opening) * Pi / 180;
@@ -27,6 +28,14 @@ leaf() = BooleanIntersection { Surface{outline}; Delete; }{ Surface{quarter}; De
 Rotate {{0, 1, 0}, {0, 0, 0}, -angle} { Surface{leaf()}; }
 along = -hinge / Cos(closed);
 Translate {along * (Cos(angle) - Cos(closed)), 0, along * Sin(angle)} { Surface{leaf()}; }
+
+If (solid > 0)
+  n() = {-Sin(angle), 0, Cos(angle)};
+  leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; }; // lies inside the solid leaflet, for the edges
+  side() = Translate {-solid * n(0), 0, -solid * n(2)} { Duplicata { Surface{leaf()}; } };
+  plate() = Extrude {2 * solid * n(0), 0, 2 * solid * n(2)} { Surface{side()}; };
+  fluid() = BooleanDifference { Volume{fluid()}; Delete; }{ Volume{plate(1)}; Delete; };
+EndIf
 
 z_range() = {-1.3, 2.7};
 plane_boxes() = {0, -9, -9, 0, 9, 9, -9, 0, -9, 9, 0, 9};

@@ -64,13 +64,13 @@ class Run:
         self.folder, self.name = folder, folder.name
         kind, self.valve, opening, *words = self.name.split("-")
         self.opening = float(opening)
-        self.fitted = kind == "fitted"
-        self.rim = None if self.fitted else words[2]
+        self.fitted, self.solid = kind == "fitted", kind == "solid"
+        self.rim = words[2] if kind == "riis" else None
         self.eps = 0.0 if self.fitted else float(words[0])
         self.size = float(words[0 if self.fitted else 1])
         self.far = float(words[1]) if self.fitted and len(words) > 1 else 0.13
-        self.resistance = None if self.fitted else float(words[3])
-        mesh = self.name if self.fitted else f"free-{self.valve}-{opening}-{words[0]}-{words[1]}"
+        self.resistance = float(words[3]) if kind == "riis" else None
+        mesh = self.name if kind != "riis" else f"free-{self.valve}-{opening}-{words[0]}-{words[1]}"
         self.cells = foam.n_cells(meshes / mesh / "constant/polyMesh")
         log = foam.text(folder / "log.simpleFoam")
         pressure = foam.table(folder, "inlet")[:, 1]
@@ -207,7 +207,22 @@ def commit():
     return found.stdout.strip() or "unknown"
 
 
-def compare(valve, opening, runs, folder):
+def solid_row(what, three, solids):
+    """Returns the row that compares the effective areas of `three` with those of solid leaflets that are as thick as the band.
+    `solids` has the area in cm2 for each eps. Returns no row for fewer than two areas."""
+    if len(three) < 2:
+        return []
+    share = [one.area / solids[one.eps] for one in three]
+    areas = ", ".join(f"{solids[one.eps]:.3f} at {10 * one.eps:g} mm" for one in three)
+    return [{"id": f"bodyfit_{what.replace(' valve, opening ', '_').replace(', rim ', '_')}_solid", "group": "bodyfit",
+             "quantity": f"{what}: effective area over that of solid leaflets as thick as the band, at the least ε",
+             "reference": 1, "source": "the same leaflets as solid bodies of the thickness 2 ε with square edges, body-fitted",
+             "solver": SOLVER, "grids": [place(one, one_share) for one, one_share in zip(three, share)], "order": None,
+             "extrapolated": round(float(share[-1]), 4), "deviation": round(float(share[-1] - 1), 4), "bar": BAR,
+             "note": f"areas with solid leaflets, cm²: {areas}"}]
+
+
+def compare(valve, opening, runs, solids, folder):
     """Prints the tables of one valve at one opening, and returns its rows."""
     mine = [run for run in runs if (run.valve, run.opening) == (valve, opening)]
     fitted = sorted((run for run in mine if run.fitted and run.far == 0.13), key=lambda run: -run.size)
@@ -229,6 +244,9 @@ def compare(valve, opening, runs, folder):
 
     def c_of(run):
         return (body - run.area) / (run.eps * perimeter)
+    for eps, area in sorted(solids.items(), reverse=True):
+        print(f"  solid leaflets, {20 * eps:g} mm thick, with square edges: {area:.4f} cm2,"
+              f" {100 * (area / body - 1):+.2f} % off walls")
     print("  riis, R in kg/(m s)")
     print("  eps, mm  edges, mm    cells  steps  rim       R  drop, Pa  area, cm2  off walls      c")
     for run in sorted(obstacles, key=lambda one: (-one.eps, -one.size, one.rim, one.resistance)):
@@ -278,6 +296,7 @@ def compare(valve, opening, runs, folder):
                      "note": f"A − c ε P with P = {perimeter:.2f} cm: c {c_line:.2f} of the line, {min(c_each):.2f} to"
                              f" {max(c_each):.2f} of single ε; over the discharge coefficient"
                              f" {c_line * geometric / body:.2f}{others}"})
+        rows += solid_row(what, [one for one in three if one.eps in solids], solids)
     shown = [one for one in chosen(obstacles) if one.rim == "round"]
     picture([fitted[-1], shown[0], shown[-1]], folder / f"{valve}-{opening:g}.png")
     return rows
@@ -365,12 +384,15 @@ def main(folder):
     runs = [Run(case, folder / "meshes") for case in sorted((folder / "cases").iterdir()) if (case / "complete").exists()]
     if not runs:
         raise SystemExit(f"{folder} has no complete case")
+    all_solids = [run for run in runs if run.solid]
+    runs = [run for run in runs if not run.solid]
     print(f"The largest change of the drop over the last 20 steps is {max(run.settled for run in runs):.1e} of it."
           f" {len(runs)} cases took {sum(run.seconds for run in runs) / 60:.1f} minutes of processor time.")
     same_leaflets(folder)
     rows = []
     for valve, opening in sorted({(run.valve, run.opening) for run in runs}, key=lambda pair: (pair[0], -pair[1])):
-        rows += compare(valve, opening, runs, folder)
+        solids = {run.eps: run.area for run in all_solids if (run.valve, run.opening) == (valve, opening)}
+        rows += compare(valve, opening, runs, solids, folder)
     rows += blood(folder, runs) + clinical(runs)
     text = {"commit": commit(), "machine": machine(), "command": "bench/validation/body_fitted.sh FOLDER", "rows": rows}
     (folder / "body_fitted.json").write_text(json.dumps(text, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")

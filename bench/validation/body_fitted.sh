@@ -48,15 +48,15 @@ logged() {
 # Tests whether OpenFOAM can run a function object in the folder of the mesh. This function replaces the one in openfoam.sh.
 openfoam_function_object() { "${of_with[@]}" postProcess -case "$mesh" -func writeCellCentres -time 0; }
 
-# make_mesh NAME VALVE FITTED SIZE BAND [FAR]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file, a
-# hyphen, and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
+# make_mesh NAME VALVE FITTED SIZE BAND [FAR [SOLID]]: makes a mesh with gmsh, in meshes/NAME. VALVE is the name of the .geo file,
+# a hyphen, and the opening. The other arguments are options of the .geo file. Lengths are in centimetres.
 make_mesh() {
   mesh=$out/meshes/$1
   [[ ! -e $mesh/complete ]] || return 0
   rm -rf "$mesh"
   cp -r "$here/steady_case" "$mesh"
   logged "$mesh/log.gmsh" gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber opening "${2#*-}" \
-    -setnumber fitted "$3" -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" \
+    -setnumber fitted "$3" -setnumber size "$4" -setnumber band "$5" -setnumber far "${6:-0.13}" -setnumber solid "${7:-0}" \
     -format msh22 -o "$mesh/mesh.msh" "$here/${2%%-*}.geo" &&
     logged "$mesh/log.gmshToFoam" gmshToFoam -case "$mesh" "$mesh/mesh.msh" || return
   sed -i '/^ *wall$/,/}/s/patch;/wall;/; /^ *planes$/,/}/s/patch;/symmetry;/; /physicalType/d' "$mesh/constant/polyMesh/boundary"
@@ -74,7 +74,8 @@ set_valve() {
     s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
-# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. A fitted mesh has no EPS, RIM and RESISTANCE.
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. A mesh with walls in place of riis has no EPS,
+# RIM and RESISTANCE.
 run_case() {
   local case=$out/cases/$1
   [[ ! -e $case/complete ]] || return 0
@@ -150,13 +151,18 @@ in_turn() {
   return "$status"
 }
 
-# A case with walls has the name fitted-VALVE-SIZE. A case of riis has the name riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the
-# length of the edges in the band. Lengths are in centimetres.
+# A case with walls has the name fitted-VALVE-SIZE, a case with solid leaflets solid-VALVE-EPS-SIZE. A case of riis has the name
+# riis-VALVE-EPS-SIZE-RIM-RESISTANCE. SIZE is the length of the edges in the band. Lengths are in centimetres.
 meshes='' cases='' blood=''
 # fitted VALVE SIZE [FAR]: adds a case with walls and its mesh. FAR is the length of the edges elsewhere, by default 0.13.
 fitted() {
   meshes+="fitted-$1-$2${3:+-$3} $1 1 $2 0.06 ${3:-}"$'\n'
   cases+="fitted-$1-$2${3:+-$3} fitted-$1-$2${3:+-$3} $1"$'\n'
+}
+# solid VALVE EPS SIZE: adds a case with solid leaflets of the thickness 2 EPS, with square edges, and its mesh.
+solid() {
+  meshes+="solid-$1-$2-$3 $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2"$'\n'
+  cases+="solid-$1-$2-$3 solid-$1-$2-$3 $1"$'\n'
 }
 # obstacle VALVE EPS SIZE RIM [RESISTANCE]: adds a case of riis and its mesh. Edges have the length SIZE up to the distance
 # EPS + SIZE from the leaflet.
@@ -171,6 +177,8 @@ valves=(bileaflet-1)
 if [[ $quick ]]; then
   fitted bileaflet-1 0.1
   fitted bileaflet-1 0.05
+  solid bileaflet-1 0.1 0.05
+  solid bileaflet-1 0.07 0.035
   for rim in round cut; do
     obstacle bileaflet-1 0.1 0.05 "$rim"
     obstacle bileaflet-1 0.07 0.035 "$rim"
@@ -178,6 +186,9 @@ if [[ $quick ]]; then
 else
   for size in 0.1 0.07 0.05 0.035 0.025; do fitted bileaflet-1 "$size"; done
   fitted bileaflet-1 0.035 0.09
+  solid bileaflet-1 0.1 0.05
+  solid bileaflet-1 0.07 0.035
+  solid bileaflet-1 0.05 0.025
   valves+=(bileaflet-0.75 bileaflet-0.5)
   for valve in "${valves[@]}"; do
     [[ $valve == bileaflet-1 ]] || for size in 0.05 0.035 0.025; do fitted "$valve" "$size"; done

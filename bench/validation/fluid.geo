@@ -3,7 +3,10 @@
 // sets the lengths of the edges. It reads fluid(), leaf(), the options, and two lists. z_range() has the heights of both ends.
 // plane_boxes() has one box of six numbers around each plane of symmetry.
 tolerance = 2e-3; // gmsh's boxes of curved surfaces are a little too wide
-leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; };
+DefineConstant[ solid = 0 ];
+If (solid == 0)
+  leaf() = BooleanIntersection { Surface{leaf()}; Delete; }{ Volume{fluid()}; };
+EndIf
 If (fitted)
   parts() = BooleanFragments { Volume{fluid()}; Delete; }{ Surface{leaf()}; Delete; };
   fluid() = Volume{:};

@@ -91,18 +91,31 @@ def _range(row):
     return f"{min(values):.2f} to {max(values):.2f}"
 
 
+def letters_of(rows):
+    """Returns {solver: letter} for the solvers of the rows, or {} if there are fewer than two."""
+    solvers = sorted({row["solver"] for row in rows})
+    return {solver: chr(ord("a") + at) for at, solver in enumerate(solvers)} if len(solvers) > 1 else {}
+
+
+def solvers_of(rows):
+    """Returns the names of the solvers, with the letters that the table has for several solvers."""
+    letters = letters_of(rows)
+    return "; ".join(f"({letters[name]}) {name}" for name in letters) or "".join({row["solver"] for row in rows})
+
+
 def table_of(rows):
     import report_text
 
-    lines = []
+    lines, letters = [], letters_of(rows)
     for row in rows:
         deviation = "" if row["deviation"] is None else f"{100 * row['deviation']:+.2f} %"
         if row["bar"] is not None:
             deviation += f" (bar {100 * row['bar']:g} %)" + ("" if abs(row["deviation"]) <= row["bar"] else " **missed**")
         grids = "<br>".join(f"{grid['n']}: {_text(grid['value'])}" for grid in row["grids"])
         lines.append([row["quantity"], f"{_text(row['reference'])}<br>{row['source']}", grids, _text(row["order"], 2),
-                      _text(row["extrapolated"]), deviation, row["note"]])  # fmt: skip
-    heads = ["quantity", "reference", "ours", "order", "extrapolated", "deviation", "note"]
+                      _text(row["extrapolated"]), deviation, *([letters[row["solver"]]] if letters else []),
+                      row["note"]])  # fmt: skip
+    heads = ["quantity", "reference", "ours", "order", "extrapolated", "deviation", *(["solver"] if letters else []), "note"]
     return report_text.table(heads, [[cell.replace("|", "\\|") for cell in line] for line in lines])
 
 
@@ -114,8 +127,7 @@ def page_values(rows, about, committed, plots):
         chosen = [row for row in rows if row["group"] == group]
         values[group] = bool(chosen)
         values[group + "_table"] = table_of(chosen)
-        solvers = sorted({row["solver"] for row in chosen})
-        values[group + "_solvers"] = "; ".join(solvers)
+        values[group + "_solvers"] = solvers_of(chosen)
     for kind in ("hole", "disc"):
         for rim in ("round", "cut"):
             row = by_id[f"c_{kind}_{rim}"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the checks and pictures of ./run openfoam. A check prints its numbers, and ends with an error if a number is wrong."""
+import ctypes
 import pathlib
 import re
 import struct
@@ -249,7 +250,21 @@ def forces(case):
     return rows
 
 
-def moving(cases):
+def swept(library, kind, opening):
+    """Returns the volume in m3 that a kind of valve sweeps from opening 0 to an opening, by the library that the plug-in uses.
+    The sizes of the valve are in centimetres."""
+    riis = ctypes.CDLL(library)
+    valve, volume = ctypes.c_void_p(), ctypes.c_double()
+    require(riis.riis_valve_create(kind.encode(), ctypes.byref(valve)) == 0, f"{library} makes a {kind} valve")
+    all_leaflets = -1
+    status = riis.riis_valve_get_swept_volume(valve, ctypes.c_double(0), ctypes.c_double(opening), None, all_leaflets,
+                                              ctypes.byref(volume))
+    riis.riis_valve_destroy(ctypes.byref(valve))
+    require(status == 0, f"{library} gives the volume that the {kind} valve sweeps to opening {opening:g}")
+    return 1e-6 * volume.value
+
+
+def moving(cases, library):
     """Checks forces, volumes and jets of moving valves, with riisSource and without it."""
     cases = pathlib.Path(cases)
     opens = [f"{mesh}-{solver}" for mesh in ("hexahedra-24", "hexahedra-32", "tetrahedra", "box-24", "box-32")
@@ -299,18 +314,35 @@ def moving(cases):
         print(f"  {name:<24} {1e6 * volume_in:.5f} {1e6 * volume_out:.5f}: {100 * share:.3f} % of area times stroke")
         require(abs(share - 1) < 0.01, f"{name}: the mean volume is area times stroke to 1 %: {share:.5f} of it")
 
-    print("A pressure opens the valve. Largest upward speeds while it opens, in m/s, 1.5 mm above the closed free edges and"
-          " anywhere. v is sqrt(2 dp / rho), with the largest pressure difference since the opening began:")
-    for name in ("jet-PCG", "jet-riisSource"):
+    print("While the bands of the cusps touch, until the opening is 0.25. Mean volume of inlet and outlet, in ml, and its share"
+          " of the volume that the leaflets sweep:")
+    for name in opens[:4]:
+        inlet, outlet = (foam.table(cases / name, function)[:, 1] for function in ("inflow", "outflow"))
+        opening = foam.steps(cases / name)[:, 1]
+        require(len(inlet) == len(outlet) == len(opening) == 40, f"{name} has 40 steps, not {len(inlet)} and {len(outlet)}")
+        touch = opening <= 0.25
+        volume = 1e-3 * (outlet[touch].sum() - inlet[touch].sum()) / 2
+        share = volume / swept(library, "trileaflet", opening[touch][-1])
+        print(f"  {name:<24} {1e6 * volume:.3f}: {100 * share:.1f} % of the swept volume")
+        bar = 0.15 if "-32-" in name else 0.2  # the thicker the band, the more blood slips through it
+        if name.endswith("riisSource"):
+            require(abs(share - 1) < bar, f"{name}: the mean volume is the swept volume to {bar:.0%}: {share:.3f} of it")
+
+    print("A pressure opens the valve. The largest upward speed of all cells while it opens, in m/s. v is sqrt(2 dp / rho), with"
+          " the largest pressure difference since the opening began:")
+    for name in (f"jet-{n}-{solver}" for n in (24, 32) for solver in ("PCG", "riisSource")):
         opening = foam.steps(cases / name)[:, 1]
         below, above = foam.table(cases / name, "below"), foam.table(cases / name, "above")
-        speeds = [up(cases / name, function) for function in ("jet", "fastest")]
+        jet = up(cases / name, "fastest")
         moves = (opening > 0) & (numpy.r_[0, opening[:-1]] < 0.999)
         require(moves.any() and opening[-1] > 0.999, f"the valve of {name} opens: its opening is {opening[-1]} at the end")
         speed = numpy.sqrt(2 * numpy.maximum.accumulate(numpy.where(moves, below[:, 1] - above[:, 1], 0)))
-        jet, fastest = ((values[moves] / speed[moves]).max() for values in speeds)
-        print(f"  {name:<24} {speeds[0][moves].max():.2f}, {jet:.2f} v; anywhere {speeds[1][moves].max():.2f}, {fastest:.2f} v")
-        require(jet < 1.05, f"{name}: the jet is at most 1.05 v: {jet:.3f}")
+        most = (jet[moves] / speed[moves]).max()
+        print(f"  {name:<24} {jet[moves].max():.2f}, {most:.2f} v")
+        if name.endswith("riisSource"):
+            require(most < 1.05, f"{name}: the jet is at most 1.05 v: {most:.3f}")
+        else:
+            require(most > 1.05, f"{name}: the jet is what riisSource cures, above 1.05 v: {most:.3f}")
 
 
 def up(case, function):

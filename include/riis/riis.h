@@ -1054,8 +1054,12 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
  * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums.
  * The sums of leaflets add up to the sum of the whole, up to rounding. u_surface is 0 if the marking lacked
- * RIIS_FIELD_VELOCITY. A valve that moves needs a source in the pressure equation (docs/solvers.md, "The source in
- * the band").
+ * RIIS_FIELD_VELOCITY.
+ * If the valve moves, the force includes the inertia of the blood that the band takes along. A scheme with K at its
+ * faces then needs a source in its pressure equation. Cells that are bounded only by walls and by faces with K dt > rho
+ * get the flow of u_surface out through these faces. docs/solvers.md has the rule ("The source in the band"). Without
+ * the source the force of a moving valve is wrong by newtons. Finite elements have the same fault where K dt > rho, and
+ * no source was found for them. The force on a valve at rest is right in either case.
  *   reaction  moments and sums of edges need RIIS_FIELD_POINT
  * The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. A node
  * takes a time of order log n_edges, or of order n_edges if all edges are equally near.

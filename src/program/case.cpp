@@ -84,7 +84,7 @@ void print_case(const Case &all, const std::vector<MovingValve> &valves, int64_t
             (valve.source().valve ? "opening " + shown(valve.opening()) + ", " : "") + counted(n_marked[i], "node") +
             " marked\n";
   }
-  text += line_of_passage(report.leaks);
+  text += line_of_passage(report.leaks) + lines_of_valve_flows(report);
   for (const std::string &path : report.written) text += "written   " + path + "\n";
   write_text("-", text);
 }
@@ -124,6 +124,8 @@ ExitCode run_one_time(Case &all) {
     most_marked = mark_valves(all, valves, mesh.get(), file.get());
     look_for_leaks_of(all, valves, mesh.get(), file.get());
     check_passage_of(all, valves, mesh.get(), file.get(), report);
+    measure_bands(all, valves, mesh.get(), file.get(), report);
+    measure_orifices(all, valves, report);
   }
   write_case_files(options, valves, file.get(), report);
   if (!options.pictures.empty()) SeriesPictures(all, std::move(file), {}).draw(0, valves, report);
@@ -207,6 +209,7 @@ ExitCode run_one_time_in_pieces(Case &all, const MeshPieces &pieces) {
   check(riis_surface_get_info(joined ? joined.get() : valves[0].surface(), &report.surface, sizeof report.surface));
   passage.judge(joined ? joined.get() : valves[0].surface(), joined ? nullptr : valves[0].source().valve.get(),
                 joined ? "the surface of all valves" : "the surface", counts, report);
+  measure_orifices(all, valves, report);
   output.finish();
   if (output.is_wanted()) report.written.push_back(options.output);
   write_case_surface(options, valves, report);

@@ -231,7 +231,8 @@ not show gaps between leaflets, nor ways round the valve. riis check leaks MESH 
 are points of the mesh on either side of the valve, each as X,Y,Z.
 The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
 thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
-the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening.
+the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening. For each
+valve the table then has the mesh edges across its band, and the orifice at its largest opening.
 riis check leaks also prints how many mesh edges lie across the band, and the orifice with its effective area. With
 --first-passage it tries openings and prints the first at which unmarked nodes join the points. With --resistance and --drop it
 prints the flow through an ideal closed valve.

@@ -290,12 +290,26 @@ void check_end(const MarkOptions &options, const char *name, const double *point
            " away, its longest edge " + shown(nearest->longest_edge));
 }
 
+namespace {
+
+std::optional<riis_orifice> orifice_of(const riis_surface *surface) {
+  riis_orifice orifice;
+  check(riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice));
+  return orifice.outline == RIIS_OUTLINE_NONE ? std::nullopt : std::optional(orifice);
+}
+
+riis_cells_across cells_across_of(const riis_marks *marks, const riis_mesh *mesh) {
+  riis_cells_across cells;
+  check(riis_marks_get_cells_across(marks, mesh, &cells, sizeof cells));
+  return cells;
+}
+
+}  // namespace
+
 void measure_surface(const MarkOptions &options, const riis_surface *surface, Report &report) {
   FlowReport &flow = report.flow;
   report.prints_flow = options.measures;
-  riis_orifice orifice;
-  check(riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice));
-  if (orifice.outline != RIIS_OUTLINE_NONE) flow.orifice = orifice;
+  flow.orifice = orifice_of(surface);
   if (options.resistance && *options.resistance > 0) {
     riis_resistance how;
     check(riis_resistance_init(&how, sizeof how));
@@ -314,9 +328,7 @@ void measure_flow(const MarkOptions &options, const MarkedMesh &marked, Report &
   FlowReport &flow = report.flow;
   if (report.leaks.has_all_edges()) {
     const JoinedNodes nodes(marked, options.mark_options.n_threads);
-    riis_cells_across cells;
-    check(riis_marks_get_cells_across(marked.result, marked.mesh, &cells, sizeof cells));
-    flow.cells = cells;
+    flow.cells = cells_across_of(marked.result, marked.mesh);
     int64_t n_nodes = 0, n_regions = 0;
     check(riis_vtk_mesh_get_nodes(marked.file, &n_nodes, nullptr, nullptr));
     std::vector<int64_t> regions(static_cast<std::size_t>(n_nodes));
@@ -404,6 +416,26 @@ void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, r
                          {first.surface(), first.source().valve.get(), file, mesh, nullptr, "the surface"}, report);
   const Surface joined = joined_for_passage(all, valves);
   check_passage(all.options, {joined.get(), nullptr, file, mesh, nullptr, "the surface of all valves"}, report);
+}
+
+void measure_bands(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh, const riis_vtk_mesh *file,
+                   Report &report) {
+  if (!all.options.check_leaks || !report.leaks.has_all_edges()) return;
+  report.valve_flows.resize(valves.size());
+  const JoinedNodes nodes({valves[0].surface(), nullptr, file, mesh, nullptr}, all.options.mark_options.n_threads);
+  for (std::size_t i = 0; i < valves.size(); ++i)
+    report.valve_flows[i].flow.cells = cells_across_of(valves[i].result(), mesh);
+}
+
+void measure_orifices(const Case &all, const std::vector<MovingValve> &valves, Report &report) {
+  if (!all.options.check_leaks) return;
+  report.valve_flows.resize(valves.size());
+  for (std::size_t i = 0; i < valves.size(); ++i) {
+    ValveFlow &measured = report.valve_flows[i];
+    measured.name = all.part_of(i);
+    if (valves[i].source().valve) measured.opening = valves[i].opening();
+    measured.flow.orifice = orifice_of(valves[i].surface());
+  }
 }
 
 }  // namespace riis::program

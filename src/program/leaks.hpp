@@ -86,4 +86,11 @@ Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valv
 void check_passage_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
                       const riis_vtk_mesh *file, Report &report);
 
+// Both functions write into report.valve_flows if the options have two points.
+// Measures the mesh edges across the band of each valve, in its last marking, if all edges are known. Removes the adjacency.
+void measure_bands(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh, const riis_vtk_mesh *file,
+                   Report &report);
+// Measures the orifices of the valves at their present positions.
+void measure_orifices(const Case &all, const std::vector<MovingValve> &valves, Report &report);
+
 }  // namespace riis::program

@@ -105,13 +105,15 @@ nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
                                          : nlohmann::ordered_json()}};
 }
 
-// Adds the lines about the flow to the table. A measure that is not set has no line.
-void add_flow(const FlowReport &flow, std::ostringstream &out) {
+// Adds the lines about the flow to the table. A measure that is not set has no line. `name` names the valve, and `state` also its
+// opening; both may be "".
+void add_flow(const FlowReport &flow, std::ostringstream &out, const std::string &name = "",
+              const std::string &state = "") {
   if (flow.cells && flow.cells->n_edges > 0)
-    out << "across    " << flow.cells->mean << " mesh edges of mean length in the band, " << flow.cells->least << " to "
-        << flow.cells->most << " by " << counted(flow.cells->n_edges, "edge") << "\n";
+    out << "across    " << name << flow.cells->mean << " mesh edges of mean length in the band, " << flow.cells->least
+        << " to " << flow.cells->most << " by " << counted(flow.cells->n_edges, "edge") << "\n";
   if (flow.orifice)
-    out << "orifice   " << flow.orifice->area << " open, " << flow.orifice->effective_area
+    out << "orifice   " << state << flow.orifice->area << " open, " << flow.orifice->effective_area
         << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
         << flow.orifice->perimeter
         << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is the longest open boundary" : "") << "\n";
@@ -209,6 +211,18 @@ std::string line_of_passage(const LeakReport &leaks) {
     out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << leaks.passage->place << ", "
         << found.distance << " from the surface" << (leaks.passage->is_end ? ", an end" : "");
   out << "\n";
+  return out.str();
+}
+
+std::string lines_of_valve_flows(const Report &report) {
+  std::ostringstream out = table_stream();
+  for (const ValveFlow &valve : report.valve_flows) {
+    std::ostringstream state = table_stream();
+    state << valve.name;
+    if (valve.opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *valve.opening;
+    if (!state.str().empty()) state << ": ";
+    add_flow(valve.flow, out, valve.name + (valve.name.empty() ? "" : ": "), state.str());
+  }
   return out.str();
 }
 

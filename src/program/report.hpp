@@ -60,6 +60,13 @@ struct FlowReport {
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
 };
 
+// The measures of a valve of a case.
+struct ValveFlow {
+  std::string name;               // "" for the only valve
+  std::optional<double> opening;  // the opening of the orifice; not set for a surface from a file
+  FlowReport flow;
+};
+
 struct CrossingReport {
   int n_openings = 0;             // number of openings checked, or 0 if only the given surface was checked
   std::optional<double> opening;  // the opening at which a crossing was found
@@ -80,6 +87,7 @@ struct Report {
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
+  std::vector<ValveFlow> valve_flows;       // by valve, if a case has two points
   bool prints_flow = false;                 // true if the table for people has the measures of the flow
   std::optional<CrossingReport> crossings;  // set if crossings were looked for
   Seconds seconds;
@@ -99,6 +107,8 @@ std::string surface_title(const Report &report);
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
 // Returns the table's line about the passage, or "" if no points were checked.
 std::string line_of_passage(const LeakReport &leaks);
+// Returns the table's lines about the valves of a case, or "" if no points were checked.
+std::string lines_of_valve_flows(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
 

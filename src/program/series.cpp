@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -154,6 +155,8 @@ void look_for_closed_leaks(const Case &all, std::vector<MovingValve> &valves, ri
   for (MovingValve &valve : valves) valve.mark(mesh, 0);
   look_for_leaks_of(all, valves, mesh, file);
   check_passage_of(all, valves, mesh, file, report);
+  measure_bands(all, valves, mesh, file, report);
+  measure_largest_orifices(all, valves, report);
 }
 
 // Warns of suspicious marks. Judges each valve at the time when it marks most nodes.
@@ -198,13 +201,29 @@ double time_before(const Case &all, std::size_t step) {
   return step == 0 ? times[0] - (times[1] - times[0]) : times[step - 1];
 }
 
-void move_to_least_openings(const Case &all, std::vector<MovingValve> &valves) {
+namespace {
+
+// Moves each valve to the first time at which its opening is the first of all in an order.
+template <class Order>
+void move_to_first(const Case &all, std::vector<MovingValve> &valves, Order order) {
   const std::vector<double> &times = all.options.series.times;
   for (MovingValve &valve : valves) {
     const OpeningLaw &law = valve.source().law;
     valve.move_to(
-        *std::min_element(times.begin(), times.end(), [&](double a, double b) { return law.at(a) < law.at(b); }));
+        *std::min_element(times.begin(), times.end(), [&](double a, double b) { return order(law.at(a), law.at(b)); }));
   }
+}
+
+}  // namespace
+
+void move_to_least_openings(const Case &all, std::vector<MovingValve> &valves) {
+  move_to_first(all, valves, std::less<>());
+}
+
+void measure_largest_orifices(const Case &all, std::vector<MovingValve> &valves, Report &report) {
+  if (!all.options.check_leaks) return;
+  move_to_first(all, valves, std::greater<>());
+  measure_orifices(all, valves, report);
 }
 
 void set_series_arrays(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *nodes, riis_vtk_mesh *part,
@@ -229,7 +248,7 @@ void print_summary(const Case &all, const SeriesTable &table, const std::vector<
   text += "mesh      " + all.options.mesh + ": " + counted(n_nodes, "node") +
           (n_written ? ", " + grouped(*n_written) + " written\n" : "\n");
   text += table.summary();
-  text += line_of_passage(report.leaks);
+  text += line_of_passage(report.leaks) + lines_of_valve_flows(report);
   for (const SeriesFiles *files : lists) {
     if (!files->is_wanted()) continue;
     report.written.push_back(files->pvd() + ", " + counted(static_cast<int64_t>(files->n_written()), "file") + " in " +

@@ -52,6 +52,8 @@ MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &nod
 double time_before(const Case &all, std::size_t step);
 // Moves each valve to the time when it is least open. If there are several, moves it to the first.
 void move_to_least_openings(const Case &all, std::vector<MovingValve> &valves);
+// Moves each valve to the time when it is most open, and measures its orifice there, if the options have two points.
+void measure_largest_orifices(const Case &all, std::vector<MovingValve> &valves, Report &report);
 // Moves the valves to a step, marks the nodes, and sets the arrays in the part.
 void set_series_arrays(const Case &all, std::vector<MovingValve> &valves, const riis_mesh *nodes, riis_vtk_mesh *part,
                        std::size_t step);

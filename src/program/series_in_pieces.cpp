@@ -179,6 +179,7 @@ class SeriesInPieces {
     }
     const Surface joined = joined_for_passage(all_, valves_);
     check_passage(joined.get(), counts, report);
+    measure_largest_orifices(all_, valves_, report);
   }
 
   void check_passage(const riis_surface *joined, const MeshCounts &counts, Report &report) {

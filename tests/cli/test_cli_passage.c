@@ -179,6 +179,99 @@ static void test_pieces(void **state) {
               "0,0,8.5");
 }
 
+/* Reads the numbers of the line that begins with the words: area, effective area, half thicknesses and perimeter. */
+static void expect_orifice(const char *words, const riis_orifice *expected) {
+  char line[80];
+  snprintf(line, sizeof line, "\norifice   %s", words);
+  const char *const found = strstr(program_out, line);
+  if (!found) fail_msg("no line '%s' in: %s", words, program_out);
+  double area = -1, effective = -1, reach = -1, perimeter = -1;
+  assert_int_equal(sscanf(found + strlen(line),
+                          "%lf open, %lf effective: the band takes %lf half thicknesses along a perimeter of %lf",
+                          &area, &effective, &reach, &perimeter),
+                   4);
+  assert_true(expected->area > 0.1 && expected->effective_area > 0 && expected->effective_area < expected->area);
+  assert_true(fabs(area - expected->area) <= 1e-5 * expected->area);
+  assert_true(fabs(effective - expected->effective_area) <= 1e-5 * expected->effective_area);
+  assert_true(fabs(reach - expected->rim_reach) <= 1e-5);
+  assert_true(fabs(perimeter - expected->perimeter) <= 1e-5 * expected->perimeter);
+}
+
+/* Measures the orifice of a kind of valve. */
+static riis_orifice orifice_by_c(const char *kind, double opening, double half_thickness) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_surface_options options;
+  riis_orifice orifice;
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  options.half_thickness = half_thickness;
+  expect_fine(riis_valve_create(kind, &valve));
+  expect_fine(riis_valve_set_scalar(valve, "opening", opening));
+  expect_fine(riis_surface_create(valve, &options, &surface));
+  expect_fine(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+  return orifice;
+}
+
+/* Returns the mean number of mesh edges across the band of a valve, from the line that begins with the words. */
+static double across_of(const char *words) {
+  char line[80];
+  double mean = -1;
+  snprintf(line, sizeof line, "\nacross    %s", words);
+  const char *const found = strstr(program_out, line);
+  if (!found) fail_msg("no line '%s' in: %s", words, program_out);
+  assert_int_equal(sscanf(found + strlen(line), "%lf mesh edges of mean length in the band", &mean), 1);
+  return mean;
+}
+
+/* Each valve of a case with two points has lines of its own. A valve alone has the same numbers. */
+static void test_flow_of_several_valves(void **state) {
+  (void)state;
+#define TWO_POINTS "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"half_thickness\": 0.09,\n"
+  scratch_write_text("flows.json", TWO_POINTS
+                     " \"valves\": [{\"name\": \"left\", \"valve\": \"trileaflet\", \"opening\": 0.75},\n"
+                     "  {\"name\": \"right\", \"valve\": \"bileaflet\", \"opening\": 0.25}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("flows.json"));
+  const riis_orifice left = orifice_by_c("trileaflet", 0.75, 0.09), right = orifice_by_c("bileaflet", 0.25, 0.09);
+  expect_orifice("left, opening 0.75: ", &left);
+  expect_orifice("right, opening 0.25: ", &right);
+  const double across[2] = {across_of("left: "), across_of("right: ")};
+  const char *const kinds[2] = {"trileaflet", "bileaflet"}, *const openings[2] = {"0.75", "0.25"};
+  for (int i = 0; i < 2; ++i) {
+    RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--valve", kinds[i], "--opening", openings[i],
+             "--half-thickness", "0.09");
+    assert_true(across_of("") == across[i]);
+    expect_orifice("", i ? &right : &left);
+  }
+  /* In a series, the band is measured where the valve is least open, and the orifice where it is most open. */
+  scratch_write_text("rises.csv", "0,0.5\n1,0\n2,0.75\n");
+  scratch_write_text("falls.csv", "0,0.25\n1,0.125\n2,0\n");
+  scratch_write_text(
+      "flow_series.json", TWO_POINTS
+      " \"times\": \"0:2:1\",\n"
+      " \"valves\": [{\"name\": \"left\", \"valve\": \"trileaflet\", \"opening\": {\"file\": \"rises.csv\"}},\n"
+      "  {\"name\": \"right\", \"valve\": \"bileaflet\", \"opening\": {\"file\": \"falls.csv\"}}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("flow_series.json"), "--series-table", scratch_path("flow_table.csv"));
+  expect_orifice("left, opening 0.75: ", &left);
+  expect_orifice("right, opening 0.25: ", &right);
+  const double closed[2] = {across_of("left: "), across_of("right: ")};
+  for (int i = 0; i < 2; ++i) {
+    RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--valve", kinds[i], "--opening", "0", "--half-thickness",
+             "0.09");
+    assert_true(across_of("") == closed[i]);
+  }
+  /* A case with one valve names only the opening. Without points nothing is measured. */
+  scratch_write_text("flow_one.json", TWO_POINTS " \"valves\": [{\"valve\": \"trileaflet\", \"opening\": 0.75}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("flow_one.json"));
+  expect_orifice("opening 0.75: ", &left);
+  assert_true(across_of("") == across[0]);
+  scratch_write_text("no_points.json", "{\"mesh\": \"box.vtu\", \"valves\": [{\"valve\": \"trileaflet\"}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("no_points.json"));
+  assert_null(strstr(program_out, "orifice"));
+  assert_null(strstr(program_out, "across"));
+}
+
 /* Two valves lie in a row. Either valve alone closes the passage. */
 static void test_cases(void **state) {
   (void)state;
@@ -225,10 +318,15 @@ static void test_series(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_open_valve),      cmocka_unit_test(test_flow),
-      cmocka_unit_test(test_closed_valve),    cmocka_unit_test(test_end_is_the_narrowest_place),
-      cmocka_unit_test(test_what_is_refused), cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_cases),           cmocka_unit_test(test_series),
+      cmocka_unit_test(test_open_valve),
+      cmocka_unit_test(test_flow),
+      cmocka_unit_test(test_closed_valve),
+      cmocka_unit_test(test_end_is_the_narrowest_place),
+      cmocka_unit_test(test_what_is_refused),
+      cmocka_unit_test(test_pieces),
+      cmocka_unit_test(test_cases),
+      cmocka_unit_test(test_series),
+      cmocka_unit_test(test_flow_of_several_valves),
   };
   return cmocka_run_group_tests(tests, write_box, scratch_teardown);
 }

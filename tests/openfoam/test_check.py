@@ -419,38 +419,51 @@ class Moving(Files):
             self.forces(f"rest-{solver}", [0, 0, 0.2])
             for cells in (10, 20):
                 self.plate(f"plate-{cells}-{solver}", 1, 1)
-            self.jet(f"jet-{solver}", 1.0, 1.9)
+            for cells in (24, 32):
+                self.jet(f"jet-{cells}-{solver}", 1.0 if solver == "riisSource" else 1.2)
+                self.displaced(f"hexahedra-{cells}-{solver}", 0.9)
+        swept = check.swept
+        self.addCleanup(lambda: setattr(check, "swept", swept))
+        check.swept = lambda library, kind, opening: 1e-6 * opening
 
     def forces(self, name, force, valves=("aorticValve",)):
         lines = "".join(f"riis {valve}: force of the flow (9 9 9) N\n" for valve in valves)
         lines += "".join(f"riis {valve}: force of the flow ({force[0]} {force[1]} {force[2]}) N\n" for valve in valves)
-        self.write(self.folder / name / "log.pimpleFoam",
-                   "Create time\n" + "".join(f"\nTime = {time:.3f}\n\n{lines}" for time in self.times))
+        steps = "riis {}: opening {}, 100 cells marked, integral of K 1 kg/s, 0.001 s in the library\n"
+        self.write(self.folder / name / "log.pimpleFoam", "Create time\n" + "".join(
+            f"\nTime = {time:.3f}\n\n{steps.format(valves[0], opening)}{lines}ExecutionTime = 1 s\n"
+            for time, opening in zip(self.times, self.opening)))
+
+    def displaced(self, name, share):
+        """Writes the flows at both ends. Until the opening 0.25 the valve sweeps 0.25 ml in 5 steps."""
+        for function, sign in (("inflow", -1.5), ("outflow", 0.5)):
+            self.table(self.folder / name, function, self.times, [sign * 5e-5 * share] * 40)
 
     def plate(self, name, share_in, share_out):
         flow = 1e-4 * self.stroke / 0.04
         self.table(self.folder / name, "inflow", self.times, [-flow * share_in] * 40)
         self.table(self.folder / name, "outflow", self.times, [flow * share_out] * 40)
 
-    def jet(self, name, jet, fastest):
-        """Writes speeds, in units of sqrt(2 dp / rho), which is 1 m/s here."""
+    def jet(self, name, fastest):
+        """Writes the largest speed, in units of sqrt(2 dp / rho), which is 1 m/s here."""
         case = self.folder / name
         self.log(case, self.times, self.opening, [100] * 40)
         self.table(case, "below", self.times, [1.5] * 40)
         self.table(case, "above", self.times, [1.0] * 40)
-        for function, speed, kind in (("jet", jet, "surface"), ("fastest", fastest, "vol")):
-            self.write(case / f"postProcessing/{function}/0/{kind}FieldValue.dat",
-                       "# Time max(U)\n" + "".join(f"{time:.3f}\t(9 9 {speed})\n" for time in self.times))
+        self.write(case / "postProcessing/fastest/0/volFieldValue.dat",
+                   "# Time max(U)\n" + "".join(f"{time:.3f}\t(9 9 {fastest})\n" for time in self.times))
 
     def refused(self, words):
-        self.stopped(words, check.moving, self.folder)
+        self.stopped(words, check.moving, self.folder, "libriis.so")
 
     def test_good_cases(self):
-        printed = self.printed(check.moving, self.folder)
+        printed = self.printed(check.moving, self.folder, "libriis.so")
         self.assertRegex(printed, r"tetrahedra-riisSource +0\.050 +0\.100 +0\.100 +0\.100\n")
         self.assertRegex(printed, r"two-valves +\d\.\de-1\d N|two-valves +0\.0e\+00 N")
         self.assertRegex(printed, r"plate-20-PCG .*: 100\.000 % of area times stroke")
-        self.assertRegex(printed, r"jet-riisSource +1\.00, 1\.00 v; anywhere 1\.90, 1\.90 v")
+        self.assertRegex(printed, r"hexahedra-32-riisSource +0\.225: 90\.0 % of the swept volume")
+        self.assertRegex(printed, r"jet-32-riisSource +1\.00, 1\.00 v")
+        self.assertRegex(printed, r"jet-24-PCG +1\.20, 1\.20 v")
 
     def test_a_force_across_or_along(self):
         self.forces("box-32-riisSource", [0.08, -0.07, 0.1])
@@ -483,12 +496,22 @@ class Moving(Files):
         self.plate("plate-20-riisSource", 0.97, 1.005)
         self.refused("plate-20-riisSource: the mean volume is area times stroke to 1 %: 0.98750 of it")
 
+    def test_a_swept_volume(self):
+        for share in (0.84, 1.16):
+            self.displaced("hexahedra-32-riisSource", share)
+            self.refused(f"hexahedra-32-riisSource: the mean volume is the swept volume to 15%: {share:.3f} of it")
+        self.displaced("hexahedra-24-riisSource", 0.79)
+        self.refused("hexahedra-24-riisSource: the mean volume is the swept volume to 20%: 0.790 of it")
+
     def test_a_jet(self):
-        self.jet("jet-PCG", 1.06, 1.9)
-        self.refused("jet-PCG: the jet is at most 1.05 v: 1.060")
+        self.jet("jet-24-riisSource", 1.06)
+        self.refused("jet-24-riisSource: the jet is at most 1.05 v: 1.060")
+        self.jet("jet-24-riisSource", 1.0)
+        self.jet("jet-24-PCG", 1.04)
+        self.refused("jet-24-PCG: the jet is what riisSource cures, above 1.05 v: 1.040")
         self.opening[:] *= 0.5
-        self.jet("jet-PCG", 1.0, 1.9)
-        self.refused("the valve of jet-PCG opens: its opening is 0.5 at the end")
+        self.jet("jet-24-PCG", 1.2)
+        self.refused("the valve of jet-24-PCG opens: its opening is 0.5 at the end")
 
     def test_missing_lines(self):
         self.replace(self.folder / "rest-PCG/log.pimpleFoam", "force of the flow (9 9 9) N\nriis aorticValve: force", "")
@@ -497,8 +520,8 @@ class Moving(Files):
         (self.folder / "ranks-4/log.pimpleFoam").unlink()
         self.refused("ranks-4 has no log.p*Foam")
         self.setUp()
-        (self.folder / "jet-PCG/postProcessing/jet/0/surfaceFieldValue.dat").unlink()
-        self.refused("jet-PCG has velocities in a file postProcessing/jet/*/*FieldValue.dat")
+        (self.folder / "jet-24-PCG/postProcessing/fastest/0/volFieldValue.dat").unlink()
+        self.refused("jet-24-PCG has velocities in a file postProcessing/fastest/*/*FieldValue.dat")
         self.setUp()
         self.table(self.folder / "plate-10-PCG", "outflow", self.times[1:], [1] * 39)
         self.refused("plate-10-PCG has 40 steps, not 40 and 39")

@@ -130,6 +130,14 @@ class Judged(unittest.TestCase):
                 validate.read_committed(path)
         self.assertIn("| effective area |", validate.table_of([made]))
         self.assertIn("**missed**", validate.table_of([{**made, "bar": 0.01}]))
+        # Each row names its solver if there are several.
+        two = [{**made, "solver": "second"}, {**made, "solver": "first", "quantity": "drop"}]
+        table = validate.table_of(two)
+        self.assertRegex(table, r"\| effective area \|.*\| b \|")
+        self.assertRegex(table, r"\| drop \|.*\| a \|")
+        self.assertEqual(validate.solvers_of(two), "(a) first; (b) second")
+        self.assertEqual(validate.solvers_of(two[:1]), "second")
+        self.assertNotIn("solver", validate.table_of(two[:1]))
 
     def test_status(self):
         # Makes the page of invented rows. Either one row misses its bar, or none does.

@@ -10,6 +10,8 @@ module check_tools
   private
   public :: demand, make_duct, put_plate, start_root, finish_root, ramp, anywhere, motion, move_valve, place_vessel, in_vessel
   logical, public :: all_right = .true.
+  real(dp), parameter, public :: openings(8) = [0.05_dp, 0.1_dp, 0.15_dp, 0.2_dp, 0.25_dp, 0.5_dp, 0.75_dp, 1._dp]
+  integer, parameter, public :: touching = 5      ! the index of the opening until which the bands of the cusps touch
   ! The kind and the placement of the vessel, set by place_vessel.
   character(len=32) :: vessel = 'trileaflet'
   real(dp) :: vessel_place(3) = 0, to_valve(3, 3) = reshape([1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
@@ -22,7 +24,7 @@ module check_tools
     real(dp) :: side(3) = 0                       ! [N] largest magnitude of each component of the force
     real(dp) :: into = 0, out = 0, source = 0     ! [m^3] volumes: inflow, outflow, and net source
     real(dp) :: swept = 0                         ! [m^3] volume that the leaflets sweep
-    real(dp) :: displaced(2) = 0                  ! [m^3] mean of inflow and outflow, and swept volume, up to the opening 0.25
+    real(dp) :: displaced(2, size(openings)) = 0  ! [m^3] mean of inflow and outflow, and swept volume, up to each opening
     real(dp) :: divergence = 0                    ! [1/s] largest |divergence - source|
     real(dp) :: net = 0, gross = 0                ! [m^3/s] largest sum of the sources, and of their magnitudes
     real(dp) :: p_least = 0, p_most = 0           ! [Pa] smallest and largest pressure
@@ -170,6 +172,7 @@ contains
     real(dp), allocatable :: vertices(:, :), before(:, :)
     integer, allocatable :: corners(:, :)
     real(dp) :: from, opening, time, dt, axis(3), force(3), along, impulse(3), span
+    integer :: i
     from = valve%opening
     axis = turn([0._dp, 0._dp, 1._dp], valve%turn_axis, valve%turn)
     call valve%valve%copy(shape_valve)
@@ -216,7 +219,9 @@ contains
       call get_triangles(shape, vertices, corners)
       seen%swept = seen%swept + swept_between(before, vertices, corners)
       before = vertices
-      if (opening <= 0.25_dp) seen%displaced = [(seen%into + seen%out) / 2, seen%swept]
+      do i = 1, size(openings)
+        if (opening <= openings(i) + 1e-9_dp) seen%displaced(:, i) = [(seen%into + seen%out) / 2, seen%swept]
+      end do
     end do
     call shape%destroy()
     call shape_valve%destroy()
