@@ -123,6 +123,17 @@ def test_refused(tmp_path):
     refused("mirrored", swapped, "aortic", unit="mm")
     one = named | {"nadir_left": named["nadir_right"] + 1e-3}
     refused("'nadir_right' and 'nadir_left' are in one place", one, "trileaflet", unit="mm")
+    refused("the landmarks lie along a line", {name: (3.0 * i, i, 2.0 * i) for i, name in enumerate(NAMES)}, "trileaflet", unit="mm")
+    mirror = {name: point * (-1, 1, 1) for name, point in named.items()}
+    refused("mirrored", mirror, "trileaflet", unit="mm")
+    turns = numpy.arange(12) * numpy.pi / 6
+    annulus = numpy.stack([18 * numpy.sin(turns), 12 * numpy.cos(turns), 4 * numpy.cos(2 * turns)], 1)
+    ring = {"annulus": annulus, "anterior_horn": annulus[0]}
+    assert riis.place(ring, "mitral", unit="mm", flow=(0, 0, -1)).names[3] == "annulus_4"
+    refused("the annulus crosses itself: the line from 'annulus_", ring | {"annulus": annulus[[0, 1, 4, 3, 2, *range(5, 12)]]},
+            "mitral", unit="mm", flow=(0, 0, -1))
+    refused("the landmarks give root_radius .* and then coaptation_height is 9", named, riis.Valve("coapting", coaptation_height=9),
+            unit="mm", held="coaptation_height", error=riis.InvalidParameterError)
     missing = {name: point for name, point in named.items() if name != "nadir_left"}
     refused("the nadir 2 times", missing, "trileaflet", unit="mm")
     with pytest.raises(TypeError, match="mapping"):
