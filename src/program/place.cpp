@@ -141,7 +141,8 @@ std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
 void check_landmarks(riis_status status, const PlaceOptions &options, const LandmarkFile &landmarks) {
   if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
   std::string text = in_words_of_file(riis_last_error(), landmarks);
-  if (text.rfind("the landmarks give ", 0) == 0) text += "; --set gives sizes that landmarks do not tell, in centimetres";
+  if (text.rfind("the landmarks give ", 0) == 0)
+    text += "; --set gives sizes that landmarks do not tell, in centimetres";
   throw Refusal{exit_bad_data, options.landmarks + ": " + text};
 }
 

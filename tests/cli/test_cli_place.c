@@ -391,21 +391,23 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
 static void wrong_landmarks_are_refused(void **state) {
   (void)state;
   double points[6][3];
-#define CHANGED(words, ...)                                                                             \
-  do {                                                                                                  \
-    for (int i = 0; i < 6; ++i) landmark(i, 10, points[i]);                                             \
-    __VA_ARGS__;                                                                                        \
+#define CHANGED(words, ...)                                                                               \
+  do {                                                                                                    \
+    for (int i = 0; i < 6; ++i) landmark(i, 10, points[i]);                                               \
+    __VA_ARGS__;                                                                                          \
     RUN_REFUSED(1, words, "place", json_of_points(6, names, points), "--valve", "trileaflet", "--quiet"); \
   } while (0)
   CHANGED("points.json: \"nadir_right\" and \"nadir_left\" are in one place",
           for (int k = 0; k < 3; ++k) points[2][k] = points[0][k] + 0.01);
-  CHANGED("points.json: the landmarks lie along a line", for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 3; ++k) points[i][k] = 3 * i * (k + 1);
-  });
+  CHANGED(
+      "points.json: the landmarks lie along a line", for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 3; ++k) points[i][k] = 3 * i * (k + 1);
+      });
   CHANGED("mirrored", for (int i = 0; i < 6; ++i) points[i][1] *= -1);
-  CHANGED("the landmarks' mean distance from their middle", for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 3; ++k) points[i][k] /= 10;
-  });
+  CHANGED(
+      "the landmarks' mean distance from their middle", for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 3; ++k) points[i][k] /= 10;
+      });
 
   enum { n = 13 };
   const char *labels[n] = {"anterior_horn"};
@@ -426,6 +428,30 @@ static void wrong_landmarks_are_refused(void **state) {
               "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
+/* Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there. */
+static void folds_are_refused(void **state) {
+  (void)state;
+  const char *labels[8] = {0};
+  memcpy(labels, names, sizeof names);
+  labels[6] = "attachment_right_1", labels[7] = "attachment_right_2";
+  double points[8][3];
+  for (int i = 0; i < 6; ++i) landmark(i, 10, points[i]);
+  for (int i = 0; i < 2; ++i) {
+    const double out = i ? -10 : 10, aside = i ? -2 : 2;
+    points[6 + i][0] = 1 + 2, points[6 + i][1] = aside + 1, points[6 + i][2] = -(10 * R + out) - 3;
+  }
+  RUN_REFUSED(1, "points.json: the warp folds near \"commissure_", "place", json_of_points(8, labels, points),
+              "--valve", "coapting", "--warp", "exact", "--quiet");
+  assert_non_null(strstr(program_err, "its determinant is -"));
+  for (int i = 0; i < 2; ++i) {
+    const double angle = (i ? 24 : 20) * acos(-1.0) / 180, radius = 10 * R - (i ? 6 : 0);
+    points[6 + i][0] = 3 + 2, points[6 + i][1] = radius * sin(angle) + 1, points[6 + i][2] = -radius * cos(angle) - 3;
+  }
+  RUN_REFUSED(1, "points.json: the warp turns a part of patch", "place", json_of_points(8, labels, points), "--valve",
+              "coapting", "--warp", "exact", "--quiet");
+  RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
+}
+
 /* The sizes that landmarks do not tell may not go together with those that they tell. */
 static void sizes_that_do_not_go_together_are_named(void **state) {
   (void)state;
@@ -435,8 +461,8 @@ static void sizes_that_do_not_go_together_are_named(void **state) {
               "coaptation_height is 2; it must be from 0.02 to 0.9 times effective_height",
               "place", path, "--valve", "coapting", "--set", "coaptation_height=2");
   assert_non_null(strstr(program_err, "--set gives sizes that landmarks do not tell, in centimetres"));
-  RUN_REFUSED(1, "and then effective_height is 1.39; it must be from 0.1 to 0.97 times commissure_height", "place", path,
-              "--valve", "coapting", "--set", "effective_height=1.39");
+  RUN_REFUSED(1, "and then effective_height is 1.39; it must be from 0.1 to 0.97 times commissure_height", "place",
+              path, "--valve", "coapting", "--set", "effective_height=1.39");
   RUN_FINE("place", path, "--valve", "coapting", "--set", "coaptation_height=0.2", "--output", "-");
   if (fabs(json_number(program_out, "coaptation_height") - 0.2) > 1e-15) fail_msg("it is not held: %s", program_out);
   /* Low commissures leave less room for the coaptation zone, which follows. */
@@ -464,6 +490,7 @@ int main(void) {
                                     cmocka_unit_test(files_are_refused_by_name),
                                     cmocka_unit_test(fits_are_refused_in_words_of_the_file),
                                     cmocka_unit_test(wrong_landmarks_are_refused),
+                                    cmocka_unit_test(folds_are_refused),
                                     cmocka_unit_test(sizes_that_do_not_go_together_are_named)};
   const struct CMUnitTest far[] = {cmocka_unit_test(wrong_axes_are_named)};
   const int n_near = cmocka_run_group_tests(near, make_box, scratch_teardown);

@@ -160,7 +160,8 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
     } else {
       for (int64_t i = 0; i < held.n_edges; ++i) {
         const double *e = held.edges + 6 * i;
-        const double x = meets(c * e[0] + s * e[1], c * e[1] - s * e[0] - y, c * e[3] + s * e[4], c * e[4] - s * e[3] - y);
+        const double x =
+            meets(c * e[0] + s * e[1], c * e[1] - s * e[0] - y, c * e[3] + s * e[4], c * e[4] - s * e[3] - y);
         if (!isnan(x)) inside[n_inside++] = (span){x, 0};
       }
       qsort(inside, (size_t)n_inside, sizeof *inside, by_start);

@@ -185,8 +185,7 @@ void check_sizes(const Valve &valve, const std::vector<FittedSize> &sizes) {
   } catch (const Error &error) {
     std::string given;
     for (const FittedSize &size : sizes)
-      if (!size.held)
-        given += (given.empty() ? "" : ", ") + size.name + " " + Message(rounded(size.value, 4)).text();
+      if (!size.held) given += (given.empty() ? "" : ", ") + size.name + " " + Message(rounded(size.value, 4)).text();
     if (given.empty()) throw;
     fail(error.status, "the landmarks give ", given.c_str(), ", and then ", error.message.text());
   }
