@@ -198,3 +198,35 @@ def test_warps_that_fold_are_refused():
     with pytest.raises(riis.InvalidParameterError, match="the warp folds near 'commissure_.*its determinant is -"):
         riis.place(torn, "coapting", unit="mm", warp="exact")
     assert riis.place(named, "coapting", unit="mm", warp="exact").warped_residuals.max() < 1e-9
+
+
+def test_landmarks_must_be_at_the_nodes(tmp_path):
+    # The valve is beside the axis z, so half a turn about z takes it away from the mesh.
+    points = 10 * trileaflet(1.1, 1.05, 1.4) + (90, 80, 0)
+    named = {name: point.tolist() for name, point in zip(NAMES, points, strict=True)}
+    nodes = points[:, None].repeat(4, 1).reshape(-1, 3) + numpy.random.default_rng(3).normal(size=(24, 3))
+    path = tmp_path / "a.json"
+
+    def placed(stated, unit, sign, factor, **options):
+        turned = {name: (factor * numpy.array(point) * (sign, sign, 1)).tolist() for name, point in named.items()}
+        path.write_text(json.dumps({"unit": unit, "axes": stated, "landmarks": turned}))
+        return riis.place(path, "trileaflet", nodes=options.pop("at", nodes), **options)
+
+    assert placed("LPS", "mm", 1, 1).unit == "mm"
+    for axes, other in (("LPS", "RAS"), ("RAS", "LPS")):
+        words = f"x and y reversed, as between LPS and RAS, they are .* from them: give axes='{other}'"
+        with pytest.raises(riis.InvalidArgumentError, match=words):
+            placed(axes, "mm", -1, 1)
+        assert placed(axes, "mm", -1, 1, axes=other).axes == other
+    with pytest.raises(riis.InvalidArgumentError, match="in mm, they are .* give unit='mm'"):
+        placed("LPS", "cm", 1, 0.1)
+    with pytest.raises(riis.InvalidArgumentError, match="in mm and with x and y reversed.* give unit='mm' and give axes='RAS'"):
+        placed("LPS", "cm", -1, 0.1)
+    with pytest.raises(riis.InvalidArgumentError, match="reversed.* state the axes of the file"):
+        placed("mesh", "mm", -1, 1)
+    with pytest.raises(riis.InvalidArgumentError, match="in mm, they are .* from them: give the landmarks in mm"):
+        riis.place({name: points[i] / 10 for i, name in enumerate(NAMES)}, "trileaflet", unit="cm", nodes=nodes)
+    with pytest.raises(riis.InvalidArgumentError, match="more than 1 cm, in any unit"):
+        placed("LPS", "mm", 1, 1, at=nodes + 400)
+    with pytest.raises(riis.InvalidArgumentError, match=r"nodes: its shape is \(24,\)"):
+        placed("LPS", "mm", 1, 1, at=nodes[:, 0])
