@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of each call for the tables in docs/performance.md: the time of the shortest of repeated calls, and the memory
-// that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %. The last
-// table has processor times of orifices, free edges and coaptation of surfaces with 60,000 triangles. argv[1], optional: thousands
-// of nodes, or "measures" for the last table alone.
+// Measures the cost of each call for the tables in docs/performance.md: the time of the shortest of repeated calls, and the
+// memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %.
+// The last table has processor times of orifices, free edges and coaptation of surfaces with 60,000 triangles. argv[1],
+// optional: thousands of nodes, or "measures" for the last table alone.
 #include <riis/riis.h>
 
 #include <algorithm>
