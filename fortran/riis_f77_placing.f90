@@ -63,9 +63,9 @@ end subroutine riisf_place
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_points, riis_status, riis_surface_options, riis_warp_options, RIIS_OK, riis_points_init, &
-    riis_surface_options_init, riis_warp_create, riis_warp_options_init
-  use riis_support, only: handle_of, location_of
+  use riis_c, only: riis_points, riis_status, riis_surface_options, riis_warp_options, RIIS_OK, riis_surface_options_init, &
+    riis_warp_create, riis_warp_options_init
+  use riis_support, only: describe_points, handle_of
   implicit none
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
@@ -80,17 +80,10 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   type(riis_surface_options), target :: placement
   type(riis_warp_options) :: options
   type(c_ptr) :: c_handle
-  status = riis_points_init(points, c_sizeof(points))
+  status = describe_points(int(n_landmarks, int64), xyz, points)
   if (status == RIIS_OK) status = riis_surface_options_init(placement, c_sizeof(placement))
   if (status == RIIS_OK) status = riis_warp_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
-  points%n_points = n_landmarks
-  points%stride = 3
-  if (n_landmarks > 0) then
-    points%x = location_of(xyz(1:1, 1))
-    points%y = location_of(xyz(2:2, 1))
-    points%z = location_of(xyz(3:3, 1))
-  end if
   placement%scale = scale
   placement%rotation_axis = rotation_axis
   placement%rotation_angle = rotation_angle
@@ -105,26 +98,18 @@ end subroutine riisf_warp_create
 !> Takes the landmarks to these places, in each time step. Valves that have the warp keep the map until riisf_valve_set_warp.
 !! Errors: RIIS_INVALID_ARGUMENT naming the landmark; RIIS_INVALID_PARAMETER for a warp that folds, with the place.
 subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_points_init, riis_warp_set_targets
-  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_warp_set_targets
+  use riis_support, only: c_handle_of, describe_points
   implicit none
   integer(int64), intent(in) :: warp                      !< Unchanged on an error.
   integer(int32), intent(in) :: n_landmarks               !< As many as the warp has.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: points
-  status = riis_points_init(points, c_sizeof(points))
-  if (status /= RIIS_OK) return
-  points%n_points = n_landmarks
-  points%stride = 3
-  if (n_landmarks > 0) then
-    points%x = location_of(xyz(1:1, 1))
-    points%y = location_of(xyz(2:2, 1))
-    points%z = location_of(xyz(3:3, 1))
-  end if
-  status = riis_warp_set_targets(c_handle_of(warp), points)
+  status = describe_points(int(n_landmarks, int64), xyz, points)
+  if (status == RIIS_OK) status = riis_warp_set_targets(c_handle_of(warp), points)
 end subroutine riisf_warp_set_targets
 
 !> Gives a valve copies of the maps of two warps. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`;

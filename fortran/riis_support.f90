@@ -6,11 +6,11 @@ module riis_support
     c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE, RIIS_LIMIT_EXCEEDED, &
-    RIIS_OUT_OF_MEMORY, riis_surface_arrays, riis_surface_options, riis_c_string, riis_c_text, riis_last_error, &
-    riis_status_name, riis_surface_arrays_init, riis_surface_options_init
+    RIIS_OUT_OF_MEMORY, riis_points, riis_surface_arrays, riis_surface_options, riis_c_string, riis_c_text, &
+    riis_last_error, riis_points_init, riis_status_name, riis_surface_arrays_init, riis_surface_options_init
   implicit none
   private
-  public :: strided_points, points_of, address_of, text_of
+  public :: strided_points, points_of, describe_points, address_of, text_of
   public :: c_handle_of, handle_of, location_of, get_placement
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
   public :: get_faces, get_mask, end_for_c
@@ -315,6 +315,22 @@ contains
     if (code == RIIS_OK .and. (y_stride /= points%stride .or. z_stride /= points%stride)) &
       code = refuse_unequal('strides', points%stride, y_stride, z_stride, prefix)
   end subroutine points_of_vectors
+
+  !> Describes the points of an array (3, n) for C, without a copy.
+  function describe_points(n_points, xyz, points) result(code)
+    integer(int64), intent(in) :: n_points                  !< C checks its range.
+    real(c_double), intent(in), target :: xyz(3, *)         !< (3, n_points). It must live as long as `points` is used.
+    type(riis_points), intent(inout) :: points              !< Written on success.
+    integer(riis_status) :: code                            !< RIIS_OK or the error.
+    code = riis_points_init(points, c_sizeof(points))
+    if (code /= RIIS_OK) return
+    points%n_points = n_points
+    points%stride = 3
+    if (n_points < 1) return
+    points%x = c_loc(xyz(1, 1))
+    points%y = c_loc(xyz(2, 1))
+    points%z = c_loc(xyz(3, 1))
+  end function describe_points
 
   ! Returns an argument's name with its prefix.
   function prefixed(name, prefix) result(whole)

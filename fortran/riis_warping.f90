@@ -85,16 +85,9 @@ contains
     character(len=*), intent(in) :: name
     type(riis_points), intent(inout) :: points
     integer(riis_status), intent(inout) :: code
-    if (code == RIIS_OK) code = riis_points_init(points, c_sizeof(points))
     if (code == RIIS_OK .and. size(xyz, 1) /= 3) &
       code = refuse('the first extent of ' // name // ' is ' // text_of(size(xyz, 1)) // '; it must be 3')
-    if (code /= RIIS_OK) return
-    points%n_points = size(xyz, 2, int64)
-    points%stride = 3
-    if (size(xyz, 2) == 0) return
-    points%x = c_loc(xyz(1, 1))
-    points%y = c_loc(xyz(2, 1))
-    points%z = c_loc(xyz(3, 1))
+    if (code == RIIS_OK) code = describe_points(size(xyz, 2, int64), xyz, points)
   end subroutine get_points
 
   !> Takes the landmarks to these places. The same targets give the same bits, even after other targets. Errors:

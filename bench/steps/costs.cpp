@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the cost of each call for the table in docs/performance.md: the time of the shortest of repeated calls, and the memory
-// that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %. argv[1],
-// optional: thousands of nodes.
+// Measures the cost of each call for the tables in docs/performance.md: the time of the shortest of repeated calls, and the
+// memory that stays with the handle. The meshes are cylinders of a million nodes around the valves, and the tolerance is 5 %.
+// The last table has processor times of orifices, free edges and coaptation of surfaces with 60,000 triangles. argv[1],
+// optional: thousands of nodes, or "measures" for the last table alone.
 #include <riis/riis.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <functional>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/cylinder.hpp"
@@ -163,9 +170,146 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
             shortest([&] { get_distances(result.get(), RIIS_FAR_DISTANCE, distance); }));
 }
 
+// ---- Orifice, free edges and coaptation ----
+
+constexpr double wanted_triangles = 60000;
+
+// Returns options that give at least 60,000 triangles. Their number is nearly proportional to 1 / tolerance.
+riis_surface_options fine_options(const riis_valve *valve) {
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  for (;;) {
+    const double share = n_triangles_of(make_surface(valve, &options).get()) / wanted_triangles;
+    if (share >= 1) return options;
+    options.tolerance *= std::min(share, 0.95);
+  }
+}
+
+// The triangles of a valve's surface as arrays and as two equal frames, as a solver or a file gives them.
+class OwnTriangles {
+ public:
+  explicit OwnTriangles(const riis_surface *surface) {
+    const riis_triangles all = triangles_of(surface);
+    frames_.assign(all.xyz, all.xyz + 3 * all.n_vertices);
+    frames_.insert(frames_.end(), all.xyz, all.xyz + 3 * all.n_vertices);
+    vertex_ids_.assign(all.vertex_id, all.vertex_id + 3 * all.n_triangles);
+    leaflet_ids_.assign(all.leaflet_id, all.leaflet_id + all.n_triangles);
+    check(riis_surface_arrays_init(&arrays_, sizeof arrays_));
+    arrays_.n_vertices = all.n_vertices;
+    arrays_.x = frames_.data(), arrays_.y = frames_.data() + 1, arrays_.z = frames_.data() + 2;
+    arrays_.stride = 3;
+    arrays_.n_faces = all.n_triangles;
+    arrays_.vertex_ids = vertex_ids_.data();
+    arrays_.id_bits = 64;
+    arrays_.leaflet_id = leaflet_ids_.data();
+    riis_keyframe_arrays frames;
+    check(riis_keyframe_arrays_init(&frames, sizeof frames));
+    const double times[2] = {0, 1};
+    frames.n_keys = 2;
+    frames.n_vertices = all.n_vertices;
+    frames.time = times;
+    frames.xyz = frames_.data();
+    riis_keyframes *keyframes = nullptr;
+    check(riis_keyframes_create(&arrays_, &frames, &keyframes));
+    keyframes_.reset(keyframes);
+  }
+  Surface from_arrays() const {
+    riis_surface *surface = nullptr;
+    check(riis_surface_create_from_arrays(&arrays_, nullptr, &surface));
+    return Surface(surface);
+  }
+  Surface from_keyframes() const {
+    riis_surface *surface = nullptr;
+    check(riis_surface_create_from_keyframes(keyframes_.get(), 0.5, 0, nullptr, &surface));
+    return Surface(surface);
+  }
+
+ private:
+  std::vector<double> frames_;
+  std::vector<std::int64_t> vertex_ids_;
+  std::vector<std::int32_t> leaflet_ids_;
+  riis_surface_arrays arrays_;
+  std::unique_ptr<riis_keyframes, Destroy<riis_keyframes, riis_keyframes_destroy>> keyframes_;
+};
+
+void get_orifice(const riis_surface *surface) {
+  riis_orifice orifice;
+  check(riis_surface_get_orifice(surface, nullptr, &orifice, sizeof orifice));
+}
+
+// A surface keeps the sizes of its leaflets after the first call.
+void get_leaflets(const riis_surface *surface) {
+  riis_leaflet sizes;
+  check(riis_surface_get_leaflet(surface, 0, &sizes, sizeof sizes));
+}
+
+void get_coaptation(const riis_surface *surface) {
+  riis_coaptation coaptation;
+  check(riis_surface_get_coaptation(surface, RIIS_AUTO, RIIS_ALL_LEAFLETS, &coaptation, sizeof coaptation));
+}
+
+// Returns the processor's seconds of the shortest of five calls, on all threads. Other programs hardly add to these.
+double processor_seconds(const std::function<void()> &call, const std::function<void()> &before) {
+  double least = HUGE_VAL;
+  for (int n = 0; n < 5; ++n) {
+    before();
+    const std::clock_t start = std::clock();
+    call();
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+// Prints the processor's times of the measures of a closed and of an open valve, whichever is longer.
+void print_measures() {
+  const std::pair<const char *, std::function<void(const riis_surface *)>> calls[] = {
+      {"`riis_surface_get_orifice`", get_orifice},
+      {"`riis_surface_get_leaflet`, the first", get_leaflets},
+      {"`riis_surface_get_coaptation`", get_coaptation},
+      {"all three", [](const riis_surface *surface) {
+         get_orifice(surface);
+         get_leaflets(surface);
+         get_coaptation(surface);
+       }}};
+  constexpr std::size_t n_calls = std::size(calls), n_columns = 6;
+  double seconds[n_calls][n_columns] = {}, fewest = HUGE_VAL, most = 0;
+  for (const double opening : {0.0, 1.0})
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      const Valve valve = make_valve(kind == 0 ? "coapting" : "mitral");
+      check(riis_valve_set_scalar(valve.get(), "opening", opening));
+      const riis_surface_options options = fine_options(valve.get());
+      Surface surface = make_surface(valve.get(), &options);
+      const OwnTriangles own(surface.get());
+      fewest = std::min(fewest, n_triangles_of(surface.get()));
+      most = std::max(most, n_triangles_of(surface.get()));
+      const std::function<void()> make[3] = {[&] { surface = make_surface(valve.get(), &options); },
+                                             [&] { surface = own.from_arrays(); },
+                                             [&] { surface = own.from_keyframes(); }};
+      for (std::size_t origin = 0; origin < 3; ++origin)
+        for (std::size_t i = 0; i < n_calls; ++i) {
+          double &longest = seconds[i][3 * kind + origin];
+          longest = std::max(longest, processor_seconds([&] { calls[i].second(surface.get()); }, make[origin]));
+        }
+    }
+  std::printf(
+      "\n%.0f to %.0f triangles\n\n| call | coapting | its arrays | its keyframes | mitral | its arrays | its "
+      "keyframes |\n"
+      "|---|---|---|---|---|---|---|\n",
+      fewest, most);
+  for (std::size_t i = 0; i < n_calls; ++i) {
+    std::printf("| %s |", calls[i].first);
+    for (const double time : seconds[i]) std::printf(" %s |", time_text(time).c_str());
+    std::printf("\n");
+  }
+}
+
 }  // namespace
 
 int main(int argc, char **argv) {
+  if (argc > 1 && std::string(argv[1]) == "measures") {
+    print_measures();
+    return 0;
+  }
   const std::int64_t about_n_nodes = n_nodes_given(argc, argv, 1, 1);
   Table table;
   for (const int valve : {0, 1}) {
@@ -173,5 +317,6 @@ int main(int argc, char **argv) {
     measure(table, valve == 0 ? "aortic" : "mitral", cylinders[valve], about_n_nodes);
   }
   table.print();
+  print_measures();
   return 0;
 }

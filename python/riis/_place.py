@@ -339,6 +339,42 @@ def _in_words_of_file(text: str, read: _Landmarks) -> str:
     return f"{read.where}: {text}"
 
 
+def _check_at_nodes(read: _Landmarks, is_file: bool, points: Reals, nodes: Any) -> None:
+    """Refuses landmarks that are not at the nodes. The message says if other axes or another unit would bring them there."""
+    cloud = numpy.asarray(nodes, numpy.float64)
+    if cloud.ndim != 2 or cloud.shape[1] != 3 or len(cloud) == 0:
+        raise InvalidArgumentError(f"nodes: its shape is {cloud.shape}; it must be (n, 3), with a node or more")
+
+    def apart(sign: float, factor: float) -> float:
+        moved = factor * points * (sign, sign, 1.0)
+        return float(numpy.mean([math.sqrt(((cloud - point) ** 2).sum(1).min()) for point in moved]))
+
+    assert read.unit is not None
+    # Landmarks lie on the wall, so nodes of the mesh must be near. Landmarks a centimetre away belong to another place.
+    near, found = _SCALES[read.unit], apart(1.0, 1.0)
+    if found <= near:
+        return
+    text = f"the landmarks are {found:.3g} {read.unit} from the nodes on average"
+    for unit in (read.unit, *_SCALES):
+        factor = _SCALES[unit] / _SCALES[read.unit]
+        for sign in (1.0, -1.0):
+            other = apart(sign, factor)
+            if other > factor * near:
+                continue
+            changes = ([f"in {unit}"] if unit != read.unit else []) + (
+                ["with x and y reversed, as between LPS and RAS"] if sign < 0 else [])
+            advice: list[str] = []
+            if unit != read.unit:
+                advice.append(f"give unit={unit!r}" if is_file else f"give the landmarks in {unit}")
+            if sign < 0 and read.axes != "mesh":
+                advice.append(f"give axes={'RAS' if read.axes == 'LPS' else 'LPS'!r}")
+            elif sign < 0:
+                advice.append("state the axes of the file" if is_file else "turn the landmarks by half a turn about z")
+            text += f"; {' and '.join(changes)}, they are {other:.3g} {unit} from them: {' and '.join(advice)}"
+            raise _refuse(read.where, text)
+    raise _refuse(read.where, f"{text}, which is more than 1 cm, in any unit and with the axes LPS and RAS")
+
+
 def place(
     landmarks: Mapping[str, Any] | str | os.PathLike[str],
     valve: Valve | str | None = None,
@@ -349,6 +385,7 @@ def place(
     noise: float | None = None,
     held: Any = (),
     warp: Literal["none", "exact", "smoothed"] = "none",
+    nodes: Any = None,
 ) -> PlaceResult:
     """Finds a valve's sizes and placement from a patient's landmarks.
 
@@ -361,10 +398,12 @@ def place(
     noise      standard deviation of each coordinate, in the unit; default 0.3 mm
     held       names of parameters that keep the valve's values
     warp       "exact" warps the valve to the landmarks, and "smoothed" as near to them as their noise
+    nodes      (n, 3), of the mesh: landmarks that are more than a centimetre from them on average are refused
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
-    of the size of a heart valve in this unit. Raises InvalidParameterError for a warp that folds, and for a warp of a bileaflet
-    valve, which is rigid.
+    of the size of a heart valve in this unit. If landmarks are not at the nodes, the message says whether they would be with the
+    axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not go together, for a warp that
+    folds, and for a warp of a bileaflet valve, which is rigid.
     """
     if warp not in ("none", "exact", "smoothed"):
         raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")
@@ -399,6 +438,8 @@ def place(
         direction = numpy.array(flow, numpy.float64).ravel()
     if direction is not None and direction.shape != (3,):
         raise InvalidArgumentError(f"flow has {direction.size} numbers; it must have 3")
+    if nodes is not None:
+        _check_at_nodes(read, is_file, points, nodes)
     if isinstance(valve, Valve):
         placed = valve.copy()
         if read.valve is not None and read.valve != placed.kind:

@@ -123,6 +123,19 @@ def test_refused(tmp_path):
     refused("mirrored", swapped, "aortic", unit="mm")
     one = named | {"nadir_left": named["nadir_right"] + 1e-3}
     refused("'nadir_right' and 'nadir_left' are in one place", one, "trileaflet", unit="mm")
+    line = {name: (3.0 * i, i, 2.0 * i) for i, name in enumerate(NAMES)}
+    refused("the landmarks lie along a line", line, "trileaflet", unit="mm")
+    mirror = {name: point * (-1, 1, 1) for name, point in named.items()}
+    refused("mirrored", mirror, "trileaflet", unit="mm")
+    turns = numpy.arange(12) * numpy.pi / 6
+    annulus = numpy.stack([18 * numpy.sin(turns), 12 * numpy.cos(turns), 4 * numpy.cos(2 * turns)], 1)
+    ring = {"annulus": annulus, "anterior_horn": annulus[0]}
+    assert riis.place(ring, "mitral", unit="mm", flow=(0, 0, -1)).names[3] == "annulus_4"
+    crossed = ring | {"annulus": annulus[[0, 1, 4, 3, 2, *range(5, 12)]]}
+    refused("the annulus crosses itself: the line from 'annulus_", crossed, "mitral", unit="mm", flow=(0, 0, -1))
+    high = riis.Valve("coapting", coaptation_height=9)
+    refused("the landmarks give root_radius .* and then coaptation_height is 9", named, high, unit="mm", held="coaptation_height",
+            error=riis.InvalidParameterError)
     missing = {name: point for name, point in named.items() if name != "nadir_left"}
     refused("the nadir 2 times", missing, "trileaflet", unit="mm")
     with pytest.raises(TypeError, match="mapping"):
@@ -176,3 +189,44 @@ def test_warps(kind, tmp_path):
         riis.place(named, kind, unit="mm", warp="yes")
     with pytest.raises(riis.InvalidArgumentError, match="'commissure_left_non' and 'attachment_1' are in one place on"):
         riis.place({**named, "attachment": [named["commissure_left_non"]]}, kind, unit="mm")
+
+
+def test_warps_that_fold_are_refused():
+    named = dict(zip(NAMES, 10 * trileaflet(1.1, 1.05, 1.4), strict=True))
+    # Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there.
+    torn = named | {"attachment_right_1": (21, 2, 1), "attachment_right_2": (1, -2, 1)}
+    with pytest.raises(riis.InvalidParameterError, match="the warp folds near 'commissure_.*its determinant is -"):
+        riis.place(torn, "coapting", unit="mm", warp="exact")
+    assert riis.place(named, "coapting", unit="mm", warp="exact").warped_residuals.max() < 1e-9
+
+
+def test_landmarks_must_be_at_the_nodes(tmp_path):
+    # The valve is beside the axis z, so half a turn about z takes it away from the mesh.
+    points = 10 * trileaflet(1.1, 1.05, 1.4) + (90, 80, 0)
+    named = {name: point.tolist() for name, point in zip(NAMES, points, strict=True)}
+    nodes = points[:, None].repeat(4, 1).reshape(-1, 3) + numpy.random.default_rng(3).normal(size=(24, 3))
+    path = tmp_path / "a.json"
+
+    def placed(stated, unit, sign, factor, **options):
+        turned = {name: (factor * numpy.array(point) * (sign, sign, 1)).tolist() for name, point in named.items()}
+        path.write_text(json.dumps({"unit": unit, "axes": stated, "landmarks": turned}))
+        return riis.place(path, "trileaflet", nodes=options.pop("at", nodes), **options)
+
+    assert placed("LPS", "mm", 1, 1).unit == "mm"
+    for axes, other in (("LPS", "RAS"), ("RAS", "LPS")):
+        words = f"x and y reversed, as between LPS and RAS, they are .* from them: give axes='{other}'"
+        with pytest.raises(riis.InvalidArgumentError, match=words):
+            placed(axes, "mm", -1, 1)
+        assert placed(axes, "mm", -1, 1, axes=other).axes == other
+    with pytest.raises(riis.InvalidArgumentError, match="in mm, they are .* give unit='mm'"):
+        placed("LPS", "cm", 1, 0.1)
+    with pytest.raises(riis.InvalidArgumentError, match="in mm and with x and y reversed.* give unit='mm' and give axes='RAS'"):
+        placed("LPS", "cm", -1, 0.1)
+    with pytest.raises(riis.InvalidArgumentError, match="reversed.* state the axes of the file"):
+        placed("mesh", "mm", -1, 1)
+    with pytest.raises(riis.InvalidArgumentError, match="in mm, they are .* from them: give the landmarks in mm"):
+        riis.place({name: points[i] / 10 for i, name in enumerate(NAMES)}, "trileaflet", unit="cm", nodes=nodes)
+    with pytest.raises(riis.InvalidArgumentError, match="more than 1 cm, in any unit"):
+        placed("LPS", "mm", 1, 1, at=nodes + 400)
+    with pytest.raises(riis.InvalidArgumentError, match=r"nodes: its shape is \(24,\)"):
+        placed("LPS", "mm", 1, 1, at=nodes[:, 0])

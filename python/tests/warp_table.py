@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints how near warped valves come to random patients, whether they cross or leak, and how right velocities are.
 
-warp_table.py [N] takes N random patients, by default 100. Lengths are in centimetres, results in millimetres.
+warp_table.py [N] takes N random patients, by default 100. warp_table.py factors [N] tries other factors of the noise. Lengths are
+in centimetres, results in millimetres.
 """
 
 import sys
@@ -71,17 +72,53 @@ def landmarks(half, n):
     return numpy.array(made)
 
 
-def fitted(random, noise, n_landmarks=5):
-    """Returns a random root, its warped valve, and the warp."""
+def patient(random, noise, n_landmarks=5):
+    """Returns a random root, its valve, and landmarks on the valve and in the patient."""
     root = Root(random)
     valve = root.valve()
     surface = riis.Surface(valve)
     sources = landmarks(lambda cusp, side: evenly(half_of(surface, cusp, side), n_landmarks), n_landmarks)
     targets = landmarks(lambda cusp, side: root.half(cusp, side, n_landmarks), n_landmarks)
+    return root, valve, sources, targets + noise * random.standard_normal(targets.shape)
+
+
+def fitted(random, noise, n_landmarks=5):
+    """Returns a random root, its warped valve, and the warp."""
+    root, valve, sources, targets = patient(random, noise, n_landmarks)
     warp = riis.Warp(sources, noise=noise)
-    warp.set_targets(targets + noise * random.standard_normal(targets.shape))
+    warp.set_targets(targets)
     valve.set_warp(warp)
     return root, valve, warp
+
+
+def attachment_off(root, surface):
+    """Returns the distances of the attachment's vertices from the patient's attachment."""
+    return numpy.concatenate([distances(half_of(surface, *half), root.half(*half)) for half in HALVES])
+
+
+def factors(n, noise, seed, n_landmarks):
+    """Tries factors of the noise. A factor f of theory.md is had by the noise times sqrt(f / 0.6). A patient whose warp folds
+    counts as 99 mm away."""
+    random, tried = numpy.random.default_rng(seed), (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
+    off = [[] for _ in tried]
+    for _ in range(n):
+        root, valve, sources, targets = patient(random, noise, n_landmarks)
+        for factor, list_of in zip(tried, off, strict=True):
+            warp = riis.Warp(sources, noise=noise * (factor / 0.6) ** 0.5)
+            try:
+                warp.set_targets(targets)
+                valve.set_warp(warp)
+                list_of.append(10.0 * attachment_off(root, riis.Surface(valve)))
+            except riis.InvalidParameterError:  # it folds
+                list_of.append(numpy.array([99.0]))
+    of_patients = numpy.array([[numpy.percentile(one, 95) for one in list_of] for list_of in off])
+    print(f"seed {seed}, noise {10 * noise:.1f} mm, {n_landmarks} landmarks of each half cusp")
+    for factor, list_of, worst in zip(tried, off, of_patients.max(1), strict=True):
+        together = numpy.percentile(numpy.concatenate(list_of), 95)
+        print(f"  factor {factor}: within {together:.3f} mm at 95 % of points, {worst:.2f} mm in the worst patient")
+    best = of_patients.min(0)
+    print(f"  the best factor of each patient: within {best.mean():.3f} mm on average, {best.max():.2f} mm in the worst patient; "
+          f"0.6: {of_patients[tried.index(0.6)].mean():.3f} mm on average", flush=True)
 
 
 def attachment_and_crossings(n, noise, seed):
@@ -90,7 +127,7 @@ def attachment_and_crossings(n, noise, seed):
     for _ in range(n):
         root, valve, _ = fitted(random, noise)
         surface = riis.Surface(valve)
-        off.append(numpy.concatenate([distances(half_of(surface, *half), root.half(*half)) for half in HALVES]))
+        off.append(attachment_off(root, surface))
         crosses = False
         for opening in numpy.linspace(0.0, 1.0, 11):
             valve["opening"] = opening
@@ -214,6 +251,10 @@ def velocities(kind, n_steps=20):
 
 
 if __name__ == "__main__":
+    if sys.argv[1:2] == ["factors"]:
+        for case in ((0.03, 2, 5), (0.03, 21, 5), (0.03, 22, 5), (0.03, 23, 9), (0.06, 24, 5)):
+            factors(int(sys.argv[2]) if len(sys.argv) > 2 else 100, *case)
+        sys.exit()
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     attachment_and_crossings(count, 0.0, 1)
     attachment_and_crossings(count, 0.03, 2)

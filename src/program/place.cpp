@@ -139,9 +139,11 @@ std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
 
 // Refuses the landmarks with the library's message, if it refused them.
 void check_landmarks(riis_status status, const PlaceOptions &options, const LandmarkFile &landmarks) {
-  if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
-    throw Refusal{exit_bad_data, options.landmarks + ": " + in_words_of_file(riis_last_error(), landmarks)};
-  check(status);
+  if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
+  std::string text = in_words_of_file(riis_last_error(), landmarks);
+  if (text.rfind("the landmarks give ", 0) == 0)
+    text += "; --set gives sizes that landmarks do not tell, in centimetres";
+  throw Refusal{exit_bad_data, options.landmarks + ": " + text};
 }
 
 riis_points points_of(const std::vector<double> &xyz) {

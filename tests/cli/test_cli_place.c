@@ -375,6 +375,111 @@ static void fits_are_refused_in_words_of_the_file(void **state) {
   RUN_REFUSED(2, "trileaflet is not the valve of", "place", path, "--valve", "trileaflet");
 }
 
+/* Writes a JSON of landmarks in millimetres, with their names. */
+static const char *json_of_points(int n, const char *const *labels, double (*points)[3]) {
+  char text[8192];
+  int size = snprintf(text, sizeof text, "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {");
+  for (int i = 0; i < n; ++i)
+    size += snprintf(text + size, sizeof text - (size_t)size, "%s\"%s\": [%.17g, %.17g, %.17g]", i ? ", " : "",
+                     labels[i], points[i][0], points[i][1], points[i][2]);
+  snprintf(text + size, sizeof text - (size_t)size, "}}");
+  scratch_write_text("points.json", text);
+  return scratch_path("points.json");
+}
+
+/* What a person gets wrong at the first try. */
+static void wrong_landmarks_are_refused(void **state) {
+  (void)state;
+  double points[6][3];
+#define CHANGED(words, ...)                                                                               \
+  do {                                                                                                    \
+    for (int i = 0; i < 6; ++i) landmark(i, 10, points[i]);                                               \
+    __VA_ARGS__;                                                                                          \
+    RUN_REFUSED(1, words, "place", json_of_points(6, names, points), "--valve", "trileaflet", "--quiet"); \
+  } while (0)
+  CHANGED("points.json: \"nadir_right\" and \"nadir_left\" are in one place",
+          for (int k = 0; k < 3; ++k) points[2][k] = points[0][k] + 0.01);
+  CHANGED(
+      "points.json: the landmarks lie along a line", for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 3; ++k) points[i][k] = 3 * i * (k + 1);
+      });
+  CHANGED("mirrored", for (int i = 0; i < 6; ++i) points[i][1] *= -1);
+  CHANGED(
+      "the landmarks' mean distance from their middle", for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 3; ++k) points[i][k] /= 10;
+      });
+
+  enum { n = 13 };
+  const char *labels[n] = {"anterior_horn"};
+  char annulus_names[n][16];
+  double annulus[n][3];
+  for (int i = 0; i < n; ++i) {
+    const double angle = acos(-1.0) * (i - 1) / 6;
+    annulus[i][0] = 18 * sin(angle), annulus[i][1] = 12 * cos(angle), annulus[i][2] = 4 * cos(2 * angle);
+    if (i > 0) snprintf(annulus_names[i], sizeof annulus_names[i], "annulus_%d", i), labels[i] = annulus_names[i];
+  }
+  memcpy(annulus[0], annulus[1], sizeof annulus[0]);
+  RUN_FINE("place", json_of_points(n, labels, annulus), "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
+  for (int k = 0; k < 3; ++k) {
+    const double kept = annulus[4][k];
+    annulus[4][k] = annulus[6][k], annulus[6][k] = kept;
+  }
+  RUN_REFUSED(1, "the annulus crosses itself: the line from \"annulus_", "place", json_of_points(n, labels, annulus),
+              "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
+}
+
+/* Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there. */
+static void folds_are_refused(void **state) {
+  (void)state;
+  const char *labels[8] = {0};
+  memcpy(labels, names, sizeof names);
+  labels[6] = "attachment_right_1", labels[7] = "attachment_right_2";
+  double points[8][3];
+  for (int i = 0; i < 6; ++i) landmark(i, 10, points[i]);
+  for (int i = 0; i < 2; ++i) {
+    const double out = i ? -10 : 10, aside = i ? -2 : 2;
+    points[6 + i][0] = 1 + 2, points[6 + i][1] = aside + 1, points[6 + i][2] = -(10 * R + out) - 3;
+  }
+  RUN_REFUSED(1, "points.json: the warp folds near \"commissure_", "place", json_of_points(8, labels, points),
+              "--valve", "coapting", "--warp", "exact", "--quiet");
+  assert_non_null(strstr(program_err, "its determinant is -"));
+  for (int i = 0; i < 2; ++i) {
+    const double angle = (i ? 24 : 20) * acos(-1.0) / 180, radius = 10 * R - (i ? 6 : 0);
+    points[6 + i][0] = 3 + 2, points[6 + i][1] = radius * sin(angle) + 1, points[6 + i][2] = -radius * cos(angle) - 3;
+  }
+  RUN_REFUSED(1, "points.json: the warp turns a part of patch", "place", json_of_points(8, labels, points), "--valve",
+              "coapting", "--warp", "exact", "--quiet");
+  RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
+}
+
+/* The sizes that landmarks do not tell may not go together with those that they tell. */
+static void sizes_that_do_not_go_together_are_named(void **state) {
+  (void)state;
+  const char *path = json_of("a.json", "mm", 10, "LPS", 1, "");
+  RUN_REFUSED(1,
+              "a.json: the landmarks give root_radius 1.1, commissure_radius 1.05, commissure_height 1.4, and then "
+              "coaptation_height is 2; it must be from 0.02 to 0.9 times effective_height",
+              "place", path, "--valve", "coapting", "--set", "coaptation_height=2");
+  assert_non_null(strstr(program_err, "--set gives sizes that landmarks do not tell, in centimetres"));
+  RUN_REFUSED(1, "and then effective_height is 1.39; it must be from 0.1 to 0.97 times commissure_height", "place",
+              path, "--valve", "coapting", "--set", "effective_height=1.39");
+  RUN_FINE("place", path, "--valve", "coapting", "--set", "coaptation_height=0.2", "--output", "-");
+  if (fabs(json_number(program_out, "coaptation_height") - 0.2) > 1e-15) fail_msg("it is not held: %s", program_out);
+  /* Low commissures leave less room for the coaptation zone, which follows. */
+  double points[6][3];
+  for (int i = 0; i < 6; ++i) {
+    landmark(i, 10, points[i]);
+    if (i % 2) points[i][0] -= 10 * (height - 1.02 * Rc);
+  }
+  RUN_FINE("place", json_of_points(6, names, points), "--valve", "coapting", "--output", "-");
+  const double h_e = json_number(program_out, "effective_height"), h_co = json_number(program_out, "coaptation_height");
+  if (!(h_co < 0.3 * Rc && h_co <= 0.9 * h_e)) fail_msg("coaptation_height %g, effective_height %g", h_co, h_e);
+  /* These are too low for any. */
+  for (int i = 1; i < 6; i += 2) points[i][0] -= 9;
+  RUN_REFUSED(1, "and then", "place", json_of_points(6, names, points), "--valve", "coapting");
+  assert_non_null(strstr(program_err, "commissure_height"));
+}
+
 int main(void) {
   const struct CMUnitTest near[] = {cmocka_unit_test(every_format_gives_the_same),
                                     cmocka_unit_test(report_has_sizes_and_residuals),
@@ -383,7 +488,10 @@ int main(void) {
                                     cmocka_unit_test(other_commands_take_the_placed_valve),
                                     cmocka_unit_test(landmarks_must_be_at_the_mesh),
                                     cmocka_unit_test(files_are_refused_by_name),
-                                    cmocka_unit_test(fits_are_refused_in_words_of_the_file)};
+                                    cmocka_unit_test(fits_are_refused_in_words_of_the_file),
+                                    cmocka_unit_test(wrong_landmarks_are_refused),
+                                    cmocka_unit_test(folds_are_refused),
+                                    cmocka_unit_test(sizes_that_do_not_go_together_are_named)};
   const struct CMUnitTest far[] = {cmocka_unit_test(wrong_axes_are_named)};
   const int n_near = cmocka_run_group_tests(near, make_box, scratch_teardown);
   return n_near + cmocka_run_group_tests(far, make_far_box, scratch_teardown);

@@ -100,6 +100,53 @@ contains
     call riis_place(valve, xyz, role, 10d0, placement, size_state=few, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'size_state')
     call valve%destroy()
+    call test_wrong_landmarks()
   end subroutine test_refusals
+
+  ! What a person gets wrong at the first try.
+  subroutine test_wrong_landmarks()
+    type(riis_valve) :: valve
+    type(riis_placement) :: placement
+    real(c_double) :: xyz(3, 6), annulus(3, 13)
+    integer(int32) :: cusps(2, 6), roles(13)
+    integer :: i
+    call valve%create('trileaflet')
+    xyz = landmarks()
+    xyz(:, 2) = xyz(:, 1) + 0.01d0
+    call riis_place(valve, xyz, role, 10d0, placement, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'landmark 0 (nadir) and landmark 1 (nadir) are in one place')
+    do i = 1, 6
+      xyz(:, i) = [3d0, 6d0, 9d0] * i
+    end do
+    call riis_place(valve, xyz, role, 10d0, placement, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the landmarks lie along a line')
+    xyz = landmarks()
+    xyz(1, :) = -xyz(1, :)
+    cusps = -1
+    cusps(1, 1:3) = [RIIS_LEAFLET_RIGHT, RIIS_LEAFLET_LEFT, RIIS_LEAFLET_NON_CORONARY]
+    call riis_place(valve, xyz, role, 10d0, placement, cusps, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'mirrored')
+    call valve%destroy()
+
+    call valve%create('mitral')
+    roles = RIIS_LANDMARK_ANNULUS
+    roles(13) = RIIS_LANDMARK_ANTERIOR_HORN
+    do i = 1, 12
+      annulus(:, i) = [18 * sin(pi * i / 6), 12 * cos(pi * i / 6), 4 * cos(pi * i / 3)]
+    end do
+    annulus(:, 13) = annulus(:, 12)
+    call riis_place(valve, annulus, roles, 10d0, placement, flow=[0d0, 0d0, -1d0], status=status)
+    call check(status == RIIS_OK, 'an annulus in order')
+    annulus(:, [3, 5]) = annulus(:, [5, 3])
+    call riis_place(valve, annulus, roles, 10d0, placement, flow=[0d0, 0d0, -1d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the annulus crosses itself')
+    call valve%destroy()
+
+    call valve%create('coapting')
+    call valve%set('coaptation_height', 2d0)
+    call riis_place(valve, landmarks(), role, 10d0, placement, held='coaptation_height', status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'commissure_height 1.5, and then coaptation_height is 2')
+    call valve%destroy()
+  end subroutine test_wrong_landmarks
 
 end program test_placing

@@ -775,6 +775,8 @@ static void sizes_follow(void **state) {
   double value;
   CHECK_OK(riis_valve_get(low, "effective_height", 1, &value));
   CHECK_NEAR(value, 0.24, 1e-15);
+  CHECK_OK(riis_valve_get(low, "coaptation_height", 1, &value));
+  CHECK_NEAR(value, 0.6 * 0.24, 1e-15);
 }
 
 static void values_that_do_not_go_together_are_refused(void **state) {

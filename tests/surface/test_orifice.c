@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the sizes of leaflets, orifices and ideal leaks. Areas are compared with counts of random points seen along the axis.
+ * Tests the sizes of leaflets, orifices and ideal leaks. Areas are compared with counts of random points seen along the axis,
+ * and with lines in another direction.
  * Perimeters are compared with differences of areas. Placed valves are compared with the same valves without placement. */
 #include <riis/riis.h>
 
@@ -103,6 +104,107 @@ static void areas_are_counts_of_points(void **state) {
     CHECK_NEAR(found.area, cell * n_uncovered, 0.01 * disc);
     CHECK_NEAR(found.effective_area, cell * n_far, 0.01 * disc);
     CHECK_AT_MOST(found.effective_area, found.area);
+  }
+}
+
+typedef struct span {
+  double from, to;
+} span;
+
+static int by_start(const void *a, const void *b) {
+  const double from = ((const span *)a)->from, other = ((const span *)b)->from;
+  return (from > other) - (from < other);
+}
+
+/* Returns the x at which the line y = 0 meets an edge, or NaN. The upper end does not belong to the edge. */
+static double meets(double ax, double ay, double bx, double by) {
+  return (ay >= 0) == (by >= 0) ? NAN : ax + (bx - ax) * ay / (ay - by);
+}
+
+/* Returns the area of the orifice by lines that are turned against the axes: the length on which no triangle covers the inside of
+ * the outline. A radius of 0 stands for the attachment as the outline. */
+static double area_by_turned_lines(const riis_surface *surface, double radius) {
+  enum { n_lines = 1500 };
+  const double c = cos(0.37), s = sin(0.37), reach = radius > 0 ? radius : 3, spacing = 2 * reach / n_lines;
+  const riis_triangles all = triangles_of(surface);
+  riis_attachment held;
+  CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
+  double *turned = malloc((size_t)all.n_vertices * 2 * sizeof *turned);
+  span *spans = malloc((size_t)(all.n_triangles + held.n_edges) * sizeof *spans);
+  for (int64_t i = 0; i < all.n_vertices; ++i) {
+    turned[2 * i] = c * all.xyz[3 * i] + s * all.xyz[3 * i + 1];
+    turned[2 * i + 1] = c * all.xyz[3 * i + 1] - s * all.xyz[3 * i];
+  }
+  double area = 0;
+  for (int line = 0; line < n_lines; ++line) {
+    const double y = (line + 0.5) * spacing - reach;
+    int64_t n = 0;
+    for (int64_t t = 0; t < all.n_triangles; ++t) {
+      const double *p[3];
+      for (int k = 0; k < 3; ++k) p[k] = turned + 2 * all.vertex_id[3 * t + k];
+      if ((p[0][1] >= y) == (p[1][1] >= y) && (p[1][1] >= y) == (p[2][1] >= y)) continue;
+      span made = {INFINITY, -INFINITY};
+      for (int k = 0; k < 3; ++k) {
+        const double *a = p[k], *b = p[(k + 1) % 3], x = meets(a[0], a[1] - y, b[0], b[1] - y);
+        if (isnan(x)) continue;
+        made.from = fmin(made.from, x), made.to = fmax(made.to, x);
+      }
+      spans[n++] = made;
+    }
+    qsort(spans, (size_t)n, sizeof *spans, by_start);
+    span *inside = spans + n;
+    int64_t n_inside = 0;
+    if (radius > 0) {
+      const double half = sqrt(radius * radius - y * y);
+      inside[n_inside++] = (span){-half, half};
+    } else {
+      for (int64_t i = 0; i < held.n_edges; ++i) {
+        const double *e = held.edges + 6 * i;
+        const double x =
+            meets(c * e[0] + s * e[1], c * e[1] - s * e[0] - y, c * e[3] + s * e[4], c * e[4] - s * e[3] - y);
+        if (!isnan(x)) inside[n_inside++] = (span){x, 0};
+      }
+      qsort(inside, (size_t)n_inside, sizeof *inside, by_start);
+      assert_int_equal(n_inside % 2, 0);
+      for (int64_t i = 0; i < n_inside; i += 2) inside[i / 2] = (span){inside[i].from, inside[i + 1].from};
+      n_inside /= 2;
+    }
+    for (int64_t i = 0; i < n_inside; ++i) {
+      double at = inside[i].from;
+      for (int64_t k = 0; k < n && spans[k].from < inside[i].to; ++k) {
+        if (spans[k].from > at) area += spacing * (spans[k].from - at);
+        at = fmax(at, spans[k].to);
+      }
+      area += spacing * fmax(0, inside[i].to - at);
+    }
+  }
+  free(turned), free(spans);
+  return area;
+}
+
+/* Orifices are compared with those of turned lines. They must also stay within 0.1 % of the numbers that the program measured
+ * before the library did. */
+static void orifices_are_those_of_turned_lines(void **state) {
+  (void)state;
+  static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
+  static const double before[n_kinds][5] = {{0.885854, 1.550407, 2.278302, 3.061292, 3.887267},
+                                            {0, 1.166893, 2.597702, 4.292761, 6.251734},
+                                            {0.0237878, 0.928913, 1.880568, 2.865707, 3.867355},
+                                            {0.00146508, 0.632731, 1.445828, 2.393365, 3.420030},
+                                            {0.0452510, 1.028312, 2.081049, 3.182333, 4.292677}};
+  riis_surface_options fine = surface_options();
+  fine.tolerance = 0.01;
+  for (int kind = 0; kind < n_kinds; ++kind) {
+    riis_valve *valve = new_valve(kinds[kind]);
+    for (int i = 0; i < 5; ++i) {
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", openings[i]));
+      const riis_orifice found = orifice_of(new_surface(valve, &fine), NULL);
+      CHECK_NEAR(found.area, before[kind][i], 1e-3 * before[kind][i] + 1e-12);
+      if (i % 2 == 0) continue;
+      const riis_surface *surface = new_surface(valve, NULL);
+      const riis_orifice coarse = orifice_of(surface, NULL);
+      CHECK_NEAR(coarse.area, area_by_turned_lines(surface, coarse.radius), 1e-3 * coarse.area);
+    }
   }
 }
 
@@ -312,6 +414,7 @@ int main(void) {
   rng = random_start("test_orifice");
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(areas_are_counts_of_points),
+      cmocka_unit_test(orifices_are_those_of_turned_lines),
       cmocka_unit_test(perimeters_are_derivatives_of_areas),
       cmocka_unit_test(placements_keep_orifices),
       cmocka_unit_test(leaflets_share_the_surface),

@@ -204,11 +204,10 @@ riis_status riis_surface_get_coaptation(const riis_surface *surface, double reac
     std::vector<std::int32_t> omitted;
     if (content.frame()) omitted = {content.frame()->housing, content.frame()->skirt};
     const riis::TriangleSet &triangles = content.triangles();
-    const auto contacts = riis::contacts_of(triangles, riis::free_edge_parts(triangles), whole, omitted,
+    const auto contacts = riis::contacts_of(triangles, riis::free_edge_parts(triangles), whole, leaflet_id, omitted,
                                             riis::threads_for(0, triangles.n_triangles(), riis::triangles_per_thread));
     riis_coaptation made{0, 0, whole};
-    for (const auto &[id, contact] : contacts)
-      if (leaflet_id == RIIS_ALL_LEAFLETS || id == leaflet_id) made.area += contact.area, made.edge += contact.edge;
+    for (const auto &[id, contact] : contacts) made.area += contact.area, made.edge += contact.edge;
     riis::write_struct(coaptation, struct_size, "coaptation", made);
   });
 }

@@ -178,6 +178,19 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
+// Refuses sizes that do not fit together. The message begins with the sizes that the landmarks gave, because the others follow.
+void check_sizes(const Valve &valve, const std::vector<FittedSize> &sizes) {
+  try {
+    valve.make_patches();
+  } catch (const Error &error) {
+    std::string given;
+    for (const FittedSize &size : sizes)
+      if (!size.held) given += (given.empty() ? "" : ", ") + size.name + " " + Message(rounded(size.value, 4)).text();
+    if (given.empty()) throw;
+    fail(error.status, "the landmarks give ", given.c_str(), ", and then ", error.message.text());
+  }
+}
+
 }  // namespace
 
 PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::string_view held) {
@@ -232,7 +245,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
     placed.size_state[i] = size.determined ? RIIS_SIZE_DETERMINED : RIIS_SIZE_UNDETERMINED;
     placed.standard_error[i] = size.standard_error;
   }
-  placed.valve.make_patches();  // refuses sizes that do not fit together
+  check_sizes(placed.valve, model.sizes);
 
   std::vector<Vec3> local;
   for (std::size_t i = 0; i < landmarks.list.size(); ++i)

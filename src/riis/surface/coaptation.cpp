@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/coaptation.hpp"
 
+#include <riis/riis.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -103,12 +105,14 @@ double extent_of(const TriangleSet &set) {
 }  // namespace
 
 std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
-                                            const std::vector<std::int32_t> &omitted, int n_threads) {
+                                            std::int32_t wanted, const std::vector<std::int32_t> &omitted,
+                                            int n_threads) {
   std::map<std::int32_t, std::vector<std::int64_t>> triangles;
   for (std::int64_t i = 0; i < set.n_triangles(); ++i) triangles[view(set.leaflet_id)[i]].push_back(i);
   const double extent = extent_of(set);
   std::map<std::int32_t, Contact> made;
   for (const auto &[leaflet_id, own] : triangles) {
+    if (wanted != RIIS_ALL_LEAFLETS && leaflet_id != wanted) continue;
     Contact &contact = made[leaflet_id] = {0, 0};
     if (std::find(omitted.begin(), omitted.end(), leaflet_id) != omitted.end()) continue;
     const TriangleSet rest = others(set, leaflet_id, omitted);

@@ -22,8 +22,9 @@ struct EdgePart {
 };
 
 // Returns the contact of each leaflet. A point of a leaflet is in contact if another leaflet is within `reach` of it. `parts` has
-// the free edges. The leaflets of `omitted` count as touching nothing.
+// the free edges. The leaflets of `omitted` count as touching nothing. `wanted` is a leaflet, or RIIS_ALL_LEAFLETS.
 std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
-                                            const std::vector<std::int32_t> &omitted, int n_threads);
+                                            std::int32_t wanted, const std::vector<std::int32_t> &omitted,
+                                            int n_threads);
 
 }  // namespace riis

@@ -66,7 +66,10 @@ Rule effective_height_rule(const ParameterValues &values) {
   const double h = values[commissure_height][0];
   return {std::max(h - 0.6745 * values[commissure_radius][0], 0.3 * h)};
 }
-Rule coaptation_height_rule(const ParameterValues &values) { return {0.3 * values[commissure_radius][0]}; }
+// Below low commissures there is less room for the coaptation zone.
+Rule coaptation_height_rule(const ParameterValues &values) {
+  return {std::min(0.3 * values[commissure_radius][0], 0.6 * values[effective_height][0])};
+}
 Rule gap_rule(const ParameterValues &values) { return {0.016 * values[commissure_radius][0]}; }
 
 void check_values(const ParameterValues &values);
@@ -86,7 +89,7 @@ ValveKind make_kind() {
     {"effective_height", length, "height of the middle of the closed free edges above the root", 1, {1.75 - 0.6745 * 1.25},
      shortest, longest, {"commissure_height - 0.6745 commissure_radius, at least 0.3 commissure_height", effective_height_rule}},
     {"coaptation_height", length, "height of the coaptation zone in the middle of the closed valve", 1, {0.3 * 1.25}, shortest,
-     longest, {"0.3 commissure_radius", coaptation_height_rule}},
+     longest, {"0.3 commissure_radius, at most 0.6 effective_height", coaptation_height_rule}},
     {"gap", length, "distance between closed cusps in the coaptation zone", 1, {0.016 * 1.25}, shortest, longest,
      {"0.016 commissure_radius", gap_rule}},
     {"bottom_angle", degree, "angle of the closed cusp to the root's plane, at the root", 1, {20}, 0, 80},
