@@ -105,6 +105,42 @@ def test_cells_of_all_types(random):
     assert set(made.update().cells_partly.tolist()) == {k for k, share in volumes.items() if 0 < share < 1}
 
 
+def faces_alone(cells, faces):
+    """Returns the sets of nodes of the faces that only one cell has, by counting."""
+    count = {}
+    for cell in cells:
+        for face in faces:
+            key = frozenset(cell[k] for k in face)
+            count[key] = count.get(key, 0) + 1
+    return {key for key, n in count.items() if n == 1}
+
+
+def test_the_wall_is_the_boundary(small, random):
+    """The wall of tetrahedra with a hole inside, and of hexahedra, with normals outwards: its volume is that of the cells."""
+    points, tetrahedra = small
+    n = 5
+    axis = numpy.linspace(-1.0, 1.0, n)
+    grid = numpy.stack(numpy.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+    i, j, k = (part.ravel() for part in numpy.meshgrid(*3 * [numpy.arange(n - 1)], indexing="ij"))
+    corner = [(a, b, c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    hexahedra = numpy.column_stack([(i + a) * n * n + (j + b) * n + k + c for a, b, c in corner])
+    six = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    middle = points[tetrahedra].mean(axis=1)
+    holed = tetrahedra[numpy.linalg.norm(middle, axis=1) > 0.6]
+    a, b, c, d = (points[holed[:, k]] for k in range(4))
+    volume = numpy.abs(numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a)).sum() / 6.0
+    for nodes, cells, faces, known in [
+        (points, holed, [(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)], volume),
+        (grid, hexahedra[random.permutation(len(hexahedra))], six, 8.0),
+    ]:
+        wall = view.Model(nodes, cells)._region().wall()
+        vertices, triangles = wall.vertices, wall.triangles.vertex_id
+        x, y, z = (vertices[triangles[:, k]] for k in range(3))
+        assert abs(numpy.einsum("ij,ij->i", x, numpy.cross(y, z)).sum() / 6.0 - known) < 1e-9 * known
+        sets = faces_alone(cells.tolist(), faces)
+        assert len(triangles) == sum(len(key) - 2 for key in sets)
+
+
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_near_is_the_whole(kind, random):
     """Near the valve, the marks and cells are those of the whole mesh, also after the valve left the first cells near it."""

@@ -35,6 +35,7 @@ _FACES = {
     6: ((0, 1, 2, 2), (3, 5, 4, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     8: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
 }
+_MARGIN = 0.4  # of the size of the valves: how far the region near them reaches beyond them
 _CHUNK = 2_000_000  # rows that one step gathers, so that a large mesh needs little memory besides its arrays
 
 
@@ -132,12 +133,35 @@ def _checked(blocks: list[Block], n_nodes: int) -> list[Block]:
     return blocks
 
 
+def _order_of(numbers: AnyIds) -> AnyIds:
+    """Returns the stable order of numbers from 0 to 2**32 - 1. numpy sorts 16 bits by counting, so two such sorts are faster."""
+    order = numpy.argsort((numbers & 0xFFFF).astype(numpy.uint16), kind="stable")
+    high = (numbers >> 16).astype(numpy.uint16)[order]
+    return numpy.asarray(order[numpy.argsort(high, kind="stable")])
+
+
+def _alone(quads: Ids) -> Ids:
+    """Returns the rows of the faces that only one cell has. A face of three nodes has its last node twice."""
+    key = numpy.sort(quads, axis=1)
+    is_triangle = quads[:, 2] == quads[:, 3]
+    # The three least nodes tell a face. Of a triangle these are its nodes, without the one that is there twice.
+    second = numpy.where(is_triangle & (key[:, 0] == key[:, 1]), key[:, 2], key[:, 1])
+    third = numpy.where(is_triangle, key[:, 3], key[:, 2])
+    order = numpy.lexsort((third, second, key[:, 0]))
+    low, mid, high = key[order, 0], second[order], third[order]
+    same = (low[1:] == low[:-1]) & (mid[1:] == mid[:-1]) & (high[1:] == high[:-1])
+    alone = numpy.ones(len(order), numpy.bool_)
+    alone[1:] &= ~same
+    alone[:-1] &= ~same
+    return numpy.asarray(order[alone])
+
+
 class _Incidence:
     """For each node of a block, the rows of the cells that have it."""
 
     def __init__(self, nodes: AnyIds, n_nodes: int) -> None:
         flat = nodes.ravel()
-        order = numpy.argsort(flat, kind="stable")
+        order = _order_of(flat)
         self.row = (order // nodes.shape[1]).astype(numpy.int32 if len(nodes) < 2**31 else numpy.int64)
         self.start = numpy.zeros(n_nodes + 1, numpy.int64)
         numpy.cumsum(numpy.bincount(flat, minlength=n_nodes), out=self.start[1:])
@@ -248,30 +272,32 @@ class Region:
             self._wall = self._made_wall()
         return self._wall
 
+    def _may_be_wall(self) -> Bools:
+        """Returns the nodes that may be on the boundary. The others are certainly not.
+
+        The tetrahedra around an inner node cover a sphere about it. By Euler's formula, their number is 2 n - 4 if the node has n
+        neighbours. At a boundary node they cover a part of the sphere, with fewer triangles.
+        """
+        made = numpy.ones(len(self.points), numpy.bool_)
+        if len(self.blocks) == 1 and self.blocks[0].nodes.shape[1] == 4:
+            n_cells = numpy.diff(self.prepare()[0].start)
+            made[n_cells == 2 * numpy.diff(self.adjacency().offsets) - 4] = False
+        return made
+
     def _made_wall(self) -> Surface | None:
         faces, cells = [], []
+        may_be_wall = self._may_be_wall()
         for block in self.blocks:
-            corners = block.nodes[:, : block.n_corners].astype(numpy.int64)
-            middles = self.points[corners].mean(axis=1)
             for face in _FACES[block.n_corners]:
-                faces.append(corners[:, face])
-                cells.append(middles)
+                a, b, c = (may_be_wall[block.nodes[:, corner]] for corner in face[:3])
+                row = numpy.flatnonzero(a & b & c)
+                corners = block.nodes[row]
+                faces.append(corners[:, face].astype(numpy.int64))
+                cells.append(self.points[corners[:, : block.n_corners]].mean(axis=1))
         if not faces:
             return None
         quads, middle = numpy.concatenate(faces), numpy.concatenate(cells)
-        key = numpy.sort(quads, axis=1)
-        # A face of three nodes has one node twice. Without it, its three least nodes tell a face.
-        is_triangle = quads[:, 2] == quads[:, 3]
-        double = is_triangle & (key[:, 0] == key[:, 1])
-        second = numpy.where(double, key[:, 2], key[:, 1])
-        third = numpy.where(is_triangle, key[:, 3], key[:, 2])
-        order = numpy.lexsort((third, second, key[:, 0]))
-        low, mid, high = key[order, 0], second[order], third[order]
-        same = (low[1:] == low[:-1]) & (mid[1:] == mid[:-1]) & (high[1:] == high[:-1])
-        alone = numpy.ones(len(order), bool)
-        alone[1:] &= ~same
-        alone[:-1] &= ~same
-        kept = order[alone]
+        kept = _alone(quads)
         quads, middle = quads[kept], middle[kept]
         if self._cut is not None:
             is_wall = ~self._cut[quads].all(axis=1)
@@ -318,7 +344,7 @@ class WholeMesh:
         return self._region
 
     def _cut_out(self, lower: Reals, upper: Reals) -> Region:
-        margin = 0.6 * float((upper - lower).max())
+        margin = _MARGIN * float((upper - lower).max())
         low, high = lower - margin, upper + margin
         inside: Bools = numpy.asarray(((self.points >= low) & (self.points <= high)).all(axis=1), numpy.bool_)
         chosen, cut = inside.copy(), numpy.zeros(len(inside), numpy.bool_)
