@@ -7,7 +7,7 @@ In: arrays of nodes and cells, as a reader of meshes gives them. Out: marked and
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -36,6 +36,13 @@ _FACES = {
     8: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
 }
 _MARGIN = 0.4  # of the size of the valves: how far the region near them reaches beyond them
+# The edges of a cell by its number of corners, and for cells of second order the nodes in the middles of these edges.
+_EDGES = {
+    4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    5: ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
+    6: ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
+    8: ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
+}
 _CHUNK = 2_000_000  # rows that one step gathers, so that a large mesh needs little memory besides its arrays
 
 
@@ -175,6 +182,44 @@ class _Incidence:
         return numpy.asarray(self.row[numpy.repeat(first - before, count) + numpy.arange(total)])
 
 
+def _links(n_corners: int, n_nodes: int) -> list[tuple[int, int]]:
+    """Returns the pairs of a cell's nodes that are neighbours, as in the program.
+
+    The edges of a cell of second order have two halves, and the middles of a face's edges form a ring.
+    """
+    edges = _EDGES[n_corners]
+    if n_nodes == n_corners:
+        return list(edges)
+    middle = {frozenset(edge): n_corners + k for k, edge in enumerate(edges)}
+    made = [(end, n_corners + k) for k, edge in enumerate(edges) for end in edge]
+    for face in _FACES[n_corners]:
+        ring = list(dict.fromkeys(face))
+        middles = [middle[frozenset((ring[k], ring[k - 1]))] for k in range(len(ring))]
+        made += [(middles[k], middles[k - 1]) for k in range(len(middles))]
+    return made
+
+
+class Rows(NamedTuple):
+    """The neighbours of the nodes, as compressed sparse rows."""
+
+    offsets: Ids
+    columns: AnyIds
+
+
+def _rows_of(blocks: list[Block], n_nodes: int) -> Rows:
+    """Makes the rows from the edges of all cells."""
+    pairs = [numpy.empty(0, numpy.int64)]
+    for block in blocks:
+        for a, b in _links(block.n_corners, block.nodes.shape[1]):
+            first, second = block.nodes[:, a].astype(numpy.int64), block.nodes[:, b].astype(numpy.int64)
+            pairs += [numpy.unique(first * n_nodes + second), numpy.unique(second * n_nodes + first)]
+    both = numpy.unique(numpy.concatenate(pairs))
+    both = both[both // n_nodes != both % n_nodes]
+    offsets = numpy.zeros(n_nodes + 1, numpy.int64)
+    numpy.cumsum(numpy.bincount(both // n_nodes, minlength=n_nodes), out=offsets[1:])
+    return Rows(offsets, both % n_nodes)
+
+
 class Region:
     """The nodes and cells in which the view works: the whole mesh, or the part near the valves.
 
@@ -191,7 +236,7 @@ class Region:
         self.mesh = Mesh(points)
         self._cut = cut  # nodes on the cut, whose faces are no wall
         self._incidence: list[_Incidence] | None = None
-        self._adjacency: Adjacency | None = None
+        self._rows: Rows | None = None
         self._wall: Surface | None = None
         self._knows_wall = False
 
@@ -224,22 +269,32 @@ class Region:
             partly.append(block.numbers(touched[~is_whole]))
         return numpy.sort(numpy.concatenate(whole)), numpy.sort(numpy.concatenate(partly))
 
-    def adjacency(self) -> Adjacency:
+    @property
+    def has_edges(self) -> bool:
+        """Whether there are volume cells, and the edges of all of them are known."""
+        n_known = [(block.n_corners, block.n_corners + len(_EDGES[block.n_corners])) for block in self.blocks]
+        return self.has_cells and all(block.nodes.shape[1] in n for block, n in zip(self.blocks, n_known, strict=True))
+
+    def adjacency(self) -> Rows:
         """Returns the neighbours of the nodes, and gives them to the mesh."""
-        if self._adjacency is None:
-            tables = [block.nodes[:, : block.n_corners] for block in self.blocks]
-            if len(tables) == 1:
-                cells, offsets = numpy.ascontiguousarray(tables[0]), None
-                wide = cells.dtype if cells.dtype in (numpy.int32, numpy.int64) else numpy.int64
-                made = Adjacency.from_cells(cells.astype(wide, copy=False), len(self.points))
+        if self._rows is None:
+            n_nodes = len(self.points)
+            if all(block.nodes.shape[1] == block.n_corners for block in self.blocks):
+                tables = [block.nodes if block.nodes.dtype in (numpy.int32, numpy.int64) else block.nodes.astype(numpy.int64)
+                          for block in self.blocks]
+                if len(tables) == 1:
+                    made = Adjacency.from_cells(numpy.ascontiguousarray(tables[0]), n_nodes)
+                else:
+                    sizes = numpy.concatenate([numpy.full(len(table), table.shape[1], numpy.int64) for table in tables])
+                    offsets = numpy.concatenate([numpy.zeros(1, numpy.int64), numpy.cumsum(sizes)])
+                    flat = numpy.concatenate([table.ravel().astype(numpy.int64) for table in tables])
+                    made = Adjacency.from_cells(flat, n_nodes, offsets=offsets)
+                self.mesh.set_adjacency(made)
+                self._rows = Rows(made.offsets, made.columns)
             else:
-                cells = numpy.concatenate([table.ravel().astype(numpy.int64) for table in tables])
-                sizes = numpy.concatenate([numpy.full(len(table), table.shape[1], numpy.int64) for table in tables])
-                offsets = numpy.concatenate([[0], numpy.cumsum(sizes)]).astype(numpy.int64)
-                made = Adjacency.from_cells(cells, len(self.points), offsets=offsets)
-            self.mesh.set_adjacency(made)
-            self._adjacency = made
-        return self._adjacency
+                self._rows = _rows_of(self.blocks, n_nodes)
+                self.mesh.set_adjacency(offsets=self._rows.offsets, columns=self._rows.columns)
+        return self._rows
 
     def path(self, start: int, end: int, is_open: Bools) -> Ids:
         """Returns the nodes of a shortest path along edges through open nodes; empty if there is none."""
