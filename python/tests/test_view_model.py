@@ -574,9 +574,10 @@ def write_mesh(path, points, cells):
 def test_python_lines_give_the_same_bits(unit, small, random):
     mesh = (small[0] * view.UNITS[unit] if unit else small[0], small[1])
     for kind in view.KINDS:
-        model = placed_model(mesh, [], random, unit=unit)
+        model = view.Model(*mesh, unit=unit)
         i = model.add(kind)
-        model.place(i, random.normal(size=3), axis=random.normal(size=3))
+        size = 0.2 * view.UNITS[unit or "cm"]
+        model.place(i, size * random.normal(size=3), axis=(0, 0, 1) + 0.5 * random.normal(size=3))
         model.set(i, "opening", random.uniform())
         parameters = [one for one in model.parameters(kind) if one.n_values == 1 and one.unit == "length" and one.default]
         for parameter in random.choice(len(parameters), 2, replace=False):

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from riis._errors import InvalidArgumentError, InvalidMeshError
+from riis._errors import Error, InvalidArgumentError, InvalidMeshError
 from riis._riis import Adjacency, Mesh, Surface
 
 Reals = NDArray[numpy.float64]
@@ -366,10 +366,13 @@ class Region:
         halves[outwards < 0.0] = halves[outwards < 0.0][:, ::-1]
         used, faces_of_wall = numpy.unique(halves.ravel(), return_inverse=True)
         size = float(numpy.ptp(self.points[used], axis=0).max())
-        return Surface.from_arrays(
-            numpy.ascontiguousarray(self.points[used]), faces_of_wall.reshape(-1, 3).astype(numpy.int64),
-            half_thickness=1e-3 * size, zero_area="skip",
-        )
+        try:
+            return Surface.from_arrays(
+                numpy.ascontiguousarray(self.points[used]), faces_of_wall.reshape(-1, 3).astype(numpy.int64),
+                half_thickness=1e-3 * size, zero_area="skip",
+            )
+        except Error:  # no face has an area, so the cells have no volume
+            return None
 
 
 class WholeMesh:
