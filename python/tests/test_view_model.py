@@ -518,7 +518,7 @@ def test_lights_without_cells(small):
 def test_cycles(small, tmp_path):
     model = view.Model(*small, unit="cm")
     i, j = model.add("coapting"), model.add("mitral")
-    (tmp_path / "beat.csv").write_text("# a comment\ntime; opening\n0; 0\n0.2\t1\n0.5 0,\n")
+    (tmp_path / "beat.csv").write_text("# a comment\ntime; opening\n0; 0\n +.2\t1e0 ; \r\n\n0.5 0,\n")
     model.set_cycle(tmp_path / "beat.csv", 0.8, valve=i)
     model.set_cycle("mitral", 0.8, valve=j)
     steps = len(model._undo)
@@ -859,6 +859,7 @@ def test_refused_meshes(small):
     ("0,0,1\n", "line 1: has 3 columns: '0,0,1'; it must have 2, time and opening"),
     ("just words\nand more\n", "line 2: the time 'and' is not a finite number"),
     ("0\n", "line 1: has 1 columns"),
+    ("0,0\n1_0,1\n", "line 2: the time '1_0' is not a finite number"),
     ("0,0\n0.1,nan\n", "line 2: the opening 'nan' is not a finite number"),
     ("0,0\n0,1\n", "line 2: the time 0 is not above the time before it"),
     ("0,0\n1,1.5\n", "line 2: the opening 1.5 is not from 0 to 1"),
