@@ -291,11 +291,16 @@ RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, r
 
 /* ---- Pictures ------------------------------------------------------------------------------------------ */
 
-/* The direction in which a picture looks. */
+/* The direction in which a picture looks, by the axes of the mesh or by those of the valve. */
 enum {
-  RIIS_VTK_VIEW_SIDE = 0,   /* along +y, z up */
-  RIIS_VTK_VIEW_TOP = 1,    /* along -z, y up */
-  RIIS_VTK_VIEW_OBLIQUE = 2 /* from above one side, z up */
+  RIIS_VTK_VIEW_SIDE = 0,          /* along +y, z up */
+  RIIS_VTK_VIEW_TOP = 1,           /* along -z, y up */
+  RIIS_VTK_VIEW_OBLIQUE = 2,       /* from above one side, z up */
+  RIIS_VTK_VIEW_THREE = 3,         /* these three views side by side, to one scale */
+  RIIS_VTK_VIEW_VALVE_SIDE = 4,    /* the same four views by the valve's axes, which are the mesh's axes turned by */
+  RIIS_VTK_VIEW_VALVE_TOP = 5,     /* rotation_axis and rotation_angle of riis_vtk_picture_options */
+  RIIS_VTK_VIEW_VALVE_OBLIQUE = 6,
+  RIIS_VTK_VIEW_VALVE_THREE = 7
 };
 
 /* What a picture shows and how. Texts are in ASCII. Other characters are drawn as "?". */
@@ -314,6 +319,8 @@ typedef struct riis_vtk_picture_options {
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
+  double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*: values and ranges as in */
+  double rotation_angle;  /* riis_surface_options. Default (0, 0, 1) and 0: the mesh's axes */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
@@ -328,6 +335,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  * - Captions count nodes and cells. If the mesh has volume cells, flat cells are neither drawn nor counted.
  * - Axes and a scale bar are below the panels. A mesh much longer than the surface is cut at dashed lines.
  *   Pictures lower than 120 pixels have no texts, axes or bar.
+ * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with the panels above each
+ *   other. The columns have the same scale.
  *
  *   mesh  must have marks set. NULL draws the surface alone, in one panel
  *   path  ends in .png
@@ -350,7 +359,7 @@ typedef struct riis_vtk_film riis_vtk_film;
 /* Makes the window and the outline of the mesh, which all pictures share.
  *   mesh          its nodes and cells must stay the same, but its marks may change. NULL draws the surface
  *                 alone. The film shares the mesh's data, so the mesh may be destroyed first
- *   lower, upper  (3), bounds of the surface at all times, for the camera
+ *   lower, upper  (3), bounds of the surface at all times along the mesh's axes, for the camera
  *   options       the view, the size and the leaflets' names; title and leaking edges are ignored
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
  * bounds that are not finite or do not ascend. */
