@@ -16,7 +16,7 @@ paraview_install() {
 # paraview_check: checks the plug-in under a virtual display, and leaves pictures in out/paraview.
 paraview_check() {
   mkdir -p out/paraview
-  PYTHONPATH=$PWD/build-python/paraview xvfb-run -a -s '-screen 0 1280x1024x24' \
+  PYTHONPATH=$PWD/build-python/paraview xvfb-run -a -s '-screen 0 1280x1024x24 -noreset' \
     pvpython examples/paraview/check.py out/paraview
 }
 

@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The plug-in for ParaView 5.11 and later: the source "Heart valve" and the filter "Mark by valve" (docs/paraview.md).
+"""The plug-in for ParaView 5.11 and later: the source "Heart Valve" and the filter "Mark By Valve" (docs/paraview.md).
 
 ParaView loads this file by Tools, Manage Plugins, Load New, and pvpython loads it by LoadPlugin(path, ns=globals()). The package
 riis must be importable by ParaView's own Python. Arrays go to riis and come back as numpy arrays, so ParaView's VTK and the
 libraries of riis never meet.
 """
 
+import atexit
 import csv
 import math
+import weakref
 from xml.sax.saxutils import escape, quoteattr
 
 import numpy
 import riis
 from paraview.util.vtkAlgorithm import VTKPythonAlgorithmBase, smproperty, smproxy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkPoints
+from vtkmodules.vtkCommonCore import VTK_ID_TYPE, vtkOutputWindow, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkDataObject, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
@@ -69,25 +71,25 @@ def _shown_if(name, value):
     return f"<Hints>{decorator}</Hints>"
 
 
-def _choice(name, label, texts, text):
+def _choice(name, texts, text, hints=""):
     entries = "".join(f'<Entry value="{value}" text={quoteattr(entry)}/>' for value, entry in enumerate(texts))
-    return f"""<IntVectorProperty name="{name}" label="{label}" command="Set{name}" number_of_elements="1" default_values="0">
-      <EnumerationDomain name="enum">{entries}</EnumerationDomain>{_documentation(text)}</IntVectorProperty>"""
+    return f"""<IntVectorProperty name="{name}" command="Set{name}" number_of_elements="1" default_values="0">
+      <EnumerationDomain name="enum">{entries}</EnumerationDomain>{_documentation(text)}{hints}</IntVectorProperty>"""
 
 
-def _switch(name, label, text):
-    return f"""<IntVectorProperty name="{name}" label="{label}" command="Set{name}" number_of_elements="1" default_values="0">
+def _switch(name, text):
+    return f"""<IntVectorProperty name="{name}" command="Set{name}" number_of_elements="1" default_values="0">
       <BooleanDomain name="bool"/>{_documentation(text)}</IntVectorProperty>"""
 
 
-def _count(name, label, default, least, most, text, hints=""):
-    return f"""<IntVectorProperty name="{name}" label="{label}" command="Set{name}" number_of_elements="1"
-      default_values="{default}"><IntRangeDomain name="range" min="{least}" max="{most}"/>{_documentation(text)}{hints}
-      </IntVectorProperty>"""
+def _count(name, default, least, most, text):
+    return f"""<IntVectorProperty name="{name}" command="Set{name}" number_of_elements="1" default_values="{default}">
+      <IntRangeDomain name="range" min="{least}" max="{most}"/>{_documentation(text)}</IntVectorProperty>"""
 
 
-def _numbers(name, label, default, text, least=None, most=None, visibility="default", hints=""):
-    """Returns the property of one number, or of several. A range makes a slider."""
+def _numbers(name, default, text, least=None, most=None, visibility="default", hints="", label=""):
+    """Returns the property of one number, or of several. A range makes a slider. pvpython's name of the property is its label
+    without blanks, so only a name with underscores gets a label of its own."""
     values = [float(value) for value in numpy.ravel(default)]
 
     def listed(value):
@@ -95,7 +97,8 @@ def _numbers(name, label, default, text, least=None, most=None, visibility="defa
 
     limits = "" if least is None else f' min="{listed(least)}"'
     limits += "" if most is None else f' max="{listed(most)}"'
-    return f"""<DoubleVectorProperty name="{name}" label={quoteattr(label)} command="Set{name}" panel_visibility="{visibility}"
+    named = f' label="{label}"' if label else ""
+    return f"""<DoubleVectorProperty name="{name}"{named} command="Set{name}" panel_visibility="{visibility}"
       number_of_elements="{len(values)}" default_values="{' '.join(map(repr, values))}">
       <DoubleRangeDomain name="range"{limits}/>{_documentation(text)}{hints}</DoubleVectorProperty>"""
 
@@ -113,14 +116,13 @@ def _parameter_names(kind):
 
 def _parameter_property(kind, name, property_name):
     parameter = riis.Valve(kind).parameters[name]
-    unit = {"length": " (cm)", "degree": " (degrees)", "1": ""}[parameter.unit]
-    text = parameter.description
+    unit = {"length": ", in centimetres", "degree": ", in degrees", "1": ""}[parameter.unit]
+    text = f"{name} of the {kind} valve{unit}: {parameter.description}."
     if parameter.rule:
         text += f" As long as it has its default, it follows its rule: {parameter.rule}."
-    label = name.replace("_", " ").replace(".", " ") + unit
     visibility = "default" if name in FIRST_SIZES[kind] else "advanced"
-    return _numbers(property_name, label, parameter.default, text, parameter.minimum, parameter.maximum, visibility,
-                    _shown_if("Kind", KINDS.index(kind)))  # fmt: skip
+    return _numbers(property_name, parameter.default, text, parameter.minimum, parameter.maximum, visibility,
+                    _shown_if("Kind", KINDS.index(kind)), property_name)  # fmt: skip
 
 
 def _setter(name):
@@ -155,12 +157,19 @@ class _Kept(VTKPythonAlgorithmBase):
             self.values[name] = value
             self.Modified()
 
+    def length(self, name):
+        """Returns a length, or 0 if riis chooses it."""
+        value = self.values[name]
+        if not value >= 0.0:
+            raise Refused(f"{name}: is {value}; it must be at least 0")
+        return value
+
 
 # ---- The source ----
 
 VALVE_DEFAULTS = {
     "Kind": 0, "Opening": 0.0, "Motion": 0, "BeginsToOpen": 0.1, "OpensIn": 0.05, "BeginsToClose": 0.4, "ClosesIn": 0.05,
-    "Period": 0.8, "CycleFile": "", "Interpolation": 0, "NumberOfTimes": 41, "Unit": 0, "RotationAxis": (0.0, 0.0, 1.0),
+    "Period": 0.8, "CycleFile": "", "Interpolation": 0, "NumberOfTimes": 41, "MeshUnit": 0, "RotationAxis": (0.0, 0.0, 1.0),
     "RotationAngle": 0.0, "Translation": (0.0, 0.0, 0.0), "HalfThickness": 0.0, "Tolerance": 0.05,
 }  # fmt: skip
 PARAMETERS = {kind: _parameter_names(kind) for kind in KINDS}
@@ -180,34 +189,41 @@ def _valve_properties():
     by_times, by_table = _shown_if("Motion", 1), _shown_if("Motion", 2)
     properties = [
         _times_of_output(),
-        _choice("Kind", "Kind", KINDS, "The kind of valve. Each kind has sizes of its own."),
-        _choice("Motion", "Motion", MOTIONS, "Whether the valve stays at its opening, or moves in ParaView's time."),
-        _numbers("Opening", "Opening", 0.0, "0 is closed, 1 is open.", 0.0, 1.0, hints=_shown_if("Motion", 0)),
-        _numbers("BeginsToOpen", "Begins to open at", 0.1, "The time, such as seconds.", hints=by_times),
-        _numbers("OpensIn", "Opens in", 0.05, "The duration of opening.", 0.0, hints=by_times),
-        _numbers("BeginsToClose", "Begins to close at", 0.4, "The time.", hints=by_times),
-        _numbers("ClosesIn", "Closes in", 0.05, "The duration of closing.", 0.0, hints=by_times),
-        _numbers("Period", "Period", 0.8, "The duration of a heartbeat.", 0.0, hints=by_times),
-        f"""<StringVectorProperty name="CycleFile" label="Cycle" command="SetCycleFile" number_of_elements="1"
-          default_values=""><FileListDomain name="files"/>{_documentation(
+        _choice("Kind", KINDS, "The kind of valve. Each kind has sizes of its own."),
+        _choice("Motion", MOTIONS, "Whether the valve stays at its opening, or moves in ParaView's time."),
+        _numbers("Opening", 0.0, "0 is closed, 1 is open.", 0.0, 1.0, hints=_shown_if("Motion", 0)),
+        _numbers("BeginsToOpen", 0.1, "The time at which the valve begins to open.", hints=by_times),
+        _numbers("OpensIn", 0.05, "The duration of opening.", 0.0, hints=by_times),
+        _numbers("BeginsToClose", 0.4, "The time at which the valve begins to close.", hints=by_times),
+        _numbers("ClosesIn", 0.05, "The duration of closing.", 0.0, hints=by_times),
+        _numbers("Period", 0.8, "The duration of a heartbeat.", 0.0, hints=by_times),
+        f"""<StringVectorProperty name="CycleFile" command="SetCycleFile" number_of_elements="1" default_values="">
+          <FileListDomain name="files"/>{_documentation(
               "A file of two columns, the times and the openings of the valve, separated by commas.")}
           <Hints><FileChooser extensions="csv txt" file_description="Cycle"/>
           <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Motion" value="2"/></Hints>
           </StringVectorProperty>""",
-        _choice("Interpolation", "Interpolation", INTERPOLATIONS, "How the opening changes between the table's times.")
-        .replace("</IntVectorProperty>", by_table + "</IntVectorProperty>"),
-        _count("NumberOfTimes", "Number of times", 41, 2, 1000, "Time steps of the motion, first and last included."),
+        _choice("Interpolation", INTERPOLATIONS, "How the opening changes between the table's times.", by_table),
+        _count("NumberOfTimes", 41, 2, 1000, "The number of time steps of a motion, first and last included."),
         *(_parameter_property(kind, name, property_name)
           for kind in KINDS for name, property_name in PARAMETERS[kind].items()),
-        _choice("Unit", "Unit of the mesh", UNITS, "The sizes above are in centimetres. The surface has this unit."),
-        _numbers("RotationAxis", "Rotation axis", (0, 0, 1), "The axis about which the valve is turned."),
-        _numbers("RotationAngle", "Rotation angle (degrees)", 0.0, "Counter-clockwise, seen from the axis's tip.", -360, 360),
-        _numbers("Translation", "Translation", (0, 0, 0), "Follows the rotation, in the unit of the mesh."),
-        _numbers("HalfThickness", "Half thickness", 0.0,
-                 "Nodes nearer to the leaflets are marked; in the unit of the mesh. 0 stands for 0.1 cm.", 0.0),
-        _numbers("Tolerance", "Tolerance", 0.05, "Error of the triangles, in half thicknesses.", 1e-6, 1.0, "advanced"),
+        _choice("MeshUnit", UNITS, "The unit of the mesh, and of the surface. The sizes of the valve are in centimetres."),
+        _numbers("RotationAxis", (0, 0, 1), "The axis about which the valve is turned."),
+        _numbers("RotationAngle", 0.0, "In degrees, counter-clockwise seen from the axis's tip.", -360, 360),
+        _numbers("Translation", (0, 0, 0), "In the unit of the mesh, after the rotation."),
+        _numbers("HalfThickness", 0.0,
+                 "Nodes nearer to the leaflets are marked. In the unit of the mesh; 0 stands for 0.1 cm.", 0.0),
+        _numbers("Tolerance", 0.05, "The error of the triangles, in half thicknesses.", 1e-6, 1.0, "advanced"),
+        *(_group(kind) for kind in KINDS),
     ]  # fmt: skip
     return "".join(properties)
+
+
+def _group(kind):
+    """Puts the sizes of a kind below a heading."""
+    names = "".join(f'<Property name="{name}"/>' for name in PARAMETERS[kind].values())
+    return f"""<PropertyGroup label="Sizes of the {kind} valve (cm, degrees)">{names}
+      {_shown_if("Kind", KINDS.index(kind))}</PropertyGroup>"""
 
 
 def read_cycle(path):
@@ -234,7 +250,7 @@ def read_cycle(path):
 
 @_with_setters([*VALVE_DEFAULTS, *PARAMETER_DEFAULTS])
 class _HeartValve(_Kept):
-    label = "Heart valve"
+    label = "Heart Valve"
 
     def __init__(self):
         super().__init__({**VALVE_DEFAULTS, **PARAMETER_DEFAULTS}, nInputPorts=0, nOutputPorts=1, outputType="vtkPolyData")
@@ -252,13 +268,13 @@ class _HeartValve(_Kept):
     def options(self):
         """Returns the options of riis.Surface."""
         options = {
-            "scale": list(UNITS.values())[self.values["Unit"]],
+            "scale": list(UNITS.values())[self.values["MeshUnit"]],
             "rotation_axis": self.values["RotationAxis"],
             "rotation_angle": self.values["RotationAngle"],
             "translation": self.values["Translation"],
             "tolerance": self.values["Tolerance"],
         }
-        if self.values["HalfThickness"] != 0.0:
+        if self.length("HalfThickness") > 0.0:
             options["half_thickness"] = self.values["HalfThickness"]
         return options
 
@@ -268,7 +284,7 @@ class _HeartValve(_Kept):
         if kept["Motion"] == 0:
             return None, numpy.zeros(0)
         if n < 2:
-            raise Refused(f"Number of times: is {n}; it must be at least 2")
+            raise Refused(f"NumberOfTimes: is {n}; it must be at least 2")
         if kept["Motion"] == 1:
             if not kept["Period"] > 0.0:
                 raise Refused(f"Period: is {kept['Period']}; it must be above 0")
@@ -277,7 +293,7 @@ class _HeartValve(_Kept):
             law(0.0)  # refuses bad times now
             return law, numpy.linspace(0.0, kept["Period"], n)
         if not kept["CycleFile"]:
-            raise Refused("Cycle: no file is named, but the motion is a cycle from a table")
+            raise Refused("CycleFile: no file is named, but the motion is a cycle from a table")
         time, opening = read_cycle(kept["CycleFile"]).T.copy()
         law = riis.OpeningTable(time, opening, interpolation=INTERPOLATIONS[kept["Interpolation"]])
         law(float(time[0]))
@@ -347,12 +363,10 @@ def put_surface(surface, output):
 
 
 def _id_array(values):
-    from vtkmodules.vtkCommonCore import VTK_ID_TYPE
-
     return numpy_to_vtk(values, deep=True, array_type=VTK_ID_TYPE)
 
 
-@smproxy.source(name="HeartValve", label="Heart valve")
+@smproxy.source(name="HeartValve", label="Heart Valve")
 @smproperty.xml(_valve_properties())
 class HeartValve(_HeartValve):
     """The surface of a valve of riis, at one opening or in motion."""
@@ -366,8 +380,8 @@ MARK_DEFAULTS = {
 }  # fmt: skip
 
 
-def _input(name, port, label, data_type, text):
-    return f"""<InputProperty name="{name}" label="{label}" port_index="{port}" command="SetInputConnection">
+def _input(name, port, data_type, text):
+    return f"""<InputProperty name="{name}" port_index="{port}" command="SetInputConnection">
       <ProxyGroupDomain name="groups"><Group name="sources"/><Group name="filters"/></ProxyGroupDomain>
       <DataTypeDomain name="input_type"><DataType value="{data_type}"/></DataTypeDomain>{_documentation(text)}</InputProperty>"""
 
@@ -380,18 +394,17 @@ def _mark_properties():
         "velocity": "The velocity of the leaflets, and K times this velocity if there is a resistance.",
     }
     properties = [
-        _input("Mesh", 0, "Mesh", "vtkUnstructuredGrid", "The mesh whose nodes are marked."),
-        _input("Valve", 1, "Valve", "vtkPolyData", "The leaflets: a Heart valve, or any surface of triangles."),
+        _input("Mesh", 0, "vtkUnstructuredGrid", "The mesh whose nodes are marked."),
+        _input("Valve", 1, "vtkPolyData", "The leaflets: a Heart Valve, or any surface of triangles."),
         _times_of_output(),
         '<OutputPort name="Marked mesh" index="0"/><OutputPort name="Leaking edges" index="1"/>',
-        _numbers("HalfThickness", "Half thickness", 0.0,
-                 "Nodes nearer to the leaflets are marked. 0 stands for the half thickness of the Heart valve.", 0.0),
-        _numbers("DistanceLimit", "Distance limit", 0.0,
-                 "Distances are known up to this limit. 0 stands for the half thickness.", 0.0),
-        _numbers("FarDistance", "Far distance", 1e30, "The distance of all nodes beyond the limit.", visibility="advanced"),
-        _numbers("Resistance", "Resistance R", 0.0, "If it is above 0, each node gets K.", 0.0),
-        *(_switch(f"Field{field.capitalize()}", field.capitalize(), text) for field, text in fields.items()),
-        _switch("FindLeaks", "Find leaks", "Finds edges that cross the leaflets between two unmarked nodes."),
+        _numbers("HalfThickness", 0.0,
+                 "Nodes nearer to the leaflets are marked. 0 stands for the half thickness of the Heart Valve.", 0.0),
+        _numbers("DistanceLimit", 0.0, "Distances are known up to this limit. 0 stands for the half thickness.", 0.0),
+        _numbers("FarDistance", 1e30, "The distance of all nodes beyond the limit.", visibility="advanced"),
+        _numbers("Resistance", 0.0, "R. If it is above 0, each node gets K.", 0.0),
+        *(_switch(f"Field{field.capitalize()}", text) for field, text in fields.items()),
+        _switch("FindLeaks", "Finds edges that cross the leaflets between two unmarked nodes."),
     ]  # fmt: skip
     return "".join(properties)
 
@@ -419,7 +432,7 @@ def _surface_of(data, half_thickness):
     own = data.GetFieldData().GetArray("riis_half_thickness")
     if half_thickness == 0.0:
         if own is None:
-            raise Refused("Half thickness: it is 0, and the valve is not a Heart valve, which has one")
+            raise Refused("HalfThickness: it is 0, and the valve is not a Heart Valve, which has one")
         half_thickness = own.GetTuple1(0)
     options = {}
     if leaflets is not None:
@@ -442,9 +455,9 @@ def _adjacency_of(grid):
     is_volume = numpy.isin(types, VOLUMES)
     others = numpy.unique(types[~is_volume & (types > LARGEST_FLAT)])
     if len(others) > 0:
-        raise Refused(f"Find leaks: the mesh has cells of VTK's type {others[0]}; edges are known of linear cells only")
+        raise Refused(f"FindLeaks: the mesh has cells of VTK's type {others[0]}; edges are known of linear cells only")
     if not is_volume.any():
-        raise Refused("Find leaks: the mesh has no volume cells")
+        raise Refused("FindLeaks: the mesh has no volume cells")
     nodes = nodes.copy()
     voxels = offsets[:-1][types == VOXEL]
     for a, b in ((2, 3), (6, 7)):  # voxels have another order of nodes than hexahedra
@@ -455,12 +468,26 @@ def _adjacency_of(grid):
     return riis.Adjacency.from_cells(kept, grid.GetNumberOfPoints(), offsets=starts)
 
 
+filters = weakref.WeakSet()
+
+
+@atexit.register
+def forget_meshes():
+    """ParaView ends Python before its filters. Objects of riis must not outlive Python."""
+    for algorithm in filters:
+        algorithm.forget()
+
+
 @_with_setters(MARK_DEFAULTS)
 class _MarkByValve(_Kept):
-    label = "Mark by valve"
+    label = "Mark By Valve"
 
     def __init__(self):
         super().__init__(MARK_DEFAULTS, nInputPorts=2, nOutputPorts=2, outputType="vtkUnstructuredGrid")
+        self.forget()
+        filters.add(self)
+
+    def forget(self):
         self._mesh = self._mesh_key = self._cells_key = None
 
     def FillInputPortInformation(self, port, info):
@@ -508,17 +535,20 @@ class _MarkByValve(_Kept):
         grid, leaflets = vtkUnstructuredGrid.GetData(inputs[0], 0), vtkPolyData.GetData(inputs[1], 0)
         marked, leaking = vtkUnstructuredGrid.GetData(outputs, 0), vtkPolyData.GetData(outputs, 1)
         kept = self.values
-        surface = _surface_of(leaflets, kept["HalfThickness"])
+        surface = _surface_of(leaflets, self.length("HalfThickness"))
         mesh = self.mesh_of(grid)
         fields = [field for field in FIELDS if kept[f"Field{field.capitalize()}"]]
         if "velocity" in fields and surface.velocities is None:
-            raise Refused("Velocity: the valve does not move")
-        options = {"distance_limit": kept["DistanceLimit"]} if kept["DistanceLimit"] != 0.0 else {}
+            raise Refused("FieldVelocity: the valve does not move")
+        options = {"distance_limit": kept["DistanceLimit"]} if self.length("DistanceLimit") > 0.0 else {}
         marks = riis.mark(surface, mesh, fields=fields or None, **options)
         marked.ShallowCopy(grid)
         put_marks(marks, fields, kept["FarDistance"], marked.GetPointData(), len(mesh))
         if kept["Resistance"] != 0.0:
             put_resistance(marks, "velocity" in fields, kept["Resistance"], marked.GetPointData(), len(mesh))
+        out = outputs.GetInformationObject(0)
+        if out.Has(Pipeline.UPDATE_TIME_STEP()):
+            marked.GetInformation().Set(vtkDataObject.DATA_TIME_STEP(), out.Get(Pipeline.UPDATE_TIME_STEP()))
         leaking.Initialize()
         if kept["FindLeaks"]:
             leaks = riis.find_leaks(surface, mesh, marks)
@@ -562,7 +592,7 @@ def put_edges(xyz, leaks, output):
     _add(output.GetPointData(), "riis_node_id", leaks.node_id.ravel())
 
 
-@smproxy.filter(name="MarkByValve", label="Mark by valve")
+@smproxy.filter(name="MarkByValve", label="Mark By Valve")
 @smproperty.xml(_mark_properties())
 class MarkByValve(_MarkByValve):
     """The marks of a mesh by a valve of riis."""

@@ -207,13 +207,13 @@ static void test_case_titles(void **state) {
   RUN_FINE("mark", "--case", scratch_path("two.json"), "--picture", scratch_path("by_program.png"), "--surface-output",
            scratch_path("both.vtp"));
   assert_non_null(strstr(program_out, "\nvalve     aortic: opening 0.5, "));
+  const char *const patient = strstr(program_out, "\nvalve     patient: ");
+  assert_non_null(patient);
+  assert_true(patient[20] >= '1' && patient[20] <= '9');
   RUN_REFUSED(2, "--view valve-side: there are 2 valves, each with axes of its own; side looks by the mesh's axes", "mark",
               "--case", scratch_path("two.json"), "--picture", scratch_path("no.png"), "--view", "valve-side");
   RUN_REFUSED(2, "--movie-view valve-three: there are 2 valves", "mark", "--case", scratch_path("two.json"), "--times",
               "0,1", "--movie", scratch_path("no.gif"), "--movie-view", "valve-three");
-  const char *const patient = strstr(program_out, "\nvalve     patient: ");
-  assert_non_null(patient);
-  assert_true(patient[20] >= '1' && patient[20] <= '9');
   expect_fine(riis_vtk_surface_read(scratch_path("both.vtp"), NULL, &file));
   expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
   expect_fine(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));

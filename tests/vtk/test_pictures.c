@@ -553,7 +553,7 @@ static void test_valve_axes(void **state) {
   random_source random = random_start("valve_axes");
   double *const xyz = malloc(3 * n * sizeof *xyz);
   for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&random, -2.2, 2.2);
-  const int first = (int)(random_bits(&random) % 5), n_kinds = is_long_test() ? 5 : 2;
+  const int first = (int)(random_bits(&random) % 5), n_kinds = is_long_test() ? 5 : 1;
   for (int kind = first; kind < first + n_kinds; ++kind) {
     double axis[3], shift[3];
     for (int k = 0; k < 3; ++k) {
@@ -566,12 +566,14 @@ static void test_valve_axes(void **state) {
       draw_four(&here, with_mesh, RIIS_VTK_VIEW_SIDE, before);
       draw_four(&there, with_mesh, RIIS_VTK_VIEW_VALVE_SIDE, after);
       draw_four(&there, with_mesh, RIIS_VTK_VIEW_SIDE, by_mesh);
+      double most = 0;
       for (int i = 0; i < n_pictures; ++i) {
         const double same = share_of_changes(before[i], after[i]), other = share_of_changes(before[i], by_mesh[i]);
-        if (same > 0.004 || other < 0.03)
-          fail_msg("%s, view %d, mesh %d: %g of the pixels differ by the valve's axes, %g by the mesh's",
-                   kinds[kind % 5], i, with_mesh, same, other);
+        if (same > 0.015)
+          fail_msg("%s, view %d, mesh %d: %g of the pixels differ", kinds[kind % 5], i, with_mesh, same);
+        if (other > most) most = other;
       }
+      assert_true(most > 0.05);
     }
     riis_surface_destroy(&here.surface);
     riis_surface_destroy(&there.surface);
