@@ -468,14 +468,33 @@ def _adjacency_of(grid):
     return riis.Adjacency.from_cells(kept, grid.GetNumberOfPoints(), offsets=starts)
 
 
-filters = weakref.WeakSet()
+class _KeptMesh:
+    """The riis.Mesh of a filter, which stays the same as long as nodes and cells do."""
+
+    def __init__(self):
+        self.mesh = self.points_key = self.cells_key = None
+        kept_meshes.add(self)
+
+    def of(self, grid, needs_edges):
+        """Returns the mesh of a grid."""
+        points, cells = grid.GetPoints(), grid.GetCells()
+        key = points and (points, points.GetMTime())
+        if self.mesh is None or self.points_key != key:
+            self.mesh, self.points_key, self.cells_key = riis.Mesh(_points_of(grid, "Mesh")), key, None
+        if needs_edges and self.cells_key != (cells, cells.GetMTime()):
+            self.mesh.set_adjacency(_adjacency_of(grid))
+            self.cells_key = (cells, cells.GetMTime())
+        return self.mesh
+
+
+kept_meshes = weakref.WeakSet()
 
 
 @atexit.register
 def forget_meshes():
     """ParaView ends Python before its filters. Objects of riis must not outlive Python."""
-    for algorithm in filters:
-        algorithm.forget()
+    for kept in kept_meshes:
+        kept.mesh = None
 
 
 @_with_setters(MARK_DEFAULTS)
@@ -484,11 +503,7 @@ class _MarkByValve(_Kept):
 
     def __init__(self):
         super().__init__(MARK_DEFAULTS, nInputPorts=2, nOutputPorts=2, outputType="vtkUnstructuredGrid")
-        self.forget()
-        filters.add(self)
-
-    def forget(self):
-        self._mesh = self._mesh_key = self._cells_key = None
+        self.kept_mesh = _KeptMesh()
 
     def FillInputPortInformation(self, port, info):
         info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), ("vtkUnstructuredGrid", "vtkPolyData")[port])
@@ -518,25 +533,13 @@ class _MarkByValve(_Kept):
             _set_times(out, sorted(times))
         return 1
 
-    def mesh_of(self, grid):
-        """Returns the riis.Mesh, which stays the same as long as the nodes do."""
-        points = grid.GetPoints()
-        key = points and (points, points.GetMTime())
-        if self._mesh is None or self._mesh_key != key:
-            self._mesh, self._mesh_key, self._cells_key = riis.Mesh(_points_of(grid, "Mesh")), key, None
-        cells = grid.GetCells()
-        if self.values["FindLeaks"] and self._cells_key != (cells, cells.GetMTime()):
-            self._mesh.set_adjacency(_adjacency_of(grid))
-            self._cells_key = (cells, cells.GetMTime())
-        return self._mesh
-
     @shown
     def RequestData(self, request, inputs, outputs):
         grid, leaflets = vtkUnstructuredGrid.GetData(inputs[0], 0), vtkPolyData.GetData(inputs[1], 0)
         marked, leaking = vtkUnstructuredGrid.GetData(outputs, 0), vtkPolyData.GetData(outputs, 1)
         kept = self.values
         surface = _surface_of(leaflets, self.length("HalfThickness"))
-        mesh = self.mesh_of(grid)
+        mesh = self.kept_mesh.of(grid, kept["FindLeaks"])
         fields = [field for field in FIELDS if kept[f"Field{field.capitalize()}"]]
         if "velocity" in fields and surface.velocities is None:
             raise Refused("FieldVelocity: the valve does not move")

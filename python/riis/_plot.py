@@ -37,8 +37,8 @@ def surface_to_pyvista(surface: Surface) -> Any:
     return data
 
 
-# The colours of the leaflets, by leaflet_id in turn. They are those of the program's pictures, which are distinct for all kinds of
-# colour vision (Okabe, Ito 2008).
+# The colours of the leaflets, by leaflet_id in turn. They are those of the program's pictures, which are distinct for all kinds
+# of colour vision (Okabe, Ito 2008).
 LEAFLET_COLOURS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (213, 94, 0), (86, 180, 233))
 
 _BAR = {

@@ -80,11 +80,12 @@ void set_mesh_of_pictures(const MarkOptions &options, const ValveOptions &valve,
 void check_view(const std::string &option, std::int32_t view, std::size_t n_valves, const ValveOptions &valve) {
   if (view < RIIS_VTK_VIEW_VALVE_SIDE) return;
   const std::string name = option + " " + view_names[static_cast<std::size_t>(view)];
-  const std::string advice = "; " + view_names[static_cast<std::size_t>(view - RIIS_VTK_VIEW_VALVE_SIDE)] +
-                             " looks by the mesh's axes";
+  const std::string advice =
+      "; " + view_names[static_cast<std::size_t>(view - RIIS_VTK_VIEW_VALVE_SIDE)] + " looks by the mesh's axes";
   if (n_valves > 1)
     refuse_usage(name + ": there are " + std::to_string(n_valves) + " valves, each with axes of its own" + advice);
-  if (!valve.surface.empty()) refuse_usage(name + ": " + valve.surface + " has triangles, but no axes of a valve" + advice);
+  if (!valve.surface.empty())
+    refuse_usage(name + ": " + valve.surface + " has triangles, but no axes of a valve" + advice);
 }
 
 }  // namespace
@@ -119,8 +120,9 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   return title;
 }
 
-void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report) {
+void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title,
+                   const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
+                   const riis_marks *result, Report &report) {
   std::vector<int32_t> views;
   std::vector<const char *> paths;
   for (const Picture &picture : options.pictures) {

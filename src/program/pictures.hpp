@@ -34,8 +34,9 @@ void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOp
 
 // Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`. The placement of `valve` gives
 // the valve's axes.
-void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report);
+void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title,
+                   const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
+                   const riis_marks *result, Report &report);
 
 // In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
 

@@ -60,8 +60,7 @@ void check_picture_options_size(std::int64_t size) { check_struct_size(size, fir
 
 const riis_vtk_picture_options &default_picture_options() {
   static const riis_vtk_picture_options defaults = {
-      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0,
-      {0, 0, 1}, 0};
+      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, {0, 0, 1}, 0};
   return defaults;
 }
 

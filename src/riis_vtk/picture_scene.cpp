@@ -347,8 +347,8 @@ vtkSmartPointer<vtkImageData> Scene::shot(const View &view, const Sight &sight, 
     put(marks_->renderer(), 1);
   }
   if (behind_) window_->RemoveRenderer(behind_);
-  behind_ = texts_of_picture(layout, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_,
-                             unit_.empty());
+  behind_ =
+      texts_of_picture(layout, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_, unit_.empty());
   window_->AddRenderer(behind_);
   surface_.renderer()->ResetCameraClippingRange();
   if (marks_) marks_->renderer()->ResetCameraClippingRange();

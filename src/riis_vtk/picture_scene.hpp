@@ -84,8 +84,8 @@ class Scene {
                                      const std::vector<PanelTexts> &texts);
   vtkSmartPointer<vtkImageData> three_views(std::int32_t first, const std::optional<Bounds> &seen);
 
-  Axes axes_;      // of the valve
-  Layout layout_;  // of a picture with one view
+  Axes axes_;         // of the valve
+  Layout layout_;     // of a picture with one view
   std::string unit_;  // "" if the caller gave none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;

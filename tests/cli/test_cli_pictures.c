@@ -210,8 +210,8 @@ static void test_case_titles(void **state) {
   const char *const patient = strstr(program_out, "\nvalve     patient: ");
   assert_non_null(patient);
   assert_true(patient[20] >= '1' && patient[20] <= '9');
-  RUN_REFUSED(2, "--view valve-side: there are 2 valves, each with axes of its own; side looks by the mesh's axes", "mark",
-              "--case", scratch_path("two.json"), "--picture", scratch_path("no.png"), "--view", "valve-side");
+  RUN_REFUSED(2, "--view valve-side: there are 2 valves, each with axes of its own; side looks by the mesh's axes",
+              "mark", "--case", scratch_path("two.json"), "--picture", scratch_path("no.png"), "--view", "valve-side");
   RUN_REFUSED(2, "--movie-view valve-three: there are 2 valves", "mark", "--case", scratch_path("two.json"), "--times",
               "0,1", "--movie", scratch_path("no.gif"), "--movie-view", "valve-three");
   expect_fine(riis_vtk_surface_read(scratch_path("both.vtp"), NULL, &file));
@@ -242,10 +242,8 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures),
-      cmocka_unit_test(test_valve_views),
-      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),
-      cmocka_unit_test(test_case_titles),
+      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures), cmocka_unit_test(test_valve_views),
+      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),     cmocka_unit_test(test_case_titles),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_palette.py FOLDER: all pictures take their colours from one palette, and every kind of colour vision tells them apart.
 
-The palette is distinct_colours of src/riis_vtk/drawing.hpp. A colour as protanopes, deuteranopes and tritanopes see it follows from
-the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours are told apart if their difference in CIELAB is
-at least LEAST. The palette of matplotlib and its Set2 must fail.
+The palette is distinct_colours of src/riis_vtk/drawing.hpp. How protanopes, deuteranopes and tritanopes see a colour follows from
+the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours are told apart if their difference in CIELAB
+is at least LEAST. The palette of matplotlib and its Set2 must fail.
 """
 
 import itertools

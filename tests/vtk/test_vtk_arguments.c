@@ -293,11 +293,15 @@ static void test_pieces(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_null),         cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_struct_sizes), cmocka_unit_test(test_leaking_edges),
-      cmocka_unit_test(test_many_views),   cmocka_unit_test(test_picture_options),
+      cmocka_unit_test(test_null),
+      cmocka_unit_test(test_pieces),
+      cmocka_unit_test(test_struct_sizes),
+      cmocka_unit_test(test_leaking_edges),
+      cmocka_unit_test(test_many_views),
+      cmocka_unit_test(test_picture_options),
       cmocka_unit_test(test_axes_of_valve),
-      cmocka_unit_test(test_odd_names),    cmocka_unit_test(test_floating_point_environment),
+      cmocka_unit_test(test_odd_names),
+      cmocka_unit_test(test_floating_point_environment),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }
