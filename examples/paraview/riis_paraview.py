@@ -47,7 +47,7 @@ def shown(request):
     def run(self, request_object, inputs, outputs):
         try:
             return request(self, request_object, inputs, outputs)
-        except (riis.Error, Refused, OSError) as refusal:
+        except (riis.Error, Refused) as refusal:
             for port in range(self.GetNumberOfOutputPorts()):
                 data = vtkDataObject.GetData(outputs, port)
                 if data is not None:
@@ -228,24 +228,36 @@ def _group(kind):
 
 def read_cycle(path):
     """Reads the times and openings of a cycle, by the rules of the program riis. A first line without numbers names columns."""
-    keys = []
-    with open(path, encoding="utf-8", newline="") as file:
-        for number, row in enumerate(csv.reader(file), start=1):
-            row = [entry.strip() for entry in row]
-            if not any(row) or row[0].startswith("#"):
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            rows = [[entry.strip() for entry in row] for row in csv.reader(file)]
+    except OSError as error:
+        raise Refused(f"CycleFile: {path}: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error):
+        raise Refused(f"CycleFile: {path} is no text of two columns") from None
+    keys, may_be_header = [], True
+    for number, row in enumerate(rows, start=1):
+        if not any(row) or row[0].startswith("#"):
+            continue
+        is_first, may_be_header = may_be_header, False
+        numbers = [_number_in(entry) for entry in row]
+        if len(row) != 2 or None in numbers:
+            if is_first and numbers == [None, None]:
                 continue
-            try:
-                time, opening = map(float, row)
-                if not (math.isfinite(time) and math.isfinite(opening)):
-                    raise ValueError
-            except ValueError:
-                if not keys and len(row) == 2 and not any(character.isdigit() for character in row[0] + row[1]):
-                    continue
-                raise Refused(f"{path}, line {number}: '{','.join(row)}' must be a time and an opening") from None
-            keys.append((time, opening))
+            raise Refused(f"CycleFile: {path}, line {number}: '{','.join(row)}' must be a time and an opening")
+        keys.append(numbers)
     if not keys:
-        raise Refused(f"{path} holds no times and openings")
+        raise Refused(f"CycleFile: {path} holds no times and openings")
     return numpy.array(keys)
+
+
+def _number_in(text):
+    """Returns the finite number that a text is, or None."""
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
 
 
 @_with_setters([*VALVE_DEFAULTS, *PARAMETER_DEFAULTS])
