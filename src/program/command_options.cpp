@@ -232,8 +232,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
           ->allow_extra_args(false);
   command
       .values("--view", "VIEW",
-              "View of a --picture: side, top, oblique (default) or three, these in one; valve-side, valve-top, "
-              "valve-oblique and valve-three look by the valve's axes; one per picture, in order",
+              "Of each --picture: side, top, oblique (default), three; valve-side, ...: by the valve's axes",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)
