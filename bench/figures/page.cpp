@@ -123,7 +123,8 @@ void write_page(const std::string &path, const std::vector<Figure> &figures, con
          "bileaflet valve are not the paper's and have parameters of their own. Lengths are centimetres. The "
          "<i>tolerance</i> is the "
          "share of the half thickness, 0.1 cm, by which distances to the triangles may differ from distances to the "
-         "smooth surface: 5 % stands for 0.005 cm."
+         "smooth surface: 5 % stands for 0.005 cm. "
+         "<a href=\"../../docs/view.md\">riis view</a> shows a valve in your own mesh, and moves it with your hands."
          "</p>\n<nav><ol>\n";
   for (std::size_t i = 0; i < figures.size(); ++i)
     out << "<li><a href=\"#figure-" << i + 1 << "\">" << figures[i].title << "</a></li>\n";

@@ -12,6 +12,7 @@
 #include <vtkCellData.h>
 #include <vtkCleanPolyData.h>
 #include <vtkGlyph3D.h>
+#include <vtkImageData.h>
 #include <vtkLight.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -289,7 +290,7 @@ Png Picture::png() const {
   window->AddRenderer(renderer_);
   renderer_->ResetCameraClippingRange();
   window->Render();
-  const vtkSmartPointer<vtkUnsignedCharArray> bytes = vtk::encoded_png(window);
+  const vtkSmartPointer<vtkUnsignedCharArray> bytes = vtk::encoded_png(vtk::image_of(window));
   if (!bytes) throw std::runtime_error("a picture could not be encoded");
   Png png{size_.width, size_.height, {}};
   png.bytes.assign(bytes->GetPointer(0), bytes->GetPointer(0) + bytes->GetNumberOfValues());

@@ -4,6 +4,10 @@
 import re
 import textwrap
 
+# The colours of lines and bars: those of the program's pictures (src/riis_vtk/drawing.hpp), and a dark one. They are distinct for
+# all kinds of colour vision.
+COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#2d2d2d")
+
 _TAG = re.compile(r"^[ \t]*\{\{([#^/])(\w+)\}\}[ \t]*\n|\{\{([#^/]?)(\w+)\}\}", re.MULTILINE)
 
 
@@ -121,7 +125,7 @@ class figure:
             print("==> matplotlib (python3-matplotlib) is missing: the page is made without plots")
             return None
         matplotlib.use("Agg")
-        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 8})
+        matplotlib.rcParams.update({"svg.hashsalt": "riis", "font.size": 8, "axes.prop_cycle": matplotlib.cycler(color=COLOURS)})
         import matplotlib.pyplot
 
         return matplotlib.pyplot

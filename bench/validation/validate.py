@@ -164,7 +164,9 @@ def draw(rows, fields, folder):
     import matplotlib.pyplot as pyplot
     import numpy as np
 
-    matplotlib.rcParams.update({"font.size": 8})
+    import report_text
+
+    matplotlib.rcParams.update({"font.size": 8, "axes.prop_cycle": matplotlib.cycler(color=report_text.COLOURS)})
     plot, axes = pyplot.subplots(1, 2, figsize=(8.5, 3.6), layout="constrained")
     for color, (kind, rim) in enumerate((k, r) for k in ("hole", "disc") for r in ("round", "cut")):
         some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
@@ -179,7 +181,7 @@ def draw(rows, fields, folder):
             axes[1].plot(h + [0], c + [r["c"]], style + "-", color=f"C{color}", markersize=3, linewidth=0.8,
                          label=f"{label}, ε = a/{round(1 / e)}" if kind == "hole" else None)  # fmt: skip
     axes[0].set(xlabel="ε / a", ylabel="a_eff / a", title="effective radius in Stokes flow")
-    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c; green and red are the disc")
+    axes[1].set(xlabel="h / ε (0: extrapolated)", ylabel="c = |a − a_eff| / ε", title="c; green and purple are the disc")
     axes[0].legend(fontsize=6)
     axes[1].legend(fontsize=5)
     for axis in axes:

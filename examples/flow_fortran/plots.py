@@ -14,10 +14,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 MMHG = 133.322
-LEAFLET = "#d62728"
+# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+LEAFLET = "#d55e00"
 WALL = "#b9aaa2"
-UPSTREAM = "#a6361c"
-DOWNSTREAM = "#1f4e9e"
+UPSTREAM = "#d55e00"
+DOWNSTREAM = "#0072b2"
 FRAME_RATE = 12
 
 

@@ -291,11 +291,17 @@ RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, r
 
 /* ---- Pictures ------------------------------------------------------------------------------------------ */
 
-/* The direction in which a picture looks. */
+/* The direction in which a picture looks, by the axes of the mesh or by those of the valve. */
 enum {
-  RIIS_VTK_VIEW_SIDE = 0,   /* along +y, z up */
-  RIIS_VTK_VIEW_TOP = 1,    /* along -z, y up */
-  RIIS_VTK_VIEW_OBLIQUE = 2 /* from above one side, z up */
+  RIIS_VTK_VIEW_SIDE = 0,          /* along +y, z up */
+  RIIS_VTK_VIEW_TOP = 1,           /* along -z, y up */
+  RIIS_VTK_VIEW_OBLIQUE = 2,       /* from above one side, z up */
+  RIIS_VTK_VIEW_THREE = 3,         /* these three views side by side, to one scale */
+  RIIS_VTK_VIEW_VALVE_SIDE = 4,    /* as RIIS_VTK_VIEW_SIDE, by the axes of the valve: the mesh's axes, turned by
+                                      rotation_axis and rotation_angle of riis_vtk_picture_options */
+  RIIS_VTK_VIEW_VALVE_TOP = 5,     /* as RIIS_VTK_VIEW_TOP, by the axes of the valve */
+  RIIS_VTK_VIEW_VALVE_OBLIQUE = 6, /* as RIIS_VTK_VIEW_OBLIQUE, by the axes of the valve */
+  RIIS_VTK_VIEW_VALVE_THREE = 7    /* as RIIS_VTK_VIEW_THREE, by the axes of the valve */
 };
 
 /* What a picture shows and how. Texts are in ASCII. Other characters are drawn as "?". */
@@ -308,12 +314,15 @@ typedef struct riis_vtk_picture_options {
   const char *const *leaflet_names; /* (n_leaflet_names): the names by leaflet_id, for the key of the colours. Default
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
-  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, drawn in red in front of everything.
+  const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, dark red and in front of everything.
                                    Default NULL: the picture does not mention leaks. If n_leaking_edges is 0 and this
                                    is not NULL, the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
   int32_t reserved;       /* 0 */
+  double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
+                              riis_surface_options. Default (0, 0, 1) */
+  double rotation_angle;  /* degrees. Default 0: the axes of the valve are those of the mesh */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);
@@ -328,6 +337,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  * - Captions count nodes and cells. If the mesh has volume cells, flat cells are neither drawn nor counted.
  * - Axes and a scale bar are below the panels. A mesh much longer than the surface is cut at dashed lines.
  *   Pictures lower than 120 pixels have no texts, axes or bar.
+ * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with the panels above each
+ *   other. The columns have the same scale.
  *
  *   mesh  must have marks set. NULL draws the surface alone, in one panel
  *   path  ends in .png
@@ -350,7 +361,7 @@ typedef struct riis_vtk_film riis_vtk_film;
 /* Makes the window and the outline of the mesh, which all pictures share.
  *   mesh          its nodes and cells must stay the same, but its marks may change. NULL draws the surface
  *                 alone. The film shares the mesh's data, so the mesh may be destroyed first
- *   lower, upper  (3), bounds of the surface at all times, for the camera
+ *   lower, upper  (3), bounds of the surface at all times along the mesh's axes, for the camera
  *   options       the view, the size and the leaflets' names; title and leaking edges are ignored
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for
  * bounds that are not finite or do not ascend. */

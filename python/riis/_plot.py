@@ -37,6 +37,10 @@ def surface_to_pyvista(surface: Surface) -> Any:
     return data
 
 
+# The colours of the leaflets, by leaflet_id in turn. They are those of the program's pictures, which are distinct for all kinds
+# of colour vision (Okabe, Ito 2008).
+LEAFLET_COLOURS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (213, 94, 0), (86, 180, 233))
+
 _BAR = {
     "title": "distance\n", "vertical": True, "position_x": 0.88, "position_y": 0.2, "height": 0.6, "width": 0.06, "n_labels": 3,
     "fmt": "{:.2g}", "title_font_size": 16, "label_font_size": 14,
@@ -59,9 +63,10 @@ def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
 def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None) -> None:
     """Draws or replaces the leaflets and the marked nodes."""
     pyvista = _pyvista()
+    data = surface_to_pyvista(surface)
+    data.cell_data["colour"] = numpy.array(LEAFLET_COLOURS, numpy.uint8)[data.cell_data["leaflet_id"] % len(LEAFLET_COLOURS)]
     plotter.add_mesh(
-        surface_to_pyvista(surface), scalars="leaflet_id", cmap="Set2", clim=[-0.5, 7.5], show_scalar_bar=False, ambient=0.3,
-        name="riis leaflets", reset_camera=False,
+        data, scalars="colour", rgb=True, show_scalar_bar=False, ambient=0.3, name="riis leaflets", reset_camera=False,
     )
     if mesh is not None and marks is not None and len(marks) > 0:
         nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))

@@ -252,6 +252,7 @@ ExitCode run_case(Case &all) {
     all.options.pieces = pieces.emplace(all.options.mesh).files();
   }
   if (!pieces && !ranks::is_first()) return exit_fine;  // only a mesh in pieces gives work to more than one rank
+  check_views(all.options, all.valves.size(), all.valves[0].options);
   const OutputLocks locks = check_outputs(all.options, all.files);
   if (pieces) return all.is_series() ? run_series_in_pieces(all, *pieces) : run_one_time_in_pieces(all, *pieces);
   return all.is_series() ? run_series(all) : run_one_time(all);

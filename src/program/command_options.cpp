@@ -14,10 +14,9 @@
 namespace riis::program {
 namespace {
 
-// The position of each name is the value of the RIIS_SEARCH_*, RIIS_MEASURE_* or RIIS_VTK_VIEW_* that it stands for.
+// The position of each name is the value of the RIIS_SEARCH_* or RIIS_MEASURE_* that it stands for.
 const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
-const std::vector<std::string> view_names = {"side", "top", "oblique"};
 
 // The position of each name is the value of LandmarkWarp that it stands for.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
@@ -232,7 +231,8 @@ void declare_pictures(Command &command, MarkOptions &options) {
                   })
           ->allow_extra_args(false);
   command
-      .values("--view", "VIEW", "View of a --picture: side, top or oblique (default); one per picture, in order",
+      .values("--view", "VIEW",
+              "Of each --picture: side, top, oblique (default), three; valve-side, ...: by the valve's axes",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)
@@ -273,7 +273,7 @@ void declare_series(Command &command, MarkOptions &options) {
       .value("--frame-rate", "N", "Frames of the movie per second (default 10)",
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
-  command.choice("--movie-view", "side, top or oblique (default)", view_names, series.movie_view, "VIEW")->needs(movie);
+  command.choice("--movie-view", "As --view (default oblique)", view_names, series.movie_view, "VIEW")->needs(movie);
   // A case excludes these options, because the case file contains its own values for them.
   for (const char *name :
        {"--surface", "--leaflets",     "--valve",         "--opening",        "--params",         "--params-open",

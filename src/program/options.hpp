@@ -39,6 +39,10 @@ struct ValveOptions {
   bool strict = false;  // a warning changes the exit status
 };
 
+// The names of the views that pictures and movies accept. A name's position is the value of its RIIS_VTK_VIEW_*.
+inline const std::vector<std::string> view_names = {"side",       "top",       "oblique",       "three",
+                                                    "valve-side", "valve-top", "valve-oblique", "valve-three"};
+
 struct Picture {
   std::string path;
   std::int32_t view;

@@ -60,7 +60,40 @@ void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
   if (how.n_leaking_edges == 0 && leaks.has_all_edges()) how.leaking_edges = &none;
 }
 
+// Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
+// scale of its placement tell the unit of the mesh.
+const char *unit_of_mesh(const std::optional<Unit> &given, const ValveOptions &valve) {
+  if (given) return name_of(*given);
+  if (!valve.surface.empty() || is_valve_file(valve.valve)) return nullptr;
+  const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve.surface_options.scale);
+  return reached ? name_of(*reached) : nullptr;
+}
+
+// Sets what the pictures of a run have in common.
+void set_mesh_of_pictures(const MarkOptions &options, const ValveOptions &valve, riis_vtk_picture_options &how) {
+  const riis_surface_options &placement = valve.surface_options;
+  how.unit = unit_of_mesh(options.unit, valve);
+  std::copy_n(placement.rotation_axis, 3, how.rotation_axis);
+  how.rotation_angle = placement.rotation_angle;
+}
+
+void check_view(const std::string &option, std::int32_t view, std::size_t n_valves, const ValveOptions &valve) {
+  if (view < RIIS_VTK_VIEW_VALVE_SIDE) return;
+  const std::string name = option + " " + view_names[static_cast<std::size_t>(view)];
+  const std::string advice =
+      "; " + view_names[static_cast<std::size_t>(view - RIIS_VTK_VIEW_VALVE_SIDE)] + " looks by the mesh's axes";
+  if (n_valves > 1)
+    refuse_usage(name + ": there are " + std::to_string(n_valves) + " valves, each with axes of its own" + advice);
+  if (!valve.surface.empty())
+    refuse_usage(name + ": " + valve.surface + " has triangles, but no axes of a valve" + advice);
+}
+
 }  // namespace
+
+void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve) {
+  for (const Picture &picture : options.pictures) check_view("--view", picture.view, n_valves, valve);
+  check_view("--movie-view", options.series.movie_view, n_valves, valve);
+}
 
 std::vector<const char *> leaflet_names(const ValveOptions &options) {
   if (!options.surface.empty()) return {};
@@ -87,8 +120,9 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   return title;
 }
 
-void draw_pictures(const MarkOptions &options, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report) {
+void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title,
+                   const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
+                   const riis_marks *result, Report &report) {
   std::vector<int32_t> views;
   std::vector<const char *> paths;
   for (const Picture &picture : options.pictures) {
@@ -104,7 +138,7 @@ void draw_pictures(const MarkOptions &options, const std::string &title, const s
   how.title = title.c_str();
   how.leaflet_names = names.data();
   how.n_leaflet_names = view(names).size();
-  how.unit = options.unit ? name_of(*options.unit) : nullptr;
+  set_mesh_of_pictures(options, valve, how);
   if (result) show_leaks(report.leaks, how);
   check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());
@@ -207,14 +241,14 @@ std::string SeriesPictures::title(std::size_t step, const std::vector<MovingValv
   return valves[0].source().valve ? text + ", opening " + fixed(valves[0].opening(), 2) : text;
 }
 
-riis_vtk_film *SeriesPictures::film() {
+riis_vtk_film *SeriesPictures::film(const ValveOptions &valve) {
   if (film_) return film_.get();
   riis_vtk_picture_options how;
   check(riis_vtk_picture_options_init(&how, sizeof how));
   how.view = all_.options.series.movie_view;
   how.leaflet_names = leaflet_names_.data();
   how.n_leaflet_names = view(leaflet_names_).size();
-  how.unit = all_.options.unit ? name_of(*all_.options.unit) : nullptr;
+  set_mesh_of_pictures(all_.options, valve, how);
   riis_vtk_film *film = nullptr;
   check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &how, &film));
   film_.reset(film);
@@ -231,8 +265,9 @@ void SeriesPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Re
   const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
   const riis_surface *surface = joined ? joined.get() : valves[0].surface();
   const std::string text = title(step, valves);
-  if (step == 0) draw_pictures(all_.options, text, leaflet_names_, surface, mesh_.get(), nullptr, report);
-  if (movie_) check(riis_vtk_film_draw(film(), surface, text.c_str(), movie_->next_frame().c_str()));
+  const ValveOptions &first = valves[0].options();
+  if (step == 0) draw_pictures(all_.options, first, text, leaflet_names_, surface, mesh_.get(), nullptr, report);
+  if (movie_) check(riis_vtk_film_draw(film(first), surface, text.c_str(), movie_->next_frame().c_str()));
 }
 
 void SeriesPictures::encode(Report &report) {

@@ -28,9 +28,15 @@ std::string title_of_valve(const ValveOptions &options);
 // other captions do.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report);
 
-// Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`.
-void draw_pictures(const MarkOptions &options, const std::string &title, const std::vector<const char *> &names,
-                   const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_marks *result, Report &report);
+// Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
+// `valve` has the options of the first valve.
+void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
+
+// Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`. The placement of `valve` gives
+// the valve's axes.
+void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title,
+                   const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
+                   const riis_marks *result, Report &report);
 
 // In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
 
@@ -74,7 +80,7 @@ class SeriesPictures {
  private:
   void set_marks_of(std::vector<MovingValve> &valves);
   std::string title(std::size_t step, const std::vector<MovingValve> &valves) const;
-  riis_vtk_film *film();
+  riis_vtk_film *film(const ValveOptions &valve);
 
   const Case &all_;
   MeshFile mesh_;

@@ -96,6 +96,7 @@ ExitCode run_single(MarkOptions options) {
   }
   ValveSource source{options, options.surface.empty() ? make_valve(options) : nullptr, nullptr};
   const riis_valve *valve = source.valve.get();
+  check_views(options, 1, options);
   const OutputLocks locks = check_outputs(options);
   Report report;
   if (options.time)
@@ -133,8 +134,8 @@ ExitCode run_single(MarkOptions options) {
     // written.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
-    draw_pictures(options, picture_title(options, valve, report), leaflet_names(options), surface.get(), mesh.get(),
-                  result.get(), report);
+    draw_pictures(options, options, picture_title(options, valve, report), leaflet_names(options), surface.get(),
+                  mesh.get(), result.get(), report);
   } catch (const Refusal &) {
     // The statistics are written even if drawing failed, because the marks are valid.
     write_stats(options, report);

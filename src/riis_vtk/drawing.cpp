@@ -52,15 +52,20 @@ void set_font(vtkTextProperty *property, int size) {
   property->SetFontSize(size);
 }
 
-vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkRenderWindow *window) {
+vtkSmartPointer<vtkImageData> image_of(vtkRenderWindow *window) {
   vtkNew<vtkWindowToImageFilter> image;
   image->SetInput(window);
   image->ReadFrontBufferOff();
   image->ShouldRerenderOff();
+  image->Update();
+  return image->GetOutput();
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkImageData *image) {
   // The picture is first written to memory, because the PNG library prints a message if it cannot write a file.
   vtkNew<vtkPNGWriter> writer;
   writer->WriteToMemoryOn();
-  writer->SetInputConnection(image->GetOutputPort());
+  writer->SetInputData(image);
   writer->Write();
   vtkUnsignedCharArray *bytes = writer->GetResult();
   const bool is_whole = bytes && bytes->GetNumberOfValues() > 0 && writer->GetErrorCode() == vtkErrorCode::NoError;

@@ -6,6 +6,7 @@
 
 struct _XDisplay;
 class vtkActor;
+class vtkImageData;
 class vtkPolyData;
 class vtkRenderWindow;
 class vtkRenderer;
@@ -49,7 +50,10 @@ vtkSmartPointer<vtkPolyData> smoothed(vtkPolyData *faces);
 // Sets the font that all texts use. `size` is in pixels.
 void set_font(vtkTextProperty *property, int size);
 
-// Returns the window's last picture as the bytes of a PNG file, or NULL if it could not be encoded.
-vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkRenderWindow *window);
+// Returns the window's last picture.
+vtkSmartPointer<vtkImageData> image_of(vtkRenderWindow *window);
+
+// Returns the picture as the bytes of a PNG file, or NULL if it could not be encoded.
+vtkSmartPointer<vtkUnsignedCharArray> encoded_png(vtkImageData *image);
 
 }  // namespace riis::vtk

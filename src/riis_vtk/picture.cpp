@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-#include <vtkRenderWindow.h>
+#include <vtkImageData.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "riis_vtk/drawing.hpp"
@@ -60,7 +60,7 @@ void check_picture_options_size(std::int64_t size) { check_struct_size(size, fir
 
 const riis_vtk_picture_options &default_picture_options() {
   static const riis_vtk_picture_options defaults = {
-      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0};
+      size_here, nullptr, nullptr, 0, nullptr, 0, nullptr, RIIS_VTK_VIEW_OBLIQUE, 1600, 800, 0, {0, 0, 1}, 0};
   return defaults;
 }
 
@@ -77,8 +77,22 @@ riis_vtk_picture_options completed_picture_options(const riis_vtk_picture_option
 
 // Checks a view. `argument` is the caller's name for it.
 void check_view(std::int32_t view, const char *argument) {
-  if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_OBLIQUE) {
+  if (view < RIIS_VTK_VIEW_SIDE || view > RIIS_VTK_VIEW_VALVE_THREE) {
     refuse_argument(argument, " is ", view, ", not a RIIS_VTK_VIEW_*");
+  }
+}
+
+// Checks the axes of the valve in the same ranges as a placement.
+void check_rotation(const riis_vtk_picture_options &options) {
+  const double *axis = options.rotation_axis;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(std::abs(axis[k]) <= 1e50)) refuse_option("rotation_axis[", k, "] is ", axis[k], ", not -1e50 to 1e50");
+  }
+  if (std::hypot(axis[0], axis[1], axis[2]) < 1e-50) {
+    refuse_option("rotation_axis is (", axis[0], ", ", axis[1], ", ", axis[2], "), shorter than 1e-50");
+  }
+  if (!(std::abs(options.rotation_angle) <= 1e6)) {
+    refuse_option("rotation_angle is ", options.rotation_angle, ", not -1e6 to 1e6");
   }
 }
 
@@ -88,6 +102,7 @@ void check_picture_options(const riis_vtk_picture_options &options, const riis_v
   check_pixels("height", options.height);
   check_names(options);
   if (options.reserved != 0) refuse_option("reserved is ", options.reserved, ", not 0");
+  check_rotation(options);
   check_edges(options, mesh);
 }
 
@@ -95,11 +110,11 @@ void check_png(const std::string &path) {
   if (ending_of(path) != "png") fail_file(path, "the file's ending must be .png");
 }
 
-// Writes the window's last picture to a file. Fails if VTK reported an error.
-void write_png(vtkRenderWindow *window, const std::string &path, const CaughtOutput &caught) {
+// Writes a picture to a file. Fails if VTK reported an error.
+void write_png(vtkImageData *image, const std::string &path, const CaughtOutput &caught) {
   caught.check(path);
   ReplacingFile file(path);
-  const vtkSmartPointer<vtkUnsignedCharArray> bytes = encoded_png(window);
+  const vtkSmartPointer<vtkUnsignedCharArray> bytes = encoded_png(image);
   caught.check(path);
   if (!bytes) fail_file(path, "could not be encoded");
   file.write(bytes->GetPointer(0), bytes->GetNumberOfValues());
@@ -120,7 +135,7 @@ void draw(const riis_surface *surface, const riis_vtk_mesh *mesh, const riis_vtk
   const HeldDisplay display;
   Scene scene(mesh ? mesh->grid : nullptr, options);
   scene.show(surface, options.title, {options.n_leaking_edges, options.leaking_edges});
-  for (const Shot &shot : shots) write_png(scene.render(shot.view, std::nullopt), shot.path, caught);
+  for (const Shot &shot : shots) write_png(scene.picture(shot.view, std::nullopt), shot.path, caught);
 }
 
 Bounds bounds_of(const double *lower, const double *upper) {
@@ -213,7 +228,7 @@ RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface 
     check_png(require(path, "path"));
     if (film->mesh.grid) check_has_marks(&film->mesh);
     film->scene.show(surface, title, {});
-    write_png(film->scene.render(film->view, film->bounds), path, caught);
+    write_png(film->scene.picture(film->view, film->bounds), path, caught);
   });
 }
 

@@ -17,7 +17,8 @@ namespace riis::vtk {
 using Colour = std::array<double, 3>;
 
 Colour colour_of_leaflet(vtkIdType leaflet);
-constexpr Colour leak_colour = {0.86, 0.0, 0.0};
+// A dark red, which no colour vision confuses with the leaflets' vermilion.
+constexpr Colour leak_colour = {0.55, 0.0, 0.0};
 constexpr Colour grey = {0.2, 0.2, 0.2};
 
 // The panel with the surface, in which each leaflet has its own colour. The rims are drawn as lines, because faces that are seen

@@ -10,6 +10,7 @@
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCoordinate.h>
+#include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -30,6 +31,8 @@ namespace {
 
 constexpr int least_letter = 6;
 constexpr int least_height_with_texts = 120;
+constexpr std::int32_t n_views = 3;  // views in a picture of three views
+constexpr const char *view_names[] = {"side", "top", "oblique"};
 
 // Returns the number with commas between thousands.
 std::string grouped(vtkIdType n) {
@@ -130,7 +133,7 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   text.imbue(std::locale::classic());
   text << length << " " << unit << (length == 1 || !has_plural ? "" : "s");
   const double after = end + 0.6 * layout.letter();
-  const double right = layout.panel_left(layout.n_panels() - 1) + layout.panel_width();
+  const double right = layout.column_left(layout.n_columns() - 1) + layout.panel_width();
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
 }
 
@@ -153,18 +156,20 @@ void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, d
   add_lines(renderer, lines, layout.line_width());
 }
 
-void add_caption(vtkRenderer *renderer, const Layout &layout, int panel, const std::vector<std::string> &lines) {
+void add_caption(vtkRenderer *renderer, const Layout &layout, int column, const std::vector<std::string> &lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    add_fitting_text(renderer, lines[i], layout.panel_left(panel) + layout.margin(),
+    if (lines[i].empty()) continue;
+    add_fitting_text(renderer, lines[i], layout.column_left(column) + layout.margin(),
                      layout.caption_line(static_cast<int>(i)), layout.panel_width() - 2 * layout.margin(),
                      layout.letter());
   }
 }
 
-// Adds the key from `left` to the right end of the panel, in one or more lines. Dots replace the entries that do not fit.
-void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left, int n_lines,
+// Adds the key from `left` to the right end of the column, in one or more lines. Dots replace the entries that do not fit.
+void add_key(vtkRenderer *renderer, const Layout &layout, int column, double left, int n_lines,
              const std::vector<KeyEntry> &key) {
-  const double right = layout.panel_left(panel) + layout.panel_width() - layout.margin(), gap = 1.5 * layout.letter();
+  const double right = layout.column_left(column) + layout.panel_width() - layout.margin();
+  const double gap = 1.5 * layout.letter();
   const std::string dots = "...";
   const double width_of_dots = width_of(dots, layout.letter());
   double x = left;
@@ -190,7 +195,7 @@ void add_key(vtkRenderer *renderer, const Layout &layout, int panel, double left
 
 // Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. If has_plural is true,
 // the unit gets an s, unless the number is 1.
-vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &panels,
+vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
                                               const View &view, const Sight &sight, const std::string &unit,
                                               bool has_plural) {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
@@ -199,13 +204,13 @@ vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::v
   const double axis = 1.3 * layout.letter();
   add_axes(renderer, layout, layout.margin() + axis, 0.5 * layout.bottom(), axis, view);
   const double first_key = layout.margin() + 4.5 * axis;
-  const int last = layout.n_panels() - 1;
-  for (int panel = 0; panel <= last; ++panel) {
-    const PanelTexts &texts = panels[static_cast<std::size_t>(panel)];
-    add_caption(renderer, layout, panel, texts.caption);
-    const double left = panel == 0 ? first_key : layout.panel_left(panel) + layout.margin();
-    add_key(renderer, layout, panel, left, panel == last ? 1 : 2, texts.key);
-    if (panel == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural);
+  const int last = layout.n_columns() - 1;
+  for (int column = 0; column <= last; ++column) {
+    const PanelTexts &texts = columns[static_cast<std::size_t>(column)];
+    add_caption(renderer, layout, column, texts.caption);
+    const double left = column == 0 ? first_key : layout.column_left(column) + layout.margin();
+    add_key(renderer, layout, column, left, column == last ? 1 : 2, texts.key);
+    if (column == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural);
   }
   return renderer;
 }
@@ -233,21 +238,42 @@ std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std
   return panels;
 }
 
+KeyEntry dashes_entry() { return {"dashed: the mesh goes on", grey}; }
+
+// Returns the texts of a picture of three views: the lines and the keys of its panels, spread over the columns. Below its line,
+// each column has the name of its view.
+std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, std::int32_t first) {
+  std::vector<PanelTexts> columns(n_views);
+  std::size_t n_lines = 0;
+  for (const PanelTexts &panel : panels)
+    for (const std::string &line : panel.caption) view(columns)[n_lines++].caption.push_back(line);
+  for (std::size_t i = 0; i < panels.size(); ++i) view(columns)[i].key = view(panels)[i].key;
+  for (std::int32_t i = 0; i < n_views; ++i) {
+    std::vector<std::string> &caption = view(columns)[i].caption;
+    if (caption.empty()) caption.emplace_back();
+    caption.push_back((first == RIIS_VTK_VIEW_VALVE_SIDE ? "valve-" : "") + std::string(view_names[i]));
+  }
+  return columns;
+}
+
 }  // namespace
 
-Layout::Layout(int width, int height, int n_panels)
+Layout::Layout(int width, int height, int n_panels, Panels panels)
     : width_(width),
       height_(height),
-      n_panels_(n_panels),
-      letter_(std::max(8, std::min(height / 36, width / n_panels / 32))) {
+      n_columns_(panels == Panels::stacked ? 1 : n_panels),
+      n_rows_(panels == Panels::stacked ? n_panels : 1),
+      letter_(std::max(8, std::min(height / 36, width / n_columns_ / 32))) {
   if (height < least_height_with_texts) return;
-  top_ = (1.6 * n_panels + 0.6) * letter_;
+  const int n_caption_lines = panels == Panels::stacked ? 2 : n_panels;
+  top_ = (1.6 * n_caption_lines + 0.6) * letter_;
   bottom_ = 3.8 * letter_;
 }
 
 std::array<double, 4> Layout::viewport(int panel) const {
-  const double n = n_panels_;
-  return {panel / n, bottom_ / height_, (panel + 1) / n, 1 - top_ / height_};
+  const int column = panel % n_columns_, row = panel / n_columns_;
+  const double n = n_columns_, above = height_ - top_ - row * panel_height();
+  return {column / n, (above - panel_height()) / height_, (column + 1) / n, above / height_};
 }
 
 double Layout::line_width() const { return std::max(1.0, height_ / 500.0); }
@@ -261,7 +287,8 @@ void check_has_marks(const riis_vtk_mesh *mesh) {
 }
 
 Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
-    : layout_(options.width, options.height, grid ? 2 : 1),
+    : axes_(axes_turned(options.rotation_axis, options.rotation_angle)),
+      layout_(options.width, options.height, grid ? 2 : 1, Layout::Panels::side_by_side),
       unit_(options.unit ? drawable(options.unit) : ""),
       grid_(grid),
       surface_(layout_.line_width()) {
@@ -270,10 +297,13 @@ Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
   if (grid_) marks_.emplace(grid_, layout_.line_width());
   window_->SetOffScreenRendering(1);
   window_->SetMultiSamples(4);
-  window_->SetSize(options.width, options.height);
   window_->SetNumberOfLayers(2);
-  add_panel(surface_.renderer(), 0);
-  if (marks_) add_panel(marks_->renderer(), 1);
+  for (vtkRenderer *renderer : {surface_.renderer(), marks_ ? marks_->renderer() : nullptr}) {
+    if (!renderer) continue;
+    renderer->SetLayer(1);
+    renderer->SetActiveCamera(camera_);
+    window_->AddRenderer(renderer);
+  }
 }
 
 Scene::~Scene() = default;
@@ -286,34 +316,68 @@ void Scene::show(const riis_surface *surface, const char *title, const Leaks &le
                     marks_ ? &marks_->counts() : nullptr, leaks);
 }
 
-vtkRenderWindow *Scene::render(std::int32_t of, const std::optional<Bounds> &seen) {
-  const View view(of);
+vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optional<Bounds> &seen) {
+  if (of == RIIS_VTK_VIEW_THREE) return three_views(RIIS_VTK_VIEW_SIDE, seen);
+  if (of == RIIS_VTK_VIEW_VALVE_THREE) return three_views(RIIS_VTK_VIEW_VALVE_SIDE, seen);
+  const View view(of, axes_);
+  const Sight seen_here = sight(view, seen, layout_);
+  std::vector<PanelTexts> texts = texts_;
+  if (seen_here.is_cut()) texts.back().key.push_back(dashes_entry());
+  return shot(view, seen_here, layout_, texts);
+}
+
+Sight Scene::sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least) const {
   const Extents surface = seen ? view.extents_of(*seen) : view.extents_of(triangles_);
   const Extents mesh = grid_ ? view.extents_of(grid_) : surface;
-  const Sight sight = sight_of(surface, grid_ ? &mesh : nullptr, layout_.panel_width() / layout_.panel_height());
+  return sight_of(surface, grid_ ? &mesh : nullptr, layout.panel_width() / layout.panel_height(), least);
+}
+
+vtkSmartPointer<vtkImageData> Scene::shot(const View &view, const Sight &sight, const Layout &layout,
+                                          const std::vector<PanelTexts> &texts) {
+  window_->SetSize(layout.width(), layout.height());
+  const auto put = [&layout](vtkRenderer *renderer, int panel) {
+    const std::array<double, 4> part = layout.viewport(panel);
+    renderer->SetViewport(part[0], part[1], part[2], part[3]);
+  };
   aim_camera(camera_, view, sight);
   surface_.look(view, sight);
-  std::vector<PanelTexts> texts = texts_;
+  put(surface_.renderer(), 0);
   if (marks_) {
     marks_->look(view, sight);
-    if (sight.is_cut()) texts[1].key.push_back({"dashed: the mesh goes on", grey});
+    put(marks_->renderer(), 1);
   }
   if (behind_) window_->RemoveRenderer(behind_);
-  behind_ = texts_of_picture(layout_, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_,
-                             unit_.empty());
+  behind_ =
+      texts_of_picture(layout, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_, unit_.empty());
   window_->AddRenderer(behind_);
   surface_.renderer()->ResetCameraClippingRange();
   if (marks_) marks_->renderer()->ResetCameraClippingRange();
   window_->Render();
-  return window_;
+  return image_of(window_);
 }
 
-void Scene::add_panel(vtkRenderer *renderer, int panel) {
-  const std::array<double, 4> part = layout_.viewport(panel);
-  renderer->SetViewport(part[0], part[1], part[2], part[3]);
-  renderer->SetLayer(1);
-  renderer->SetActiveCamera(camera_);
-  window_->AddRenderer(renderer);
+vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::optional<Bounds> &seen) {
+  const int width = layout_.width(), height = layout_.height();
+  const Layout column(width / n_views, height, marks_ ? 2 : 1, Layout::Panels::stacked);
+  double half_height = 0;
+  for (std::int32_t of = first; of < first + n_views; ++of)
+    half_height = std::max(half_height, sight({of, axes_}, seen, column).shown[1].half());
+  const std::vector<PanelTexts> texts = texts_of_columns(texts_, first);
+  const auto whole = vtkSmartPointer<vtkImageData>::New();
+  whole->SetDimensions(width, height, 1);
+  whole->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  whole->GetPointData()->GetScalars()->Fill(255);  // for a width that is not a multiple of the number of views
+  for (std::int32_t i = 0; i < n_views; ++i) {
+    const View view(first + i, axes_);
+    const Sight seen_here = sight(view, seen, column, half_height);
+    PanelTexts text = texts[static_cast<std::size_t>(i)];
+    if (seen_here.is_cut()) text.key.push_back(dashes_entry());
+    const vtkSmartPointer<vtkImageData> part = shot(view, seen_here, column, {text});
+    const int left = i * width / n_views;
+    part->SetExtent(left, left + column.width() - 1, 0, height - 1, 0, 0);
+    whole->CopyAndCastFrom(part, part->GetExtent());
+  }
+  return whole;
 }
 
 }  // namespace riis::vtk

@@ -13,22 +13,26 @@
 #include "riis_vtk/picture_panels.hpp"
 
 class vtkCamera;
+class vtkImageData;
 class vtkRenderWindow;
 
 namespace riis::vtk {
 
 // The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
-// texts.
+// texts. The panels are side by side or, in a column of three views, above each other. Texts belong to a column of panels.
 class Layout {
  public:
-  Layout(int width, int height, int n_panels);
+  enum class Panels { side_by_side, stacked };
+  Layout(int width, int height, int n_panels, Panels panels);
   bool has_texts() const { return top_ > 0; }
-  int n_panels() const { return n_panels_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int n_columns() const { return n_columns_; }
   int letter() const { return letter_; }  // the height of the texts' font
   int margin() const { return letter_; }
-  double panel_left(int panel) const { return width_ * static_cast<double>(panel) / n_panels_; }
-  double panel_width() const { return width_ / static_cast<double>(n_panels_); }
-  double panel_height() const { return height_ - top_ - bottom_; }
+  double column_left(int column) const { return width_ * static_cast<double>(column) / n_columns_; }
+  double panel_width() const { return width_ / static_cast<double>(n_columns_); }
+  double panel_height() const { return (height_ - top_ - bottom_) / n_rows_; }
   // Both functions return the lower end of a line of text. The caption's lines are counted from the top of the picture. The key's
   // lines are counted downwards from the panels.
   double caption_line(int line) const { return height_ - 1.6 * letter_ * (line + 1); }
@@ -39,7 +43,7 @@ class Layout {
   double line_width() const;
 
  private:
-  int width_, height_, n_panels_, letter_;
+  int width_, height_, n_columns_, n_rows_, letter_;
   double top_ = 0, bottom_ = 0;
 };
 
@@ -69,13 +73,19 @@ class Scene {
   ~Scene();
   // Shows the surface, and the marks that the grid has at present. If `title` is NULL, the title is "Surface".
   void show(const riis_surface *surface, const char *title, const Leaks &leaks);
-  // Renders a view. `seen` is the box that the camera shows. Without it, the camera shows the surface's box.
-  vtkRenderWindow *render(std::int32_t of, const std::optional<Bounds> &seen);
+  // Draws a view, or three views side by side. `seen` is the box that the camera shows. Without it, the camera shows the
+  // surface's box.
+  vtkSmartPointer<vtkImageData> picture(std::int32_t of, const std::optional<Bounds> &seen);
 
  private:
-  void add_panel(vtkRenderer *renderer, int panel);
+  // `least` is the least half height of a panel.
+  Sight sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least = 0) const;
+  vtkSmartPointer<vtkImageData> shot(const View &view, const Sight &sight, const Layout &layout,
+                                     const std::vector<PanelTexts> &texts);
+  vtkSmartPointer<vtkImageData> three_views(std::int32_t first, const std::optional<Bounds> &seen);
 
-  Layout layout_;
+  Axes axes_;         // of the valve
+  Layout layout_;     // of a picture with one view
   std::string unit_;  // "" if the caller gave none
   std::vector<std::string> leaflet_names_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;

@@ -4,6 +4,7 @@
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <vtkCamera.h>
@@ -142,7 +143,24 @@ class Dashes {
 
 }  // namespace
 
-View::View(std::int32_t view) {
+Axes axes_turned(const double axis[3], double degrees) {
+  const double length = std::hypot(axis[0], axis[1], axis[2]), angle = vtkMath::RadiansFromDegrees(degrees);
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const Vector unit = {axis[0] / length, axis[1] / length, axis[2] / length};
+  Axes turned;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Vector mesh_axis = {0, 0, 0}, sideways;
+    mesh_axis[k] = 1;
+    vtkMath::Cross(unit.data(), mesh_axis.data(), sideways.data());
+    for (std::size_t i = 0; i < 3; ++i)
+      turned[k][i] = cosine * mesh_axis[i] + sine * sideways[i] + (1 - cosine) * unit[k] * unit[i];
+  }
+  return turned;
+}
+
+View::View(std::int32_t view, const Axes &valve) {
+  const bool is_by_valve = view >= RIIS_VTK_VIEW_VALVE_SIDE;
+  if (is_by_valve) view -= RIIS_VTK_VIEW_VALVE_SIDE;
   Vector up = {0, 0, 1}, away = {0.35, 0.55, -1.0};
   if (view == RIIS_VTK_VIEW_SIDE) away = {0, 1, 0};
   if (view == RIIS_VTK_VIEW_TOP) {
@@ -156,6 +174,12 @@ View::View(std::int32_t view) {
   Vector right;
   vtkMath::Cross(away.data(), up.data(), right.data());
   axes = {right, up, away};
+  if (!is_by_valve) return;
+  for (Vector &direction : axes) {
+    const Vector by_valve = direction;
+    for (std::size_t i = 0; i < 3; ++i)
+      direction[i] = by_valve[0] * valve[0][i] + by_valve[1] * valve[1][i] + by_valve[2] * valve[2][i];
+  }
 }
 
 Extents View::extents_of(vtkPointSet *data) const {
@@ -181,14 +205,14 @@ Extents View::extents_of(const Bounds &bounds) const {
   return extents;
 }
 
-Sight sight_of(const Extents &surface, const Extents *mesh, double aspect) {
+Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least) {
   Extents seen = surface;
   if (mesh) {
     const double size = std::max(surface[0].half(), surface[1].half());
     for (std::size_t k = 0; k < 2; ++k) seen[k] = wanted(surface[k], (*mesh)[k], size);
     seen[2] = hull(surface[2], (*mesh)[2]);
   }
-  const double half_height = margin * std::max(seen[1].half(), seen[0].half() / aspect);
+  const double half_height = std::max(least, margin * std::max(seen[1].half(), seen[0].half() / aspect));
   const std::array<double, 2> half = {half_height * aspect, half_height};
   Sight sight{seen, {}, {}, {}};
   for (std::size_t k = 0; k < 2; ++k) {

@@ -30,11 +30,18 @@ using Extents = std::array<Extent, 3>;
 // Extents along x, y and z.
 using Bounds = std::array<Extent, 3>;
 
+// The unit vectors along a valve's own x, y and z, after its placement.
+using Axes = std::array<Vector, 3>;
+
+// Returns the mesh's axes, turned about an axis of any length other than 0.
+Axes axes_turned(const double axis[3], double degrees);
+
 // A view without perspective, so that lengths can be compared. right, up and away are perpendicular unit vectors.
 struct View {
   std::array<Vector, 3> axes;
 
-  explicit View(std::int32_t view);
+  // `view` is RIIS_VTK_VIEW_*, but not one of three views. `valve` is used by the views that look by the valve's axes.
+  View(std::int32_t view, const Axes &valve);
   const Vector &right() const { return axes[0]; }
   const Vector &up() const { return axes[1]; }
   const Vector &away() const { return axes[2]; }
@@ -57,7 +64,8 @@ struct Sight {
 // neighbourhood.
 //   mesh    NULL if there is none
 //   aspect  the panel's width divided by its height
-Sight sight_of(const Extents &surface, const Extents *mesh, double aspect);
+//   least   the least half height of the panel, so that several views can have one scale
+Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least = 0);
 
 void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
 

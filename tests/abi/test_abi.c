@@ -529,7 +529,7 @@ static void test_structs(void **state) {
   FIELD(riis_vtk_sharing, n_cells_left_out, 16, 8);
   FIELD(riis_vtk_sharing, has_global_ids, 24, 4);
   FIELD(riis_vtk_sharing, reserved, 28, 4);
-  SIZE(riis_vtk_picture_options, 72);
+  SIZE(riis_vtk_picture_options, 104);
   FIELD(riis_vtk_picture_options, struct_size, 0, 8);
   FIELD(riis_vtk_picture_options, title, 8, 8);
   FIELD(riis_vtk_picture_options, unit, 16, 8);
@@ -541,6 +541,8 @@ static void test_structs(void **state) {
   FIELD(riis_vtk_picture_options, width, 60, 4);
   FIELD(riis_vtk_picture_options, height, 64, 4);
   FIELD(riis_vtk_picture_options, reserved, 68, 4);
+  FIELD(riis_vtk_picture_options, rotation_axis, 72, 24);
+  FIELD(riis_vtk_picture_options, rotation_angle, 96, 8);
 }
 
 static void test_constants(void **state) {
@@ -633,6 +635,11 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_VTK_VIEW_SIDE, 0);
   assert_int_equal(RIIS_VTK_VIEW_TOP, 1);
   assert_int_equal(RIIS_VTK_VIEW_OBLIQUE, 2);
+  assert_int_equal(RIIS_VTK_VIEW_THREE, 3);
+  assert_int_equal(RIIS_VTK_VIEW_VALVE_SIDE, 4);
+  assert_int_equal(RIIS_VTK_VIEW_VALVE_TOP, 5);
+  assert_int_equal(RIIS_VTK_VIEW_VALVE_OBLIQUE, 6);
+  assert_int_equal(RIIS_VTK_VIEW_VALVE_THREE, 7);
   assert_true(RIIS_AUTO == -1.0);
   assert_true(RIIS_FAR_DISTANCE == 1.0e30);
 }

@@ -88,6 +88,7 @@ static void expect_title(const char *title, const char *setting, const char *val
   options.title = title;
   options.leaflet_names = names;
   options.n_leaflet_names = 3;
+  options.unit = "cm";
   expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
   riis_surface_destroy(&surface);
@@ -100,6 +101,46 @@ static void test_titles(void **state) {
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
   expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "open_radius_ratio=0.9");
   expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
+}
+
+/* Draws an oblique valve of 10 times the size. */
+static void draw_by_c(const riis_surface_options *placement, const char *unit, int32_t view) {
+  riis_valve *valve = NULL;
+  riis_surface *surface = NULL;
+  riis_vtk_picture_options options;
+  expect_fine(riis_valve_create("mitral", &valve));
+  expect_fine(riis_valve_set_scalar(valve, "opening", 0.5));
+  expect_fine(riis_surface_create(valve, placement, &surface));
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.title = "Mitral valve, opening 0.5";
+  options.leaflet_names = (const char *const[]){"anterior", "posterior"};
+  options.n_leaflet_names = 2;
+  options.unit = unit;
+  options.view = view;
+  memcpy(options.rotation_axis, placement->rotation_axis, sizeof options.rotation_axis);
+  options.rotation_angle = placement->rotation_angle;
+  expect_fine(riis_vtk_draw(surface, NULL, &options, scratch_path("by_c.png")));
+  riis_surface_destroy(&surface);
+  riis_valve_destroy(&valve);
+}
+
+/* Views by the valve's axes get the axes from --rotate. Without --unit the scale tells the unit of the mesh, if it turns
+ * centimetres into one. */
+static void test_valve_views(void **state) {
+  (void)state;
+  static const char *const names[4] = {"valve-side", "valve-top", "valve-oblique", "valve-three"};
+  riis_surface_options placement;
+  expect_fine(riis_surface_options_init(&placement, sizeof placement));
+  memcpy(placement.rotation_axis, (const double[3]){1, -2, 0.5}, sizeof placement.rotation_axis);
+  placement.rotation_angle = 70;
+  for (int i = 0; i < 4; ++i) {
+    static const char *const scales[4] = {"10", "0.01", "1", "3"}, *const units[4] = {"mm", "m", "cm", NULL};
+    RUN_FINE("surface", "--valve", "mitral", "--opening", "0.5", "--rotate", "1,-2,0.5,70", "--scale", scales[i],
+             "--picture", scratch_path("by_program.png"), "--view", names[i]);
+    placement.scale = strtod(scales[i], NULL);
+    draw_by_c(&placement, units[i], RIIS_VTK_VIEW_VALVE_SIDE + i);
+    assert_true(scratch_is_same("by_program.png", "by_c.png"));
+  }
 }
 
 /* The scale bar shows the unit that the user named. */
@@ -169,6 +210,10 @@ static void test_case_titles(void **state) {
   const char *const patient = strstr(program_out, "\nvalve     patient: ");
   assert_non_null(patient);
   assert_true(patient[20] >= '1' && patient[20] <= '9');
+  RUN_REFUSED(2, "--view valve-side: there are 2 valves, each with axes of its own; side looks by the mesh's axes",
+              "mark", "--case", scratch_path("two.json"), "--picture", scratch_path("no.png"), "--view", "valve-side");
+  RUN_REFUSED(2, "--movie-view valve-three: there are 2 valves", "mark", "--case", scratch_path("two.json"), "--times",
+              "0,1", "--movie", scratch_path("no.gif"), "--movie-view", "valve-three");
   expect_fine(riis_vtk_surface_read(scratch_path("both.vtp"), NULL, &file));
   expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
   expect_fine(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
@@ -197,9 +242,8 @@ int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures),
-      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),
-      cmocka_unit_test(test_case_titles),
+      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures), cmocka_unit_test(test_valve_views),
+      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),     cmocka_unit_test(test_case_titles),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

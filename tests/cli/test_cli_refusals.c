@@ -48,6 +48,8 @@ static void test_usage(void **state) {
   RUN_REFUSED(2, "--search is 4, clusters", "mark", mesh, "--distance", "sampling", "--search", "clusters");
   RUN_REFUSED(1, "more than 16777216 samples", "mark", mesh, "--distance", "sampling", "--distance-tolerance", "1e-4");
   RUN_REFUSED(2, "--view", "mark", mesh, "--picture", "a.png", "--view", "below");
+  RUN_REFUSED(2, "--view valve-top: patient.stl has triangles, but no axes of a valve; top looks by the mesh's axes",
+              "surface", "--surface", "patient.stl", "--picture", "a.png", "--view", "valve-top");
   RUN_REFUSED(2, "--view: there are more views than pictures", "mark", mesh, "--picture", "a.png", "--view", "top",
               "--view", "side");
   RUN_REFUSED(2, "--output", "mark", mesh, "--output", "a.vtu", "--output", "b.vtu");

@@ -5,33 +5,40 @@
 #include <signal.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/resource.h>
 
 #include "expect.h"
 #include "scratch.h"
+#include "test_support.h"
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
 static riis_surface *surface;
 static riis_vtk_mesh *mesh;
 
-/* Makes a marked box of n x n x n nodes. */
-static riis_vtk_mesh *marked_box(const char *name, int n, const double lower[3], const double upper[3]) {
-  riis_vtk_mesh *box = NULL;
+/* Reads a mesh and marks it. */
+static riis_vtk_mesh *marked_by(const riis_surface *valve, const char *name) {
+  riis_vtk_mesh *read = NULL;
   riis_mesh *nodes = NULL;
   riis_marks *result = NULL;
   int64_t n_nodes = 0;
   const double *xyz = NULL;
-  assert_int_equal(shim_write_box(scratch_path(name), SHIM_RAW, n, lower, upper, 0), 1);
-  expect_fine(riis_vtk_mesh_read(scratch_path(name), &box));
-  expect_fine(riis_vtk_mesh_get_nodes(box, &n_nodes, NULL, &xyz));
+  expect_fine(riis_vtk_mesh_read(scratch_path(name), &read));
+  expect_fine(riis_vtk_mesh_get_nodes(read, &n_nodes, NULL, &xyz));
   expect_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &nodes));
   expect_fine(riis_marks_create(&result));
-  expect_fine(riis_mark_nodes(surface, nodes, NULL, result));
-  expect_fine(riis_vtk_mesh_set_marks(box, result, -1, NULL));
+  expect_fine(riis_mark_nodes(valve, nodes, NULL, result));
+  expect_fine(riis_vtk_mesh_set_marks(read, result, -1, NULL));
   riis_marks_destroy(&result);
   riis_mesh_destroy(&nodes);
-  return box;
+  return read;
+}
+
+/* Makes a marked box of n x n x n nodes. */
+static riis_vtk_mesh *marked_box(const char *name, int n, const double lower[3], const double upper[3]) {
+  assert_int_equal(shim_write_box(scratch_path(name), SHIM_RAW, n, lower, upper, 0), 1);
+  return marked_by(surface, name);
 }
 
 static int make_all(void **state) {
@@ -163,7 +170,7 @@ static const unsigned char *pixel_at(const pixels *picture, int x, int y) {
  * below. */
 enum { upper_band = 85, lower_band = 83 };
 
-static int is_red(const unsigned char *rgb) { return rgb[0] > 180 && rgb[1] < 40 && rgb[2] < 40; }
+static int is_red(const unsigned char *rgb) { return rgb[0] > 110 && rgb[1] < 40 && rgb[2] < 40; }
 static int is_skin(const unsigned char *rgb) {
   return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] > 200 && rgb[0] < 250;
 }
@@ -191,7 +198,7 @@ static int count_pixels(const char *name, int panel, int (*is_kind)(const unsign
 /* If one scene draws several views, each equals the picture that a separate call draws. */
 static void test_one_scene(void **state) {
   (void)state;
-  const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_OBLIQUE, RIIS_VTK_VIEW_TOP};
+  const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_THREE, RIIS_VTK_VIEW_VALVE_OBLIQUE, RIIS_VTK_VIEW_TOP};
   const char *paths[4] = {scratch_path("s0.png"), scratch_path("s1.png"), scratch_path("s2.png"),
                           scratch_path("s3.png")};
   const char *const names[4] = {"s0.png", "s1.png", "s2.png", "s3.png"};
@@ -452,6 +459,162 @@ static void test_refusals(void **state) {
   assert_int_equal(scratch_n_files(), n_before);
 }
 
+enum { wide = 900, high = 300, n_pictures = 4 };
+
+/* A valve in a mesh, both turned and moved together. */
+typedef struct {
+  riis_surface *surface;
+  riis_vtk_mesh *mesh;
+  double axis[3], angle;
+} placed;
+
+/* Places a valve and a mesh of n random nodes, xyz(3, n), whose tetrahedra do not depend on the placement. */
+static placed place(const char *kind, const double axis[3], double angle, const double shift[3], int n,
+                    const double *xyz) {
+  placed made = {NULL, NULL, {axis[0], axis[1], axis[2]}, angle};
+  riis_valve *valve = NULL;
+  riis_surface_options options;
+  double *const moved = malloc((size_t)n * 3 * sizeof *moved);
+  const double length = sqrt(axis[0] * axis[0] + axis[1] * axis[1] + axis[2] * axis[2]);
+  const double c = cos(angle * acos(-1.0) / 180), s = sin(angle * acos(-1.0) / 180);
+  const double u[3] = {axis[0] / length, axis[1] / length, axis[2] / length};
+  for (int i = 0; i < n; ++i) {
+    const double *const p = xyz + 3 * i;
+    const double along = u[0] * p[0] + u[1] * p[1] + u[2] * p[2];
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      moved[3 * i + k] = c * p[k] + s * (u[a] * p[b] - u[b] * p[a]) + (1 - c) * along * u[k] + shift[k];
+    }
+  }
+  assert_int_equal(shim_write_delaunay(scratch_path("turned.vtu"), n, moved), 1);
+  free(moved);
+  expect_fine(riis_surface_options_init(&options, sizeof options));
+  memcpy(options.rotation_axis, axis, sizeof options.rotation_axis);
+  memcpy(options.translation, shift, sizeof options.translation);
+  options.rotation_angle = angle;
+  options.half_thickness = 0.25;
+  expect_fine(riis_valve_create(kind, &valve));
+  expect_fine(riis_valve_set_scalar(valve, "opening", 0.3));
+  expect_fine(riis_surface_create(valve, &options, &made.surface));
+  riis_valve_destroy(&valve);
+  made.mesh = marked_by(made.surface, "turned.vtu");
+  return made;
+}
+
+/* Draws the four views from `first` on, with or without the mesh. */
+static void draw_four(const placed *what, int with_mesh, int32_t first, const char *const names[n_pictures]) {
+  riis_vtk_picture_options options;
+  int32_t views[n_pictures];
+  char paths[n_pictures][400];
+  const char *list[n_pictures];
+  for (int i = 0; i < n_pictures; ++i) {
+    views[i] = first + i;
+    snprintf(paths[i], sizeof paths[i], "%s", scratch_path(names[i]));
+    list[i] = paths[i];
+  }
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  memcpy(options.rotation_axis, what->axis, sizeof options.rotation_axis);
+  options.rotation_angle = what->angle;
+  options.width = wide;
+  options.height = high;
+  expect_fine(riis_vtk_draw_views(what->surface, with_mesh ? what->mesh : NULL, &options, n_pictures, views, list));
+}
+
+/* Returns the share of pixels that differ by more than the noise of rendering at edges. Leaves out the arrows of the mesh's axes
+ * and the line that names the views. */
+static double share_of_changes(const char *a, const char *b) {
+  const pixels pictures[2] = {read_pixels(a), read_pixels(b)};
+  assert_true(pictures[0].width == wide && pictures[0].height == high && pictures[1].width == wide);
+  const int letter = 8, is_three = strstr(a, "three") != NULL, column = is_three ? wide / 3 : wide;
+  int n = 0, n_all = 0;
+  for (int y = 0; y < high; ++y)
+    for (int x = 0; x < wide; ++x) {
+      if (y < 4 * letter && x % column < 6 * letter) continue;
+      if (is_three && y > high - 4 * letter && y < high - 2 * letter) continue;
+      const unsigned char *const p = pixel_at(&pictures[0], x, y), *const q = pixel_at(&pictures[1], x, y);
+      ++n_all;
+      n += abs(p[0] - q[0]) > 32 || abs(p[1] - q[1]) > 32 || abs(p[2] - q[2]) > 32;
+    }
+  free(pictures[0].rgb);
+  free(pictures[1].rgb);
+  return n / (double)n_all;
+}
+
+/* If a valve and its mesh are turned and moved together, views by the valve's axes stay the same, and views by the mesh's axes do
+ * not. */
+static void test_valve_axes(void **state) {
+  (void)state;
+  enum { n = 1500 };
+  static const char *const kinds[5] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
+  static const char *const before[n_pictures] = {"a0.png", "a1.png", "a2.png", "a_three.png"};
+  static const char *const after[n_pictures] = {"b0.png", "b1.png", "b2.png", "b_three.png"};
+  static const char *const by_mesh[n_pictures] = {"c0.png", "c1.png", "c2.png", "c_three.png"};
+  const double z[3] = {0, 0, 1}, nowhere[3] = {0, 0, 0};
+  random_source random = random_start("valve_axes");
+  double *const xyz = malloc(3 * n * sizeof *xyz);
+  for (int i = 0; i < 3 * n; ++i) xyz[i] = random_between(&random, -2.2, 2.2);
+  const int first = (int)(random_bits(&random) % 5), n_kinds = is_long_test() ? 5 : 1;
+  for (int kind = first; kind < first + n_kinds; ++kind) {
+    double axis[3], shift[3];
+    for (int k = 0; k < 3; ++k) {
+      axis[k] = random_between(&random, -1, 1);
+      shift[k] = random_between(&random, -50, 50);
+    }
+    placed here = place(kinds[kind % 5], z, 0, nowhere, n, xyz);
+    placed there = place(kinds[kind % 5], axis, random_between(&random, 40, 180), shift, n, xyz);
+    for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
+      draw_four(&here, with_mesh, RIIS_VTK_VIEW_SIDE, before);
+      draw_four(&there, with_mesh, RIIS_VTK_VIEW_VALVE_SIDE, after);
+      draw_four(&there, with_mesh, RIIS_VTK_VIEW_SIDE, by_mesh);
+      double most = 0;
+      for (int i = 0; i < n_pictures; ++i) {
+        const double same = share_of_changes(before[i], after[i]), other = share_of_changes(before[i], by_mesh[i]);
+        if (same > 0.015)
+          fail_msg("%s, view %d, mesh %d: %g of the pixels differ", kinds[kind % 5], i, with_mesh, same);
+        if (other > most) most = other;
+      }
+      assert_true(most > 0.05);
+    }
+    riis_surface_destroy(&here.surface);
+    riis_surface_destroy(&there.surface);
+    riis_vtk_mesh_destroy(&here.mesh);
+    riis_vtk_mesh_destroy(&there.mesh);
+  }
+  free(xyz);
+}
+
+/* A picture of three views has a column for each, and the columns have one scale: the surface is as wide from the side as from
+ * above. Each column has panels for the surface and the marks. Widths that three does not divide are filled with white. */
+static void test_three_views(void **state) {
+  (void)state;
+  static const int widths[3] = {1200, 1201, 1202};
+  for (int i = 0; i < 3; ++i) {
+    draw("three.png", mesh, RIIS_VTK_VIEW_THREE, widths[i], 800);
+    pixels picture = read_pixels("three.png");
+    assert_true(picture.width == widths[i] && picture.height == 800);
+    int n_across[2] = {0, 0}, n_full[3][2] = {{0}};
+    for (int column = 0; column < 3; ++column)
+      for (int x = column * widths[i] / 3; x < column * widths[i] / 3 + 400; ++x) {
+        int n[2] = {0, 0};
+        for (int y = 60; y < 750; ++y) n[y < 405] += is_full(pixel_at(&picture, x, y));
+        for (int half = 0; half < 2; ++half) n_full[column][half] += n[half];
+        if (column < 2) n_across[column] += n[0] > 0;
+      }
+    for (int column = 0; column < 3; ++column)
+      for (int half = 0; half < 2; ++half) assert_true(n_full[column][half] > 3000);
+    assert_in_range(n_across[1], n_across[0] - 3, n_across[0] + 3);
+    for (int x = 3 * (widths[i] / 3); x < widths[i]; ++x)
+      for (int y = 0; y < 800; ++y) {
+        if (x >= 2 * widths[i] / 3 + widths[i] / 3) assert_int_equal(pixel_at(&picture, x, y)[0], 255);
+      }
+    free(picture.rgb);
+  }
+  draw("small.png", mesh, RIIS_VTK_VIEW_VALVE_THREE, 64, 64);
+  int width = 0, height = 0, n_colours = 0, n_coloured[2];
+  assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_coloured), 1);
+  assert_true(width == 64 && height == 64 && n_colours > 1);
+}
+
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
@@ -469,6 +632,8 @@ int main(int argc, char **argv) {
       cmocka_unit_test(test_scale_and_bands),
       cmocka_unit_test(test_edge_on),
       cmocka_unit_test(test_unit),
+      cmocka_unit_test(test_valve_axes),
+      cmocka_unit_test(test_three_views),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }

@@ -3,6 +3,7 @@
  * NULL pointers, structs that no init function filled, and options out of range are refused. The caller's floating-point
  * environment does not change. */
 #include <fenv.h>
+#include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 
@@ -84,7 +85,7 @@ static void test_struct_sizes(void **state) {
                  "the struct size of arrays is 0; ");
   assert_int_equal(arrays.struct_size, 0);
   riis_vtk_surface_destroy(&file);
-  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 80, INT64_MAX};
+  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 112, INT64_MAX};
   for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i) {
     char text[64];
     snprintf(text, sizeof text, "the struct size of options is %lld; ", (long long)bad_sizes[i]);
@@ -119,13 +120,13 @@ static void test_leaking_edges(void **state) {
 
 static void test_many_views(void **state) {
   (void)state;
-  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 3};
+  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 8};
   const char *paths[2] = {scratch_path("a.png"), NULL}, *jpg[1] = {scratch_path("a.jpg")};
   expect_refused(riis_vtk_draw_views(NULL, NULL, NULL, 1, views, paths), RIIS_INVALID_ARGUMENT, "surface is NULL");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, -1, views, paths), RIIS_INVALID_ARGUMENT, "n_views is -1");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, NULL, paths), RIIS_INVALID_ARGUMENT, "views is NULL");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, views, NULL), RIIS_INVALID_ARGUMENT, "paths is NULL");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 3");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 8");
   const int32_t fine[2] = {0, 1};
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, fine, paths), RIIS_INVALID_ARGUMENT, "paths[1] is NULL");
   expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, fine, jpg), RIIS_FILE_ERROR, "must be .png");
@@ -149,7 +150,7 @@ static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t w
 
 static void test_picture_options(void **state) {
   (void)state;
-  expect_bad_picture("view is 3", 3, 800, 800, 0);
+  expect_bad_picture("view is 8", 8, 800, 800, 0);
   expect_bad_picture("view is -1", -1, 800, 800, 0);
   expect_bad_picture("width is 63", RIIS_VTK_VIEW_TOP, 63, 800, 0);
   expect_bad_picture("height is 8193", RIIS_VTK_VIEW_TOP, 800, 8193, 0);
@@ -167,6 +168,34 @@ static void test_picture_options(void **state) {
   options.leaflet_names = names;
   expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
                  "leaflet_names[1] is NULL");
+}
+
+static void expect_bad_axes(const char *part_of_text, double x, double y, double z, double angle) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.rotation_axis[0] = x;
+  options.rotation_axis[1] = y;
+  options.rotation_axis[2] = z;
+  options.rotation_angle = angle;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
+}
+
+/* The axes of the valve have the ranges of a placement. An older caller, whose struct lacks them, gets the mesh's axes. */
+static void test_axes_of_valve(void **state) {
+  (void)state;
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_true(options.rotation_axis[0] == 0 && options.rotation_axis[1] == 0 && options.rotation_axis[2] == 1 &&
+              options.rotation_angle == 0);
+  expect_bad_axes("options->rotation_axis is (0, 0, 0), shorter than 1e-50", 0, 0, 0, 1);
+  expect_bad_axes("options->rotation_axis[1] is nan, not -1e50 to 1e50", 0, (double)NAN, 1, 1);
+  expect_bad_axes("options->rotation_axis[2] is -2e+50, not -1e50 to 1e50", 0, 0, -2e50, 1);
+  expect_bad_axes("options->rotation_angle is 2e+06, not -1e6 to 1e6", 0, 0, 1, 2e6);
+  expect_bad_axes("options->rotation_angle is inf, not -1e6 to 1e6", 0, 0, 1, (double)INFINITY);
+  memset(&options, 0xff, sizeof options);
+  expect_fine(riis_vtk_picture_options_init(&options, 72));
+  options.width = 1;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
 }
 
 /* A name with a line break still gives a message of one line. The message for a very long name keeps the reason. */
@@ -264,10 +293,15 @@ static void test_pieces(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_null),         cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_struct_sizes), cmocka_unit_test(test_leaking_edges),
-      cmocka_unit_test(test_many_views),   cmocka_unit_test(test_picture_options),
-      cmocka_unit_test(test_odd_names),    cmocka_unit_test(test_floating_point_environment),
+      cmocka_unit_test(test_null),
+      cmocka_unit_test(test_pieces),
+      cmocka_unit_test(test_struct_sizes),
+      cmocka_unit_test(test_leaking_edges),
+      cmocka_unit_test(test_many_views),
+      cmocka_unit_test(test_picture_options),
+      cmocka_unit_test(test_axes_of_valve),
+      cmocka_unit_test(test_odd_names),
+      cmocka_unit_test(test_floating_point_environment),
   };
   return cmocka_run_group_tests(tests, make_all, destroy_all);
 }
