@@ -15,6 +15,11 @@ if TYPE_CHECKING:
     from riis._riis import Marks, Mesh, Surface
 
 
+# Blue, orange, bluish green, reddish purple, vermilion and sky blue: distinct for all kinds of colour vision (Okabe, Ito 2008).
+# The program's pictures have the same colours in the same order.
+COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
+
+
 def _pyvista() -> Any:
     try:
         import pyvista
