@@ -38,7 +38,7 @@ UNSEEN = 4.0  # seconds after which a picture that no browser shows pauses a hea
 _SLIDER = """
       <div class="slider" v-if="sliders.length > {k}" :title="sliders[{k}].description">
         <div class="line"><span class="name">{{{{ sliders[{k}].label }}}}</span>
-          <input type="number" step="any" :id="'slider-' + sliders[{k}].name" :value="Number(Number(slider_{k}).toPrecision(5))"
+          <input type="number" step="any" :id="'slider-' + sliders[{k}].name" :value="Number(Number(slider_{k}).toPrecision(4))"
             :min="sliders[{k}].least" :max="sliders[{k}].greatest"
             @change="trigger('riis_set', [sliders[{k}].name, $event.target.value])">
           <span class="unit">{{{{ sliders[{k}].unit }}}}</span></div>
@@ -96,6 +96,7 @@ class Page:
         self._clicks: list[Any] = []
         self._written: set[Path] = set()
         self._text_name = "case"
+        self._orifice_at = 0.0
         self._playing: asyncio.Task[None] | None = None
         self._tasks: list[asyncio.Task[None]] = []
         self._shown: Any = None
@@ -348,11 +349,24 @@ class Page:
         self._shown = self.model.update()
         self.scene.show(self._shown)
         self._stale = False
+        if self._playing is None:
+            self.scene.show_orifice([])
+        elif time.monotonic() - self._orifice_at > 0.25:
+            self._show_orifice()
+        self.scene.show_lights([])
+        valve = self._valve()
         with self.state as state:
+            if state.sliders and state.sliders[0]["name"] == "opening" and state.sliders[0]["value"] != valve.opening:
+                state.sliders[0]["value"] = state.slider_0 = valve.opening
             state.marked_text = (
                 f"{len(self._shown.marked):,} nodes marked in {self._shown.milliseconds:.1f} ms"
             )
             state.can_undo, state.can_redo = bool(self.model.can_undo), bool(self.model.can_redo)
+
+    def _show_orifice(self) -> None:
+        i = self.state.current
+        self.scene.show_orifice(self.model.orifice(i), self.model.valves[i].axis, 0.02 * self._reach() ** 2)
+        self._orifice_at = time.monotonic()
 
     def _settle(self) -> None:
         """Renews what takes longer than a move: the lights, the cut through the mesh, the handle, a sharper picture."""
@@ -363,7 +377,7 @@ class Page:
         self.scene.show_cut()
         valve = self._valve()
         self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
-        self.scene.show_orifice(self.model.orifice(self.state.current), 0.02 * self._reach() ** 2)
+        self._show_orifice()
         with self.state as state:
             state.lights = [_light_of(light) for light in lights]
         self._show_numbers()
@@ -697,8 +711,15 @@ class Page:
         if name == "case" and any(valve.cycle is not None for valve in self.model.valves):
             return str(self.model.case(numpy.linspace(0.0, float(self.state.period), 51)))
         if name == "command":
-            base = shlex.quote(str(self.folder / self._name()))
-            return self.model.command(case=base + _TEXT_ENDINGS["case"], output=base + ".vtu") + "\n"
+            base = str(self.folder / self._name())
+            words = shlex.split(self.model.command(case=base + _TEXT_ENDINGS["case"], output=base + ".vtu"))
+            lines = [shlex.join(words[: words.index("mark") + 1])]
+            for word in words[words.index("mark") + 1 :]:
+                if lines[-1].startswith("--") and not word.startswith("--") and "=" not in lines[-1]:
+                    lines[-1] += " " + shlex.quote(word)
+                else:
+                    lines.append(shlex.quote(word))
+            return " \\\n  ".join(lines) + "\n"
         return str(getattr(self.model, name)())
 
     def _on_write_text(self) -> None:

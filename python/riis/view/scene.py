@@ -257,11 +257,11 @@ class Scene:
         for name in [name for name in self._data if name.startswith("riis light ") and name not in drawn]:
             self._drop(name)
 
-    def show_orifice(self, lines: Any, least: float = 0.0) -> None:
-        """Draws closed lines, each an array of shape (n, 3), around at least this area."""
+    def show_orifice(self, lines: Any, axis: Any = (0.0, 0.0, 1.0), least: float = 0.0) -> None:
+        """Draws closed lines, each an array of shape (n, 3), around at least this area: smooth, and flat across the axis."""
         self._drop("riis orifice")
-        lines = [numpy.asarray(line, float) for line in lines if len(line) > 2]
-        lines = [line for line in lines if _area_of(line) > least]
+        lines = [numpy.asarray(line, float) for line in lines if len(line) > 8]
+        lines = [_smooth(line, numpy.asarray(axis, float)) for line in lines if _area_of(line) > least]
         if not lines:
             return
         starts = numpy.cumsum([0] + [len(line) for line in lines])
@@ -387,6 +387,13 @@ class Scene:
 
     def close(self) -> None:
         self.plotter.close()
+
+
+def _smooth(line: Any, axis: Any) -> Any:
+    """Returns a closed line in the plane of its mean height, and without the steps of the grid on which it was found."""
+    height = line @ axis
+    line = line + numpy.outer(height.mean() - height, axis)
+    return numpy.mean([numpy.roll(line, k, axis=0) for k in range(-3, 4)], axis=0)
 
 
 def _area_of(line: Any) -> float:
