@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The view: a valve in a mesh, to look at and to place by hand.
+
+riis.view.model has everything but the pictures: the valves, their placement, the marks, undo, the lights that tell faults, and
+the files that the rest of the project takes. It needs numpy only.
+"""

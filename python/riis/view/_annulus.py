@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The annulus of a valve, and its placement by three points on it.
+
+The three points lie on one circle. The valve is moved, turned and grown in proportion until the circle through three points of
+its own annulus is this circle.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from riis._errors import InvalidParameterError
+from riis._riis import Surface
+from riis.view._valves import ValveState, plain, refuse, rotation_of, values_that_were_set, vector
+
+Reals = NDArray[numpy.float64]
+
+_LEAST, _MOST = 0.3, 3.5  # by which a valve's lengths may grow; more is another unit
+
+
+class Annulus(NamedTuple):
+    """A circle of the closed valve in its own frame, centimetres. The normal is on the side of the z axis."""
+
+    points: Reals  #: (3, 3), on the circle; the first is where the first click belongs
+    centre: Reals
+    normal: Reals
+    radius: float
+
+
+def _circle(points: Reals) -> tuple[Reals, Reals, float]:
+    """Returns the centre, the unit normal and the radius of the circle through three points."""
+    a, b = points[1] - points[0], points[2] - points[0]
+    normal = numpy.cross(a, b)
+    square = float(normal @ normal)
+    centre = points[0] + ((a @ a) * numpy.cross(b, normal) + (b @ b) * numpy.cross(normal, a)) / (2.0 * square)
+    return centre, normal / math.sqrt(square), float(numpy.linalg.norm(points[0] - centre))
+
+
+def annulus_of(state: ValveState) -> Annulus:
+    """Returns the circle through three points of the annulus of the closed valve."""
+    valve = state.valve()
+    assert valve is not None
+    valve["opening"] = 0.0
+    if state.kind == "bileaflet":
+        # The hinges run along y, so the first point is at an end of them.
+        turn = numpy.radians([90.0, 210.0, 330.0])
+        shift = numpy.array(valve["translation"]) if "translation" in valve else numpy.zeros(3)
+        points = shift + valve["radius"] * numpy.column_stack([numpy.cos(turn), numpy.sin(turn), numpy.zeros(3)])
+    else:
+        if "skirt_length" in valve:
+            valve["skirt_length"] = 0.0
+        attachment = Surface(valve).attachment
+        ends = attachment.edges.reshape(-1, 3)
+        leaflet = numpy.repeat(attachment.leaflet_id, 2)
+        points = _anterior(ends, leaflet) if state.kind == "mitral" else _nadirs(ends, leaflet)
+    centre, normal, radius = _circle(points)
+    return Annulus(points, centre, normal if normal[2] >= 0.0 else -normal, radius)
+
+
+def _nadirs(ends: Reals, leaflet: Any) -> Reals:
+    """Returns the lowest point of each cusp's attachment: the middle of its lowest points."""
+    made = []
+    for cusp in range(3):
+        of_cusp = ends[leaflet == cusp]
+        low = of_cusp[:, 2].min()
+        height = float(of_cusp[:, 2].max() - low)
+        made.append(of_cusp[of_cusp[:, 2] <= low + 1e-9 * height].mean(axis=0))
+    return numpy.array(made)
+
+
+def _anterior(ends: Reals, leaflet: Any) -> Reals:
+    """Returns the annulus at the middle of the anterior leaflet, and at a third of a turn to each side of it."""
+    middle = (ends.min(axis=0) + ends.max(axis=0)) / 2.0
+    around = numpy.arctan2(ends[:, 1] - middle[1], ends[:, 0] - middle[0])
+    anterior = ends[leaflet == 0].mean(axis=0) - middle
+    first = math.atan2(anterior[1], anterior[0])
+    made = []
+    for turn in (0.0, 2.0 * math.pi / 3.0, -2.0 * math.pi / 3.0):
+        off = numpy.abs(numpy.angle(numpy.exp(1j * (around - first - turn))))
+        made.append(ends[int(numpy.argmin(off))])
+    return numpy.array(made)
+
+
+def checked_clicks(points3: Any) -> Reals:
+    """Returns three points, or refuses what is no three points of a circle."""
+    try:
+        clicks = numpy.array(points3, numpy.float64)
+    except (TypeError, ValueError):
+        clicks = numpy.empty(0)
+    if clicks.shape != (3, 3):
+        raise refuse(f"points3: has the shape {numpy.shape(points3)}; it must be three points (3, 3)")
+    for k, click in enumerate(clicks):
+        if not numpy.isfinite(click).all():
+            raise refuse(f"points3: point {k} is {tuple(click.tolist())}; it must be finite")
+    size = max(float(numpy.linalg.norm(clicks[k] - clicks[k - 1])) for k in range(3))
+    for k, other in ((1, 0), (2, 0), (2, 1)):
+        if float(numpy.linalg.norm(clicks[k] - clicks[other])) <= 1e-3 * size:
+            raise refuse(f"points3: points {other} and {k} are in one place, {tuple(clicks[k].tolist())}")
+    area = float(numpy.linalg.norm(numpy.cross(clicks[1] - clicks[0], clicks[2] - clicks[0])))
+    if area <= 0.02 * size * size:
+        raise refuse(f"points3: the points {clicks.tolist()} are on a line, and show no circle")
+    return clicks
+
+
+def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
+    """Returns the changes of a state by which its annulus goes through three points."""
+    clicks = checked_clicks(points3)
+    known = annulus_of(state)
+    centre, normal, radius = _circle(clicks)
+    if normal @ (state.matrix @ known.normal) < 0.0:
+        normal = -normal
+    growth = radius / (state.scale * known.radius)
+    if not _LEAST <= growth <= _MOST:
+        raise refuse(
+            f"points3: are on a circle of radius {radius:.3g}, and that of the valve is {state.scale * known.radius:.3g}: "
+            "choose the mesh's unit first, or click on the annulus"
+        )
+    # Two frames with the circles' normals; x is towards the first point.
+    frames = []
+    for origin, up, points in ((known.centre, known.normal, known.points), (centre, normal, clicks)):
+        x = points[0] - origin
+        x = x - (x @ up) * up
+        x = x / numpy.linalg.norm(x)
+        frames.append(numpy.column_stack([x, numpy.cross(up, x), up]))
+    turn = 0.0
+    if state.kind not in ("mitral", "bileaflet"):
+        turn = _mean_turn(known, frames[0], centre, frames[1], clicks)
+    about = numpy.array([[math.cos(turn), -math.sin(turn), 0.0], [math.sin(turn), math.cos(turn), 0.0], [0.0, 0.0, 1.0]])
+    matrix = frames[1] @ about @ frames[0].T
+    grown = _grown(state, growth)
+    # The lengths grew, but a length may be bounded or follow a rule: the circle is measured again.
+    again = annulus_of(grown)
+    origin = centre - state.scale * (matrix @ again.centre)
+    return {"parameters": grown.parameters, "rotation": rotation_of(matrix), "origin": vector(origin)}
+
+
+def _mean_turn(known: Annulus, own: Reals, centre: Reals, frame: Reals, clicks: Reals) -> float:
+    """Returns the turn about the axis by which the nadirs are nearest to the clicks, which the first click assigns."""
+
+    def angles(points: Reals, middle: Reals, axes: Reals) -> Reals:
+        local = (points - middle) @ axes
+        return numpy.arctan2(local[:, 1], local[:, 0]) % (2.0 * math.pi)
+
+    cusps, places = angles(known.points, known.centre, own), angles(clicks, centre, frame)
+    cusps[0] = places[0] = 0.0
+    # Both lists go the same way round from the first.
+    off = numpy.sort(places) - numpy.sort(cusps)
+    return float(off.mean())
+
+
+def _grown(state: ValveState, growth: float) -> ValveState:
+    """Returns the valve with all lengths multiplied. A length that follows a rule and was not set follows by itself."""
+    valve = state.valve()
+    assert valve is not None
+    wanted = {}
+    for name, known in valve.parameters.items():
+        if known.unit != "length" or (known.rule and not valve.is_set(name)):
+            continue
+        value = plain(valve[name])
+        is_zero = not any(value) if isinstance(value, tuple) else value == 0.0
+        if not is_zero:
+            wanted[name] = tuple(growth * x for x in value) if isinstance(value, tuple) else growth * value
+    if abs(growth - 1.0) < 1e-9:
+        return state
+    try:
+        valve.update(wanted)
+    except InvalidParameterError as error:
+        raise refuse(f"points3: the valve cannot grow by {growth:.3g}: {error}") from None
+    return dataclasses.replace(state, parameters=MappingProxyType(dict(values_that_were_set(valve))))

@@ -1,0 +1,363 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The lights of the view: what is wrong with a valve in a mesh, where, and what cures it.
+
+The limits of sizes are those of the warnings of the program (riis help warnings).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+
+import numpy
+from numpy.typing import NDArray
+
+from riis._errors import Error
+from riis._riis import Marks, Surface, find_crossings, find_leaks, find_passage
+from riis.view._cells import Region, WholeMesh
+from riis.view._valves import UNITS, WORDS_OF_UNITS, ValveState
+
+Reals = NDArray[numpy.float64]
+
+NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are cured
+LEVELS = ("bad", "warn", "good", "off")  # the worst first
+
+# The mesh is 0.5 to 40 times as large as the valve, and its edges are at most 0.3 times as long. Three times is usual.
+_SMALLEST, _LARGEST, _USUAL, _LONGEST_EDGE = 0.5, 40.0, 3.0, 0.3
+_SUSPICIOUS = 12.0  # a mesh without a unit that is so many times as large may have another unit
+_LARGEST_HALF, _USUAL_HALF = 0.25, 0.04  # of the largest side of the valve
+_SMALLEST_HALF = 0.3  # of the mesh's edges
+_FACTORS = (0.1, 10.0, 0.01, 100.0, 0.001, 1000.0)
+_MOST_DRAWN = 300  # crossing pairs that are drawn
+
+_NO_POINTS = numpy.empty((0, 3))
+_NO_EDGES = numpy.empty((0, 2, 3))
+
+
+@dataclass(frozen=True)
+class Light:
+    """A light: whether one thing about the valves is right, with numbers, and what to do if it is not."""
+
+    name: str  #: one of "unit", "inside", "half_thickness", "crossing", "wall" and "sealed"
+    level: str  #: "good", "warn", "bad", or "off" if the light does not apply
+    text: str  #: what it means here, with numbers
+    advice: str = ""  #: what to do
+    cure: tuple[str, str] | None = None  #: the label of a button, and the name that Model.cure takes
+    points: Reals = field(default_factory=lambda: _NO_POINTS, repr=False)  #: (n, 3): places to draw
+    edges: Reals = field(default_factory=lambda: _NO_EDGES, repr=False)  #: (n, 2, 3): lines to draw
+    valve: int = -1  #: the valve that the light is about; -1: none
+    value: float = 0.0  #: the length or the factor with which the cure works
+
+
+@dataclass
+class Scene:
+    """One valve in the mesh, as the lights see it."""
+
+    number: int
+    state: ValveState
+    surface: Surface
+    marks: Marks
+    region: Region
+    whole: WholeMesh
+    unit: str | None
+
+    @property
+    def largest_side(self) -> float:
+        info = self.surface.info
+        return float((info.upper - info.lower).max())
+
+
+def shown(length: float) -> str:
+    """Returns a number with three digits."""
+    return f"{length:.3g}"
+
+
+def rounded_up(length: float) -> float:
+    """Returns the next larger number with three digits."""
+    step = 10.0 ** (math.floor(math.log10(length)) - 2)
+    return float(f"{math.ceil(length / step) * step:.12g}")
+
+
+def _place(point: Reals) -> str:
+    return "(" + ", ".join(shown(float(x)) for x in point) + ")"
+
+
+# ---- Sizes ----
+
+
+def _edge_of(region: Region) -> float:
+    """Returns the median length of the edges of a sample of cells; 0 without cells."""
+    lengths = []
+    for block in region.blocks:
+        table = block.nodes[:: max(1, len(block.nodes) // 20_000)]
+        if len(table):
+            lengths.append(numpy.linalg.norm(region.points[table[:, 0]] - region.points[table[:, 1]], axis=1))
+    return float(numpy.median(numpy.concatenate(lengths))) if lengths else 0.0
+
+
+def _fits(ratio: float, edge: float, side: float) -> bool:
+    return _SMALLEST <= ratio <= _LARGEST and edge <= _LONGEST_EDGE * side
+
+
+def unit(scene: Scene) -> Light:
+    """Judges whether mesh and valve have the same unit."""
+    side, mesh = scene.largest_side, float((scene.whole.upper - scene.whole.lower).max())
+    if mesh == 0.0:
+        return Light("unit", "off", "the mesh has no extent", valve=scene.number)
+    ratio, edge = mesh / side, _edge_of(scene.region)
+    fits = _fits(ratio, edge, side)
+    half_fits = edge == 0.0 or scene.state.half_thickness >= _SMALLEST_HALF * edge
+    sizes = f"the largest side of the mesh is {shown(mesh)}, that of the valve {shown(side)}"
+    known = scene.unit is not None and math.isclose(scene.state.scale, UNITS[scene.unit], rel_tol=1e-9)
+    doubted = not fits or (not known and (ratio > _SUSPICIOUS or not half_fits))
+    best = None
+    for factor in _FACTORS if doubted else ():
+        if not _fits(ratio / factor, edge, factor * side) or (fits and ratio / factor < 1.0):
+            continue
+        oddity = abs(math.log(ratio / factor / _USUAL))
+        if best is None or oddity < best[0]:
+            best = oddity, factor
+    if best is None:
+        level, text = ("warn", sizes + ", which no unit explains") if not fits else ("good", sizes)
+        return Light("unit", level, text, "look at the scale" if not fits else "", valve=scene.number)
+    factor = best[1]
+    scale = factor * scene.state.scale
+    name = next((known for known, size in UNITS.items() if math.isclose(size, scale, rel_tol=1e-9)), None)
+    if name is None:
+        advice, label = f"scale the valve by {factor:g}", f"scale the valve by {factor:g}"
+    else:
+        words = WORDS_OF_UNITS[name]
+        advice, label = f"the mesh looks as if it were in {words}: scale the valve by {factor:g}", f"The mesh is in {words}"
+    return Light("unit", "warn" if fits else "bad", sizes, advice, (label, "unit"), valve=scene.number, value=factor)
+
+
+def inside(scene: Scene) -> Light:
+    """Judges whether the valve lies in the mesh."""
+    vertices = numpy.array(scene.surface.vertices)
+    info = scene.surface.info
+    wall = scene.region.wall()
+    if wall is not None:
+        found = wall.closest_points(vertices, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
+        assert found.side is not None and found.distance is not None
+        is_out = (found.side > 0) & (found.distance > info.half_thickness)
+    else:
+        low, high = scene.region.points.min(axis=0, initial=math.inf), scene.region.points.max(axis=0, initial=-math.inf)
+        is_out = ((vertices < low - info.half_thickness) | (vertices > high + info.half_thickness)).any(axis=1)
+    share, n_marked = float(is_out.mean()), len(scene.marks)
+    cure = ("Move the valve into the mesh", "inside")
+    if n_marked == 0 or share == 1.0:
+        places = (
+            f"the valve is at {_place((info.lower + info.upper) / 2)}, the mesh from {_place(scene.whole.lower)} to "
+            f"{_place(scene.whole.upper)}"
+        )
+        return Light("inside", "bad", f"no node is marked: {places}" if n_marked == 0 else f"the valve is outside: {places}",
+                     "move the valve, or click three points of the annulus", cure, valve=scene.number)
+    if share > 0.2:
+        return Light("inside", "warn", f"{100 * share:.0f} % of the leaflets lie outside the mesh",
+                     "move or turn the valve, or make it smaller", cure, points=vertices[is_out][:_MOST_DRAWN],
+                     valve=scene.number)
+    text = f"{n_marked} nodes are marked"
+    return Light("inside", "good", text + (f"; {100 * share:.0f} % of the leaflets lie outside" if share > 0.005 else ""),
+                 valve=scene.number)
+
+
+def half_thickness(scene: Scene) -> Light:
+    """Judges whether the band is thick enough for the mesh's edges, and thin beside the valve."""
+    half, side = scene.state.half_thickness, scene.largest_side
+    if half > _LARGEST_HALF * side:
+        better = float(f"{_USUAL_HALF * side:.2g}")
+        return Light("half_thickness", "bad", f"the half thickness is {shown(half)}, the valve's largest side {shown(side)}",
+                     "make it thinner", (f"Set the half thickness to {better:g}", "half_thickness"), valve=scene.number,
+                     value=better)
+    if not scene.region.has_cells:
+        return Light("half_thickness", "off", "the mesh has no volume cells, so its edges are unknown", valve=scene.number)
+    if len(scene.marks) == 0:
+        return Light("half_thickness", "off", "no node is marked", valve=scene.number)
+    scene.region.adjacency()
+    across = scene.marks.cells_across(scene.region.mesh)
+    leaks = find_leaks(scene.surface, scene.region.mesh, scene.marks)
+    text = f"the half thickness is {shown(half)}, and {shown(across.mean)} edges of the mesh lie across the band"
+    if leaks.n_edges == 0:
+        return Light("half_thickness", "good", text, valve=scene.number)
+    ends = scene.region.points[leaks.node_id]
+    text += f"; {leaks.n_edges} edges cross the leaflets between unmarked nodes, the longest {shown(leaks.longest_length)}"
+    better = rounded_up(1.01 * leaks.half_thickness)
+    if better > _LARGEST_HALF * side:
+        return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of {better:g} "
+                     "would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
+                     valve=scene.number)
+    return Light("half_thickness", "bad", text, f"a half thickness of {better:g} closes them, or a finer mesh",
+                 (f"Set the half thickness to {better:g}", "half_thickness"), points=ends.mean(axis=1), edges=ends,
+                 valve=scene.number, value=better)
+
+
+# ---- The valve itself ----
+
+
+def crossing(scene: Scene) -> Light:
+    """Judges whether leaflets go through each other. Contacts do not count, nor those of hinges with their housing."""
+    surface, state = scene.surface, scene.state
+    info = surface.info
+    if state.kind == "bileaflet":
+        surface = dataclasses.replace(state, parameters={**state.parameters, "ring_height": 0.0}).made_surface()
+    has_cusps = state.kind in ("aortic", "coapting", "trileaflet")
+    depth = 1e-3 if has_cusps else min(1.0, max(1e-6, 2.0 * info.error_bound / info.half_thickness))
+    found = find_crossings(surface, depth=depth)
+    if found.n_pairs == 0:
+        return Light("crossing", "good", "no leaflet goes through another", valve=scene.number)
+    vertices, faces = surface.vertices, surface.triangles
+    row = numpy.searchsorted(faces.triangle_id, found.triangle_id[:_MOST_DRAWN].ravel())
+    corners = vertices[faces.vertex_id[row]]
+    edges = numpy.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+    names = [int(leaflet) for leaflet in found.deepest_leaflet_id]
+    text = (
+        f"{found.n_pairs} pairs of triangles go through each other, up to {shown(found.deepest_depth)} deep, at "
+        f"{_place(found.deepest_point)} (leaflets {names[0]} and {names[1]})"
+    )
+    is_slight = found.deepest_depth < 0.1 * info.half_thickness
+    return Light("crossing", "warn" if is_slight else "bad", text, "change the sizes; undo takes the last change back",
+                 points=numpy.array(found.point[:_MOST_DRAWN]), edges=edges, valve=scene.number)
+
+
+def wall(scene: Scene) -> Light:
+    """Judges the gap between the valve's attachment and the mesh's wall."""
+    state = scene.state
+    boundary = scene.region.wall() if scene.region.has_cells else None
+    if boundary is None:
+        return Light("wall", "off", "the mesh has no wall near the valve", valve=scene.number)
+    half = state.half_thickness
+    if state.kind == "bileaflet":
+        return _ring(scene, boundary)
+    if state.surface is not None:
+        return Light("wall", "off", "the attachment of a surface from a file is unknown", valve=scene.number)
+    try:
+        gap = scene.surface.gap(boundary)
+    except Error as error:
+        return Light("wall", "off", str(error), valve=scene.number)
+    attachment = numpy.array(scene.surface.attachment.edges)
+    missed = gap.distance >= 1e29
+    valve = state.valve()
+    assert valve is not None
+    skirt = float(valve["skirt_length"]) * state.scale
+    wide = (gap.distance > skirt + half) & ~missed
+    drawn = attachment[wide.any(axis=1) | missed.any(axis=1)]
+    n_ends = gap.distance.size
+    if gap.n_without_wall == n_ends:
+        return Light("wall", "bad", "no part of the attachment has a wall beside it", "move or turn the valve", edges=drawn,
+                     valve=scene.number)
+    text = f"the wall is {shown(gap.least)} to {shown(gap.most)} from the attachment"
+    if skirt > 0.0:
+        text += f", the skirt is {shown(skirt)} long"
+    if gap.n_without_wall > 0:
+        return Light("wall", "warn", f"{text}; {100 * gap.n_without_wall / n_ends:.0f} % of the attachment has no wall beside it",
+                     "move or turn the valve", edges=drawn, valve=scene.number)
+    if not wide.any():
+        return Light("wall", "good", text, valve=scene.number)
+    needed = rounded_up(1.02 * gap.most)
+    advice = "make the annulus larger, or give the valve a skirt to the wall"
+    cure = None
+    if needed < 0.5 * scene.largest_side:
+        cure = (f"A skirt of {needed:g} to the wall", "wall")
+    else:
+        advice = "move the valve, or make its annulus larger: the gap is too wide for a skirt"
+    return Light("wall", "bad", f"{text}: blood passes beside the valve", advice, cure, points=gap.widest_point[None, :],
+                 edges=drawn, valve=scene.number, value=needed / state.scale)
+
+
+def _ring(scene: Scene, boundary: Surface) -> Light:
+    """Judges the distance of a bileaflet valve's housing from the wall."""
+    faces = scene.surface.triangles
+    of_ring = numpy.unique(faces.vertex_id[faces.leaflet_id == 2])
+    if len(of_ring) == 0:
+        return Light("wall", "off", "the valve has no housing (ring_height is 0)", valve=scene.number)
+    vertices = numpy.array(scene.surface.vertices)[of_ring]
+    found = boundary.closest_points(vertices, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
+    assert found.side is not None and found.distance is not None
+    gap = numpy.where(found.side > 0, -found.distance, found.distance)
+    text = f"the wall is {shown(float(gap.min()))} to {shown(float(gap.max()))} from the housing"
+    wide = gap > scene.state.half_thickness
+    # The housing is a cylinder, so a wall that meets any of its circles seals it: only angles without contact count.
+    local = (vertices - numpy.array(scene.state.origin)) @ scene.state.matrix
+    sector = numpy.floor((numpy.arctan2(local[:, 1], local[:, 0]) / numpy.pi + 1.0) * 12.0).astype(int) % 24
+    is_open = [bool(wide[sector == k].all()) for k in range(24) if (sector == k).any()]
+    if not any(is_open):
+        return Light("wall", "good", text, valve=scene.number)
+    return Light("wall", "bad", f"{text}: blood passes beside the valve", "make the annulus (radius) larger",
+                 points=vertices[wide][:_MOST_DRAWN], valve=scene.number)
+
+
+def sealed(scene: Scene) -> Light:
+    """Judges whether unmarked nodes join the two sides of the valve, and shows the way."""
+    if not scene.region.has_cells:
+        return Light("sealed", "off", "the mesh has no volume cells, so passages are unknown", valve=scene.number)
+    if len(scene.marks) == 0:
+        return Light("sealed", "off", "no node is marked", valve=scene.number)
+    ends = _sides(scene)
+    if ends is None:
+        return Light("sealed", "off", "the mesh has no nodes on both sides of the valve, near its axis", valve=scene.number)
+    region = scene.region
+    region.adjacency()
+    found = find_passage(scene.surface, region.mesh, numpy.array([ends[0]]), numpy.array([ends[1]]))
+    if found.state == "none":
+        return Light("sealed", "off", "the mesh itself does not join the two sides of the valve", valve=scene.number)
+    if found.state == "closed":
+        return Light("sealed", "good", f"sealed: a half thickness down to {shown(found.distance)} would seal it",
+                     valve=scene.number)
+    is_open = numpy.ones(len(region.points), bool)
+    is_open[scene.marks.ids] = False
+    if is_open[found.node_id]:
+        halves = region.path(ends[0], found.node_id, is_open), region.path(found.node_id, ends[1], is_open)
+        nodes = numpy.concatenate([halves[0], halves[1][1:]])
+    else:
+        nodes = region.path(ends[0], ends[1], is_open)
+    line = region.points[nodes]
+    edges = numpy.stack([line[:-1], line[1:]], axis=1) if len(line) > 1 else _NO_EDGES
+    text = f"a passage is open at {_place(found.point)}, {shown(found.distance)} from the leaflets"
+    points = numpy.array(found.point)[None, :]
+    if scene.state.opening > 0.0:
+        return Light("sealed", "off", f"the valve is open ({shown(scene.state.opening)}): {text}",
+                     "set the opening to 0 to see whether it seals", points=points, edges=edges, valve=scene.number)
+    advice = "look at the light wall and at the half thickness"
+    if scene.state.kind == "aortic":
+        advice = "the paper's aortic valve does not close between its cusps: the kind coapting does; or " + advice
+    better = rounded_up(1.01 * found.distance)
+    cure = None
+    if better <= min(_LARGEST_HALF * scene.largest_side, 2.0 * scene.state.half_thickness):
+        advice, cure = f"a half thickness of {better:g} closes it", (f"Set the half thickness to {better:g}", "sealed")
+    return Light("sealed", "bad", f"leaking: {text}", advice, cure, points=points, edges=edges, valve=scene.number, value=better)
+
+
+def _sides(scene: Scene) -> tuple[int, int] | None:
+    """Returns an unmarked node on each side of the valve, near its axis: upstream of the least z, downstream of the largest."""
+    matrix, origin = scene.state.matrix, numpy.array(scene.state.origin)
+    valve = (numpy.array(scene.surface.vertices) - origin) @ matrix
+    middle = (valve[:, :2].min(axis=0) + valve[:, :2].max(axis=0)) / 2.0
+    radius = float((valve[:, :2].max(axis=0) - valve[:, :2].min(axis=0)).max()) / 2.0
+    low, high = float(valve[:, 2].min()), float(valve[:, 2].max())
+    nodes = (scene.region.points - origin) @ matrix
+    away = numpy.linalg.norm(nodes[:, :2] - middle, axis=1)
+    is_free = numpy.ones(len(nodes), bool)
+    is_free[scene.marks.ids] = False
+    half = scene.state.half_thickness
+    chosen = []
+    for sign, level in ((-1.0, low), (1.0, high)):
+        height = sign * (nodes[:, 2] - level)  # beyond the valve's end
+        for reach in (0.6, 1.2):
+            is_near = is_free & (height > half) & (height < 2.0 * radius) & (away < reach * radius)
+            if is_near.any():
+                at = numpy.flatnonzero(is_near)
+                far = (height[at] - half - 0.4 * radius) ** 2 + away[at] ** 2
+                chosen.append(int(at[numpy.argmin(far)]))
+                break
+    return (chosen[0], chosen[1]) if len(chosen) == 2 else None
+
+
+JUDGES = {
+    "unit": unit, "inside": inside, "half_thickness": half_thickness, "crossing": crossing, "wall": wall, "sealed": sealed,
+}
+
+
+def worst(lights: list[Light]) -> Light:
+    """Returns the worst of the lights of several valves."""
+    return min(lights, key=lambda light: LEVELS.index(light.level))

@@ -1,0 +1,315 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the view writes: a case of the program riis, a command, a script, OpenFOAM's dictionary, and the session.
+
+Numbers are written with all their digits, so that each of them gives the same marks, to the last bit.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import os
+import shlex
+import zlib
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+import numpy
+
+from riis._errors import Error, InvalidArgumentError
+from riis.laws import OpeningTable, OpeningTimes
+from riis.view._valves import KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, SurfaceSource, ValveState, Value, refuse
+
+_FORMAT, _VERSION = "riis view", 1
+
+
+def has_unit(states: Iterable[ValveState], unit: str | None) -> bool:
+    """Returns whether the unit gives the scale of all valves, so that files may name the unit."""
+    return unit is not None and all(state.scale == UNITS[unit] for state in states)
+
+
+def _check_paths(states: Iterable[ValveState]) -> None:
+    for number, state in enumerate(states):
+        if state.surface is not None and state.surface.path is None:
+            raise refuse(f"valve {number}: its surface has no file, so no other program can read it; add it with a path")
+
+
+def _nested(parameters: Mapping[str, Value]) -> dict[str, Any]:
+    made: dict[str, Any] = {}
+    for name, value in parameters.items():
+        *part, last = name.split(".")
+        (made.setdefault(part[0], {}) if part else made)[last] = list(value) if isinstance(value, tuple) else value
+    return made
+
+
+def _law(law: OpeningTable | OpeningTimes) -> dict[str, Any]:
+    """Returns a law with the keys of a case."""
+    if isinstance(law, OpeningTable):
+        made: dict[str, Any] = {"times": law.time.tolist(), "openings": law.opening.tolist(), "interpolation": law.interpolation}
+    else:
+        keys = ("opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open")
+        made = {key: getattr(law, key) for key in keys}
+    if law.period > 0.0:
+        made["period"] = law.period
+    return made
+
+
+# ---- The program ----
+
+
+def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, times: list[float] | None) -> str:
+    _check_paths(states)
+    if not states:
+        raise refuse("valves: there are none; a case needs one")
+    root: dict[str, Any] = {}
+    if path is not None:
+        root["mesh"] = os.path.abspath(path)
+    with_unit = has_unit(states, unit)
+    if with_unit:
+        root["unit"] = unit
+    if times is not None:
+        root["times"] = times
+    root["valves"] = []
+    for state in states:
+        valve: dict[str, Any] = {"name": state.name} if len(states) > 1 else {}
+        if state.surface is not None:
+            valve["surface"] = os.path.abspath(str(state.surface.path))
+            if state.surface.moves and times is None:
+                raise refuse(f"valve {state.name}: its surface moves, so a case needs times")
+            if state.surface.period > 0.0 and state.surface.moves:
+                valve["period"] = state.surface.period
+            if with_unit:
+                valve["surface_unit"] = "cm"
+        else:
+            valve["valve"] = state.kind
+            valve["parameters"] = _nested(state.parameters)
+            is_moving = times is not None and state.cycle is not None
+            valve["opening"] = _law(state.cycle.law) if is_moving and state.cycle else state.opening
+            if state.triangulation != "adapted":
+                valve["triangulation"] = state.triangulation
+        if not with_unit:
+            valve["scale"] = state.scale
+        valve["rotate"] = list(state.rotation)
+        valve["translate"] = list(state.origin)
+        valve["half_thickness"] = state.half_thickness
+        valve["resistance"] = state.resistance
+        root["valves"].append(valve)
+    return json.dumps(root, indent=2) + "\n"
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return ",".join(repr(float(value)) for value in values)
+
+
+def command_of(
+    states: tuple[ValveState, ...], unit: str | None, path: str | None, case: str, output: str, program: str
+) -> str:
+    _check_paths(states)
+    if not states:
+        raise refuse("valves: there are none; a command needs one")
+    state = states[0]
+    if len(states) > 1:
+        return shlex.join([program, "mark", "--case", case, "--output", output])
+    words = [program, "mark", os.path.abspath(path) if path is not None else "MESH.vtu"]
+    with_unit = has_unit(states, unit)
+    if state.surface is not None:
+        words.append(f"--surface={os.path.abspath(str(state.surface.path))}")
+        if state.surface.moves:
+            words.append(f"--time={state.time!r}")
+            if state.surface.period > 0.0:
+                words.append(f"--period={state.surface.period!r}")
+        if with_unit:
+            words.append("--surface-unit=cm")
+    else:
+        words.append(f"--valve={state.kind}")
+        for name, value in state.parameters.items():
+            words.append(f"--set={name}={_numbers(value if isinstance(value, tuple) else (value,))}")
+        words.append(f"--opening={state.opening!r}")
+        if state.triangulation != "adapted":
+            words.append(f"--triangulation={state.triangulation}")
+    words.append(f"--unit={unit}" if with_unit else f"--scale={state.scale!r}")
+    words += [f"--rotate={_numbers(state.rotation)}", f"--translate={_numbers(state.origin)}"]
+    words += [f"--half-thickness={state.half_thickness!r}", f"--resistance={state.resistance!r}", f"--output={output}"]
+    return shlex.join(words)
+
+
+# ---- Python ----
+
+
+def python_of(states: tuple[ValveState, ...], path: str | None) -> str:
+    _check_paths(states)
+    uses_files = path is not None or any(state.surface is not None for state in states)
+    lines = ["import numpy"] + (["import pyvista"] if uses_files else []) + ["import riis", ""]
+    if path is None:
+        lines.append("# points: (n, 3) float64, the nodes of the mesh")
+    else:
+        lines.append(f"points = numpy.array(pyvista.read({os.path.abspath(path)!r}).points, numpy.float64)")
+    lines += ["mesh = riis.Mesh(points)", "K = numpy.zeros(len(mesh))", "marks = {}"]
+    for state in states:
+        lines.append("")
+        options = ", ".join(f"{key}={value!r}" for key, value in state.options.items())
+        if state.surface is None:
+            lines.append(f"valve = riis.Valve({state.kind!r})")
+            if state.parameters:
+                lines.append("valve.update({")
+                lines += [f"    {name!r}: {value!r}," for name, value in state.parameters.items()]
+                lines.append("})")
+            lines.append(f'valve["opening"] = {state.opening!r}')
+            lines.append(f"surface = riis.Surface(valve, {options})")
+        elif state.surface.moves:
+            raise refuse(f"valve {state.name}: its surface moves by frames, for which there are no Python lines yet")
+        else:
+            lines.append(f"shape = pyvista.read({os.path.abspath(str(state.surface.path))!r})")
+            lines.append("faces = shape.regular_faces.astype(numpy.int64)")
+            lines.append("vertices = numpy.array(shape.points, numpy.float64)")
+            lines.append(f"surface = riis.Surface.from_arrays(vertices, faces, {options})")
+        lines.append(f"marks[{state.name!r}] = riis.mark(surface, mesh)")
+        lines.append(f"marks[{state.name!r}].add_resistance(K, R={state.resistance!r})")
+    return "\n".join(lines) + "\n"
+
+
+# ---- OpenFOAM ----
+
+_METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
+
+
+def _foam(values: Iterable[float]) -> str:
+    return "(" + " ".join(repr(float(value)) for value in values) + ")"
+
+
+def _foam_law(state: ValveState) -> list[str]:
+    if state.cycle is None:
+        return ["law constant;", f"opening {state.opening!r};"]
+    law = state.cycle.law
+    period = [f"period {law.period!r};"] if law.period > 0.0 else []
+    if isinstance(law, OpeningTable):
+        keys = [f"    ({time!r} {opening!r})" for time, opening in zip(law.time.tolist(), law.opening.tolist(), strict=True)]
+        return ["law table;", "keys", "(", *keys, ");", f"interpolation {law.interpolation};", *period]
+    return [
+        "law times;", f"openingStart {law.opening_start!r};", f"openingSeconds {law.opening_duration!r};",
+        f"closingStart {law.closing_start!r};", f"closingSeconds {law.closing_duration!r};", f"closed {law.closed!r};",
+        f"open {law.open!r};", *period,
+    ]
+
+
+def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float) -> str:
+    if not density > 0.0 or not math.isfinite(density):
+        raise refuse(f"density: is {density!r}; it must be above 0")
+    metres = _METRES[unit] if unit is not None else 1.0
+    lines = ["FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }", ""]
+    for number, state in enumerate(states):
+        if state.surface is not None:
+            raise refuse(f"valve {number}: is a surface from a file; OpenFOAM's plug-in takes only the kinds {', '.join(KINDS)}")
+        lines += [state.name, "{", "    type riisValve;", '    libs ("libriisFvOption.so");', "",
+                  f"    rho {density!r};                  // [kg/m3]",
+                  f"    resistance {state.resistance!r};  // [kg/(m s)]",
+                  f"    halfThickness {metres * state.half_thickness!r};  // [m]", ""]
+        lines += ["    valve", "    {", f"        kind {state.kind};"]
+        lines += [f"        {name} {_foam(value) if isinstance(value, tuple) else repr(value)};"
+                  for name, value in state.parameters.items()]
+        lines += ["    }", "    placement", "    {", f"        scale {metres * state.scale!r};",
+                  f"        rotationAxis {_foam(state.rotation[:3])};", f"        rotationAngle {state.rotation[3]!r};",
+                  f"        translation {_foam(metres * x for x in state.origin)};", "    }", "    opening", "    {"]
+        lines += [f"        {line}" for line in _foam_law(state)] + ["    }", "}", ""]
+    return "\n".join(lines)
+
+
+# ---- Sessions ----
+
+
+def _packed(array: Any) -> dict[str, Any]:
+    array = numpy.ascontiguousarray(array)
+    data = base64.b64encode(zlib.compress(array.tobytes())).decode("ascii")
+    return {"type": array.dtype.str, "shape": list(array.shape), "zlib": data}
+
+
+def _unpacked(value: Any) -> Any:
+    data = zlib.decompress(base64.b64decode(value["zlib"]))
+    return numpy.frombuffer(data, numpy.dtype(value["type"])).reshape(value["shape"]).copy()
+
+
+def session_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, n_nodes: int, time: float) -> str:
+    valves = []
+    for state in states:
+        valve: dict[str, Any] = {
+            "name": state.name, "kind": state.kind, "parameters": _nested(state.parameters), "opening": state.opening,
+            "half_thickness": state.half_thickness, "resistance": state.resistance, "scale": state.scale,
+            "rotate": list(state.rotation), "origin": list(state.origin), "triangulation": state.triangulation,
+            "time": state.time,
+        }
+        if state.cycle is not None:
+            valve["cycle"] = {"source": state.cycle.source, "period": state.cycle.period, "law": _law(state.cycle.law)}
+        if state.surface is not None:
+            source = state.surface
+            valve["surface"] = {
+                "path": source.path, "period": source.period,
+                "vertices": _packed(source.vertices), "faces": _packed(source.faces),
+                "leaflet_id": None if source.leaflet_id is None else _packed(source.leaflet_id),
+                "times": None if source.times is None else _packed(source.times),
+            }
+        valves.append(valve)
+    root = {
+        "format": _FORMAT, "version": _VERSION, "mesh": path, "n_nodes": n_nodes, "unit": unit, "time": time, "valves": valves,
+    }
+    return json.dumps(root, indent=2) + "\n"
+
+
+def _law_from(values: Mapping[str, Any]) -> OpeningTable | OpeningTimes:
+    if "times" in values:
+        return OpeningTable(
+            numpy.array(values["times"], numpy.float64), numpy.array(values["openings"], numpy.float64),
+            float(values.get("period", 0.0)), values["interpolation"],
+        )
+    return OpeningTimes(**{key: float(value) for key, value in values.items()})
+
+
+def _state_from(value: Mapping[str, Any]) -> ValveState:
+    parameters: dict[str, Value] = {}
+    for name, inner in value["parameters"].items():
+        for part, number in (inner.items() if isinstance(inner, dict) else (("", inner),)):
+            full = f"{name}.{part}" if part else name
+            parameters[full] = tuple(float(x) for x in number) if isinstance(number, list) else float(number)
+    cycle, surface = value.get("cycle"), value.get("surface")
+    if value["kind"] not in (*KINDS, SURFACE) or (value["kind"] == SURFACE) != (surface is not None):
+        raise ValueError(f"kind is {value['kind']!r}")
+    if value["triangulation"] not in TRIANGULATIONS:
+        raise ValueError(f"triangulation is {value['triangulation']!r}")
+    axis_x, axis_y, axis_z, angle = (float(x) for x in value["rotate"])
+    x, y, z = (float(part) for part in value["origin"])
+    return ValveState(
+        name=str(value["name"]), kind=value["kind"], opening=float(value["opening"]),
+        half_thickness=float(value["half_thickness"]), resistance=float(value["resistance"]), scale=float(value["scale"]),
+        rotation=(axis_x, axis_y, axis_z, angle), origin=(x, y, z), parameters=MappingProxyType(parameters),
+        triangulation=value["triangulation"], time=float(value["time"]),
+        cycle=None if cycle is None else Cycle(cycle["source"], _law_from(cycle["law"]), float(cycle["period"])),
+        surface=None if surface is None else SurfaceSource(
+            _unpacked(surface["vertices"]), _unpacked(surface["faces"]),
+            None if surface["leaflet_id"] is None else _unpacked(surface["leaflet_id"]),
+            None if surface["times"] is None else _unpacked(surface["times"]), float(surface["period"]), surface["path"],
+        ),
+    )
+
+
+def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
+    """Reads a session. Returns its root and its valves, whose values are checked by making their surfaces."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            root = json.load(file)
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise refuse(f"path: {path!r} cannot be read as a session: {error}") from None
+    if not isinstance(root, dict) or root.get("format") != _FORMAT:
+        raise refuse(f"path: {path!r} is not a session of the view")
+    if root.get("version") != _VERSION:
+        raise refuse(f"path: {path!r} has the version {root.get('version')!r}; this release reads {_VERSION}")
+    try:
+        if root["unit"] is not None and root["unit"] not in UNITS:
+            raise ValueError(f"unit is {root['unit']!r}")
+        root["time"], root["n_nodes"] = float(root["time"]), int(root["n_nodes"])
+        states = tuple(_state_from(value) for value in root["valves"])
+    except Error:
+        raise
+    except (AttributeError, KeyError, TypeError, ValueError, zlib.error) as error:
+        raise InvalidArgumentError(f"path: {path!r} is damaged: {type(error).__name__} {error}") from None
+    return root, states

@@ -1,0 +1,360 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The state of a valve in the view: its kind, sizes and placement as plain values, from which surfaces and files are made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import lru_cache
+from types import MappingProxyType
+from typing import Any, Literal, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from riis._errors import InvalidArgumentError, UnknownParameterError
+from riis._riis import Keyframes, Surface, Valve
+from riis.laws import OpeningTable, OpeningTimes
+
+Reals = NDArray[numpy.float64]
+Ids = NDArray[numpy.int64]
+Integers = NDArray[numpy.int32]
+Vector = tuple[float, float, float]
+Value = float | tuple[float, ...]
+
+KINDS = ("coapting", "trileaflet", "aortic", "mitral", "bileaflet")
+UNITS = {"mm": 10.0, "cm": 1.0, "m": 0.01}  # mesh units in a centimetre
+WORDS_OF_UNITS = {"mm": "millimetres", "cm": "centimetres", "m": "metres"}
+TRIANGULATIONS = ("adapted", "fixed")
+SURFACE = "surface"  # the kind of a surface from a file
+
+# The sizes that matter first. Names by a surgeon, such as annulus, come first in any case.
+_FIRST = {
+    "aortic": ("bending_height", "skirt_length"),
+    "coapting": ("coaptation_height", "gap", "skirt_length"),
+    "trileaflet": ("bending_height", "skirt_length"),
+    "mitral": ("AP_diameter", "ALPM_diameter", "anterior_length", "posterior_scallop_length1", "posterior_scallop_length2",
+               "skirt_length"),
+    "bileaflet": ("closed_angle", "open_angle", "ring_height"),
+}
+
+
+class Parameter(NamedTuple):
+    """A size of a kind of valve, as a slider and a table need it. Lengths are in centimetres, angles in degrees."""
+
+    name: str
+    unit: str  #: "length", "degree" or "1"
+    least: float  #: the library refuses less
+    greatest: float  #: the library refuses more
+    default: Value
+    description: str
+    first: bool  #: whether it is one of the sizes that matter first
+    n_values: int  #: 1 or 3
+    low: float  #: where a slider begins: a size that a valve may have
+    high: float  #: where a slider ends
+    rule: str  #: the value unless it is set, such as "0.5 leaflet_height"; "": the default
+    other_name: str  #: a surgeon's name of the same size, such as "annulus", which is then a parameter of its own
+    other_factor: float  #: the value by the other name is this times the parameter's
+
+
+class Cycle(NamedTuple):
+    """An opening in time."""
+
+    source: str  #: the name of a built-in cycle, or the path of a CSV file
+    law: OpeningTable | OpeningTimes
+    period: float
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceSource:
+    """A surface from a file, with one frame or with several in time. Lengths have the file's unit."""
+
+    vertices: Reals  #: (n_frames, n_vertices, 3)
+    faces: Ids  #: (n_faces, 3 or 4)
+    leaflet_id: Integers | None = None
+    times: Reals | None = None  #: (n_frames,); None for one frame
+    period: float = 0.0
+    path: str | None = None
+
+    @property
+    def moves(self) -> bool:
+        return self.times is not None
+
+
+@dataclass(frozen=True)
+class ValveState:
+    """A valve in the view. It is a snapshot: the model makes a new one for each change.
+
+    The placement takes a point x of the valve to scale * rotation * x + origin. ``axis`` and ``reference`` are the directions of
+    the valve's z and x axes in the mesh.
+    """
+
+    name: str
+    kind: str  #: one of KINDS, or "surface"
+    opening: float
+    half_thickness: float  #: mesh units
+    resistance: float
+    scale: float
+    rotation: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 0.0)  #: an axis, and degrees
+    origin: Vector = (0.0, 0.0, 0.0)  #: the place of the valve's own origin, mesh units
+    parameters: Mapping[str, Value] = field(default_factory=lambda: MappingProxyType({}))  #: those that were set
+    triangulation: Literal["adapted", "fixed"] = "adapted"
+    cycle: Cycle | None = None
+    surface: SurfaceSource | None = None
+    time: float = 0.0  #: of a surface that moves
+
+    @property
+    def matrix(self) -> Reals:
+        """The rotation: its columns are the directions of the valve's axes."""
+        return matrix_of(self.rotation)
+
+    @property
+    def axis(self) -> Vector:
+        return vector(self.matrix[:, 2])
+
+    @property
+    def reference(self) -> Vector:
+        return vector(self.matrix[:, 0])
+
+    @property
+    def placement(self) -> dict[str, Any]:
+        """The options of riis.Surface that place the valve."""
+        return {
+            "scale": self.scale,
+            "rotation_axis": self.rotation[:3],
+            "rotation_angle": self.rotation[3],
+            "translation": self.origin,
+        }
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """All options of riis.Surface."""
+        made = {"half_thickness": self.half_thickness, **self.placement}
+        if self.triangulation != "adapted":
+            made["triangulation"] = self.triangulation
+        return made
+
+    def valve(self) -> Valve | None:
+        """Makes the valve. A surface from a file has none."""
+        if self.surface is not None:
+            return None
+        made = Valve(self.kind)
+        made.update(self.parameters)
+        made["opening"] = self.opening
+        return made
+
+    def keyframes(self) -> Keyframes | None:
+        source = self.surface
+        if source is None or source.times is None:
+            return None
+        return Keyframes(source.times, source.vertices, source.faces, leaflet_id=source.leaflet_id, period=source.period)
+
+    def made_surface(self, keyframes: Keyframes | None = None) -> Surface:
+        """Makes the surface."""
+        source = self.surface
+        valve = self.valve()
+        if valve is not None:
+            return Surface(valve, **self.options)
+        assert source is not None
+        if source.times is not None:
+            return Surface.from_keyframes(keyframes or self.keyframes(), self.time, **self.options)  # type: ignore[arg-type]
+        return Surface.from_arrays(source.vertices[0], source.faces, leaflet_id=source.leaflet_id, **self.options)
+
+
+# ---- Values ----
+
+
+def refuse(message: str) -> InvalidArgumentError:
+    return InvalidArgumentError(message)
+
+
+def number(value: Any, name: str) -> float:
+    """Returns a finite number, or refuses the value under this name."""
+    try:
+        made = float(value) if not isinstance(value, str) else math.nan
+    except (TypeError, ValueError):
+        made = math.nan
+    if not math.isfinite(made):
+        raise refuse(f"{name}: is {value!r}; it must be a finite number")
+    return made
+
+
+def above_zero(value: Any, name: str) -> float:
+    made = number(value, name)
+    if not made > 0.0:
+        raise refuse(f"{name}: is {value!r}; it must be above 0")
+    return made
+
+
+def point(value: Any, name: str) -> Reals:
+    """Returns three finite numbers, or refuses the value under this name."""
+    try:
+        made = numpy.asarray(value, numpy.float64)
+    except (TypeError, ValueError):
+        made = numpy.empty(0)
+    if made.shape != (3,) or not numpy.isfinite(made).all():
+        raise refuse(f"{name}: is {value!r}; it must be three finite numbers")
+    return made
+
+
+def vector(value: Any) -> Vector:
+    x, y, z = (float(component) for component in value)
+    return x, y, z
+
+
+def plain(value: Any) -> Value:
+    """Returns a parameter's value as a number or a tuple."""
+    return float(value) if numpy.ndim(value) == 0 else tuple(float(component) for component in value)
+
+
+def values_that_were_set(valve: Valve) -> Mapping[str, Value]:
+    """Returns the parameters that were set, without the opening."""
+    return MappingProxyType({name: plain(valve[name]) for name in valve if name != "opening" and valve.is_set(name)})
+
+
+# ---- Parameters ----
+
+
+def check_kind(kind: Any) -> str:
+    if kind not in KINDS:
+        raise refuse(f"kind: is {kind!r}; it must be one of {', '.join(KINDS)}")
+    return str(kind)
+
+
+def _slider(unit: str, least: float, greatest: float, default: Value) -> tuple[float, float]:
+    """Returns the ends of a slider. Lengths reach from 0.4 to 2 times the default."""
+    largest = max(abs(part) for part in default) if isinstance(default, tuple) else abs(default)
+    if unit == "length":
+        if isinstance(default, tuple) or (least < 0 and largest == 0.0):
+            return max(least, -5.0), min(greatest, 5.0)
+        if largest == 0.0:
+            return least, min(greatest, 1.0)
+        ends = 0.4 * float(default), 2.0 * float(default)
+        return max(least, min(ends)), min(greatest, max(ends))
+    if greatest - least <= 720.0:
+        return least, greatest
+    return max(least, -max(1.0, 2.0 * largest)), min(greatest, max(1.0, 2.0 * largest))
+
+
+@lru_cache(maxsize=None)
+def parameters_of(kind: str) -> tuple[Parameter, ...]:
+    """Returns the parameters of a kind, the first sizes first. A size with a surgeon's name is there by both names."""
+    table = Valve(check_kind(kind)).parameters
+    first: list[Parameter] = []
+    rest: list[Parameter] = []
+    for name, known in table.items():
+        if name == "opening":
+            continue
+        default = plain(known.default)
+        low, high = _slider(known.unit, known.minimum, known.maximum, default)
+        is_first = name in _FIRST[kind] and not known.other_name
+        made = Parameter(name, known.unit, known.minimum, known.maximum, default, known.description, is_first, known.n_values,
+                         low, high, known.rule, known.other_name, known.other_factor)
+        (first if is_first else rest).append(made)
+    by_surgeons: list[Parameter] = []
+    for size in [*first, *rest]:
+        if not size.other_name or any(made.name == size.other_name for made in by_surgeons):
+            continue
+        if size.name == size.other_name:  # such as effective_height of a coapting valve
+            rest = [made for made in rest if made.name != size.name]
+            by_surgeons.append(size._replace(first=True))
+            continue
+        factor = size.other_factor
+        words = {"annulus": "diameter of the annulus", "stj": "diameter at the commissures (sinotubular junction)",
+                 "effective_height": "height of the free edges above the annulus"}
+        by_surgeons.append(
+            size._replace(name=size.other_name, least=factor * size.least, greatest=factor * size.greatest,
+                          default=factor * size.default if isinstance(size.default, float) else size.default,
+                          description=words.get(size.other_name, size.description), first=True, low=factor * size.low,
+                          high=factor * size.high, other_name=size.name, other_factor=1.0 / factor)
+        )
+    order = list(_FIRST[kind])
+    first.sort(key=lambda made: order.index(made.name))
+    return (*by_surgeons, *first, *rest)
+
+
+def values_of(state: ValveState) -> dict[str, Value]:
+    """Returns the present values of all parameters, also by the surgeon's names and of sizes that follow a rule."""
+    valve = state.valve()
+    if valve is None:
+        return {}
+    made = {}
+    for known in parameters_of(state.kind):
+        if known.name in valve:
+            made[known.name] = plain(valve[known.name])
+        else:
+            made[known.name] = float(valve[known.other_name]) / known.other_factor
+    return made
+
+
+def check_name(kind: str, name: str) -> None:
+    """Refuses a name that no parameter has."""
+    valve = Valve(kind)
+    names = {known.name for known in parameters_of(kind)} | {part.split(".")[-1] for part in valve}
+    if name not in names:
+        raise UnknownParameterError(
+            f"name: is {name!r}; a {kind} valve has {', '.join(sorted(names))}, and the view has opening, half_thickness, "
+            "resistance, scale and triangulation"
+        )
+
+
+# ---- Rotations ----
+
+
+def matrix_of(rotation: tuple[float, float, float, float]) -> Reals:
+    """Returns the matrix of a rotation about an axis by degrees (Rodrigues)."""
+    axis = numpy.array(rotation[:3])
+    axis = axis / numpy.linalg.norm(axis)
+    angle = math.radians(rotation[3])
+    x, y, z = axis
+    cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return numpy.asarray(numpy.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross))
+
+
+def rotation_of(matrix: Reals) -> tuple[float, float, float, float]:
+    """Returns the axis and the degrees of a rotation matrix."""
+    twist = numpy.array([matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]])
+    sine, cosine = float(numpy.linalg.norm(twist)), float(numpy.trace(matrix)) - 1.0
+    angle = math.degrees(math.atan2(sine, cosine))
+    if sine > 1e-9:
+        axis = twist / sine
+    elif cosine > 0.0:
+        return 0.0, 0.0, 1.0, 0.0
+    else:  # half a turn: a column of the matrix plus 1 lies along the axis
+        doubled = matrix + numpy.eye(3)
+        axis = doubled[:, int(numpy.argmax(numpy.diag(doubled)))]
+        axis = axis / numpy.linalg.norm(axis)
+    x, y, z = vector(axis)
+    return x, y, z, angle
+
+
+def _unit(value: Reals, name: str) -> Reals:
+    length = float(numpy.linalg.norm(value))
+    if not length > 0.0:
+        raise refuse(f"{name}: is {tuple(value.tolist())}; a direction must not be zero")
+    return numpy.asarray(value / length)
+
+
+def turned(matrix: Reals, axis: Any, reference: Any) -> Reals:
+    """Returns a rotation whose z axis is along axis. Without a reference, it is the smallest turn from the given rotation."""
+    if axis is None and reference is None:
+        return matrix
+    z = matrix[:, 2] if axis is None else _unit(point(axis, "axis"), "axis")
+    if reference is None:
+        old = matrix[:, 2]
+        sine = numpy.cross(old, z)
+        length = float(numpy.linalg.norm(sine))
+        if length < 1e-12:
+            x = matrix[:, 0]  # the same axis, or half a turn about the valve's x axis
+        else:
+            degrees = math.degrees(math.atan2(length, float(old @ z)))
+            x = matrix_of((*vector(sine / length), degrees)) @ matrix[:, 0]
+    else:
+        x = _unit(point(reference, "reference"), "reference")
+    across = x - (x @ z) * z
+    length = float(numpy.linalg.norm(across))
+    if length < 1e-6:
+        raise refuse(f"reference: is {tuple(x.tolist())}, which is along the axis {tuple(z.tolist())}")
+    across = across / length
+    return numpy.column_stack([across, numpy.cross(z, across), z])

@@ -1,0 +1,703 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The model of the view: everything but the pictures.
+
+    model = Model(points, cells, unit="mm", path="root.vtu")
+    i = model.add("coapting")
+    model.place_by_clicks(i, clicks)              # three points of the annulus
+    shown = model.update()                        # triangles, marked nodes and cells
+    for light in model.lights(): print(light.name, light.level, light.text, light.advice)
+    print(model.command())                        # riis mark root.vtu --valve=coapting ...
+
+A change is checked when it is made. If it is refused, with a riis.Error that names the value, nothing changed. A model is for one
+thread at a time.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import os
+import re
+import time as clock
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from riis._place import PlaceResult, place
+from riis._riis import Keyframes, Marks, Surface, mark
+from riis.view import _outputs
+from riis.view._annulus import annulus_of, placed_by
+from riis.view._cells import Region, WholeMesh
+from riis.view._cycles import CYCLES, cycle_of
+from riis.view._lights import JUDGES, NAMES, Light, Scene, worst
+from riis.view._orifice import outline_of
+from riis.view._valves import (
+    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero, check_kind, check_name,
+    number, parameters_of, point, refuse, rotation_of, turned, values_of, values_that_were_set, vector,
+)
+
+__all__ = [
+    "CYCLES", "KINDS", "UNITS", "Cycle", "Light", "Model", "Parameter", "ShownSurface", "Shown", "SurfaceSource", "ValveState",
+]
+
+Reals = NDArray[numpy.float64]
+Ids = NDArray[numpy.int64]
+Integers = NDArray[numpy.int32]
+
+_MOST_STEPS = 200  # of undo
+
+
+class ShownSurface(NamedTuple):
+    """The triangles of a valve as it is now."""
+
+    points: Reals  #: (n, 3), mesh units
+    triangles: Ids  #: (m, 3)
+    leaflet: Integers  #: (m,): the leaflet of each triangle; a skirt has a leaflet of its own
+
+
+class Shown(NamedTuple):
+    """What is seen: the valves, and the nodes and cells that they mark. Ids are the caller's, ascending."""
+
+    surfaces: tuple[ShownSurface, ...]
+    marked: Ids  #: (n,)
+    leaflet: Integers  #: (n,): the leaflet that is nearest to each marked node
+    distance: Reals  #: (n,), of each marked node from it
+    valve: Ids  #: (n,): the valve of this leaflet
+    cells_marked: Ids  #: volume cells all of whose nodes are marked
+    cells_partly: Ids  #: volume cells with some marked nodes
+    milliseconds: float  #: for the last change of the surfaces, and for these marks
+
+
+@dataclasses.dataclass
+class _Placed:
+    """A valve's state with the objects that are made from it."""
+
+    state: ValveState
+    surface: Surface
+    keyframes: Keyframes | None
+    marks: Marks
+    seconds: float  # that the surface took
+
+    @classmethod
+    def of(cls, state: ValveState, before: _Placed | None = None) -> _Placed:
+        start = clock.perf_counter()
+        same = before is not None and before.state.surface is state.surface
+        keyframes = before.keyframes if before is not None and same else state.keyframes()
+        surface = state.made_surface(keyframes)
+        return cls(state, surface, keyframes, before.marks if before is not None else Marks(), clock.perf_counter() - start)
+
+
+class _Snapshot(NamedTuple):
+    valves: tuple[ValveState, ...]
+    unit: str | None
+
+
+class Model:
+    """A mesh with valves that can be moved, changed, judged and written.
+
+    points   (n, 3): the nodes
+    cells    volume cells as riis.Adjacency.from_cells takes them: (n, 4, 5, 6 or 8), or flat with offsets. None: nodes only
+    offsets  (n_cells + 1,): where each cell begins in cells
+    types    (n_cells,): VTK's types of the cells. Then cells may also be triangles, lines or quadratic
+    unit     of the mesh: "mm", "cm" or "m". None: not known
+    path     the file that the mesh came from, for the files and commands that the model writes
+    """
+
+    def __init__(
+        self,
+        points: Any,
+        cells: Any = None,
+        *,
+        offsets: Any = None,
+        types: Any = None,
+        unit: Literal["mm", "cm", "m"] | None = None,
+        path: str | os.PathLike[str] | None = None,
+        _near: bool = False,
+    ) -> None:
+        if unit is not None and unit not in UNITS:
+            raise refuse(f"unit: is {unit!r}; it must be {', '.join(UNITS)}")
+        self._mesh = WholeMesh(points, cells, offsets=offsets, types=types, near=_near)
+        self._path = None if path is None else os.fspath(path)
+        self._unit: str | None = unit
+        self._placed: tuple[_Placed, ...] = ()
+        self._undo: list[_Snapshot] = []
+        self._redo: list[_Snapshot] = []
+        self._drag: tuple[Any, ...] | None = None
+        self._is_dragging = False
+        self._time = 0.0
+        self._shown: Shown | None = None
+        self._lights: list[Light] | None = None
+
+    @classmethod
+    def near(cls, points: Any, cells: Any = None, **options: Any) -> Model:
+        """Makes a model of a large mesh. It keeps the whole mesh, and works with the cells near the valves.
+
+        The marks are those of the whole mesh. When a valve leaves the cells near it, the next update finds new ones, which takes
+        about a second for 5 million nodes.
+        """
+        return cls(points, cells, _near=True, **options)
+
+    # ---- Facts ----
+
+    @property
+    def valves(self) -> tuple[ValveState, ...]:
+        """Snapshots of the valves."""
+        return tuple(placed.state for placed in self._placed)
+
+    @property
+    def points(self) -> Reals:
+        """(n, 3): the nodes of the whole mesh."""
+        return self._mesh.points
+
+    @property
+    def unit(self) -> str | None:
+        return self._unit
+
+    @property
+    def path(self) -> str | None:
+        return self._path
+
+    @property
+    def time(self) -> float:
+        return self._time
+
+    @property
+    def bounds(self) -> tuple[Reals, Reals]:
+        """The least and the largest coordinates of the mesh."""
+        return self._mesh.lower, self._mesh.upper
+
+    def parameters(self, kind: str) -> list[Parameter]:
+        """Returns the sizes of a kind, those that matter first at the front."""
+        return list(parameters_of(kind))
+
+    def values(self, i: int) -> dict[str, Value]:
+        """Returns the present values of all parameters of a valve, also of those that were not set."""
+        return values_of(self._at(i).state)
+
+    def surface(self, i: int) -> Surface:
+        """Returns the surface of a valve as it is now, for its measures. The next change replaces it."""
+        return self._at(i).surface
+
+    def _at(self, i: int) -> _Placed:
+        if isinstance(i, bool) or not isinstance(i, (int, numpy.integer)) or not 0 <= i < len(self._placed):
+            raise refuse(f"i: is {i!r}; there are {len(self._placed)} valves, from 0")
+        return self._placed[int(i)]
+
+    # ---- Changes, and undo ----
+
+    def _change(self, states: tuple[ValveState, ...], unit: str | None, key: tuple[Any, ...] | None = None) -> None:
+        """Makes the surfaces of new states, and then takes the states and one step of undo."""
+        placed = self._made(states)
+        if not (self._is_dragging and key is not None and key == self._drag):
+            self._undo.append(_Snapshot(self.valves, self._unit))
+            del self._undo[:-_MOST_STEPS]
+        self._drag = key if self._is_dragging else None
+        self._redo.clear()
+        self._take(placed, unit)
+
+    def _made(self, states: tuple[ValveState, ...]) -> tuple[_Placed, ...]:
+        known = {id(placed.state): placed for placed in self._placed}
+        made = []
+        for number_of, state in enumerate(states):
+            same = known.get(id(state))
+            before = self._placed[number_of] if number_of < len(self._placed) else None
+            made.append(same if same is not None else _Placed.of(state, before if len(states) == len(self._placed) else None))
+        return tuple(made)
+
+    def _take(self, placed: tuple[_Placed, ...], unit: str | None) -> None:
+        self._placed, self._unit = placed, unit
+        self._shown = self._lights = None
+
+    def _replace(self, i: int, key: tuple[Any, ...] | None, **changes: Any) -> None:
+        state = dataclasses.replace(self._at(i).state, **changes)
+        states = tuple(state if number_of == i else other for number_of, other in enumerate(self.valves))
+        self._change(states, self._unit, key)
+
+    @contextmanager
+    def dragging(self) -> Iterator[None]:
+        """While this lasts, successive changes of one thing are one step of undo."""
+        self._is_dragging, self._drag = True, None
+        try:
+            yield
+        finally:
+            self._is_dragging, self._drag = False, None
+
+    @property
+    def can_undo(self) -> bool:
+        return bool(self._undo)
+
+    @property
+    def can_redo(self) -> bool:
+        return bool(self._redo)
+
+    def undo(self) -> bool:
+        """Takes the last change back. Returns whether there was one."""
+        return self._step(self._undo, self._redo)
+
+    def redo(self) -> bool:
+        """Makes the change again that was taken back. Returns whether there was one."""
+        return self._step(self._redo, self._undo)
+
+    def _step(self, from_: list[_Snapshot], to: list[_Snapshot]) -> bool:
+        if not from_:
+            return False
+        now = _Snapshot(self.valves, self._unit)
+        placed = self._made(from_[-1].valves)
+        to.append(now)
+        self._drag = None
+        self._take(placed, from_.pop().unit)
+        return True
+
+    # ---- Valves ----
+
+    def _free_name(self, word: str) -> str:
+        names = {state.name for state in self.valves}
+        numbers = (word if k == 1 else f"{word}_{k}" for k in range(1, len(names) + 2))
+        return next(name for name in numbers if name not in names)
+
+    def add(self, kind: str) -> int:
+        """Adds a closed valve of a kind at the mesh's origin, with the scale of the mesh's unit. Returns its number."""
+        check_kind(kind)
+        scale = UNITS[self._unit] if self._unit is not None else 1.0
+        state = ValveState(
+            name=self._free_name(kind), kind=kind, opening=0.0, half_thickness=0.1 * scale, resistance=1e4, scale=scale
+        )
+        self._change((*self.valves, state), self._unit)
+        return len(self._placed) - 1
+
+    def add_surface(
+        self,
+        vertices: Any,
+        faces: Any,
+        *,
+        leaflet_id: Any = None,
+        times: Any = None,
+        period: float = 0.0,
+        path: str | os.PathLike[str] | None = None,
+        half_thickness: float | None = None,
+    ) -> int:
+        """Adds a surface from a file. Returns its number.
+
+        vertices    (n, 3), or (n_frames, n, 3) with times: in the mesh's unit
+        faces       (n, 3 or 4)
+        times       (n_frames,): when the surface has the vertices of each frame; ``at`` moves it
+        path        the file, for the case and the command
+        """
+        array = numpy.ascontiguousarray(vertices, numpy.float64)
+        if array.ndim == 2:
+            array = array[None]
+        if array.ndim != 3 or array.shape[2] != 3 or 0 in array.shape:
+            raise refuse(f"vertices: has the shape {numpy.shape(vertices)}; it must be (n, 3), or (n_frames, n, 3)")
+        moments = None if times is None else numpy.ascontiguousarray(times, numpy.float64)
+        if moments is None and len(array) > 1 or moments is not None and moments.shape != (len(array),):
+            raise refuse(f"times: has the shape {numpy.shape(times)} for {len(array)} frames of vertices")
+        source = SurfaceSource(
+            array, numpy.ascontiguousarray(faces, numpy.int64),
+            None if leaflet_id is None else numpy.ascontiguousarray(leaflet_id, numpy.int32), moments,
+            number(period, "period"), None if path is None else os.fspath(path),
+        )
+        side = float(numpy.ptp(array.reshape(-1, 3), axis=0).max())
+        half = 0.04 * side if half_thickness is None else above_zero(half_thickness, "half_thickness")
+        word = re.sub("[^A-Za-z0-9_.-]", "_", Path(source.path).stem)[:32] if source.path else ""
+        state = ValveState(
+            name=self._free_name(word or SURFACE), kind=SURFACE, opening=0.0, half_thickness=half, resistance=1e4, scale=1.0,
+            surface=source, time=0.0 if moments is None else float(moments[0]),
+        )
+        self._change((*self.valves, state), self._unit)
+        return len(self._placed) - 1
+
+    def remove(self, i: int) -> None:
+        self._at(i)
+        self._change(tuple(state for number_of, state in enumerate(self.valves) if number_of != i), self._unit)
+
+    def set(self, i: int, name: str, value: Any) -> None:
+        """Sets a parameter, or "opening", "half_thickness", "resistance", "scale", "triangulation" or "name", of a valve.
+
+        Lengths of parameters are in centimetres, the half thickness is in mesh units. A surgeon's name, such as "annulus", sets
+        the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit together.
+        """
+        state = self._at(i).state
+        key = ("set", i, name)
+        if name == "opening" and state.surface is None:
+            share = number(value, name)
+            if not 0.0 <= share <= 1.0:
+                raise refuse(f"opening: is {value!r}; it must be from 0 to 1")
+            self._replace(i, key, opening=share)
+        elif name in ("half_thickness", "scale"):
+            self._replace(i, key, **{name: above_zero(value, name)})
+        elif name == "resistance":
+            if number(value, name) < 0.0:
+                raise refuse(f"resistance: is {value!r}; it must be at least 0")
+            self._replace(i, key, resistance=float(value))
+        elif name == "triangulation":
+            if value not in TRIANGULATIONS:
+                raise refuse(f"triangulation: is {value!r}; it must be {' or '.join(TRIANGULATIONS)}")
+            self._replace(i, key, triangulation=value)
+        elif name == "name":
+            if not isinstance(value, str) or not re.fullmatch("[A-Za-z0-9_.-]{1,64}", value) or value == "riis":
+                raise refuse(f"name: is {value!r}; it must be 1 to 64 letters, digits, _, - and ., and not riis")
+            if any(other.name == value for k, other in enumerate(self.valves) if k != i):
+                raise refuse(f"name: {value!r} is the name of another valve")
+            self._replace(i, key, name=value)
+        else:
+            self._set_parameter(i, name, value, key)
+
+    def _set_parameter(self, i: int, name: str, value: Any, key: tuple[Any, ...]) -> None:
+        state = self._at(i).state
+        valve = state.valve()
+        if valve is None:
+            raise refuse(f"name: is {name!r}; a surface has half_thickness, resistance and scale")
+        check_name(state.kind, name)
+        if numpy.ndim(value) == 0:
+            valve[name] = number(value, name)
+        else:
+            valve[name] = [number(part, name) for part in value]
+        self._replace(i, key, parameters=values_that_were_set(valve))
+
+    def unset(self, i: int, name: str) -> None:
+        """Returns a parameter to its default, or to its rule."""
+        state = self._at(i).state
+        valve = state.valve()
+        if valve is None:
+            raise refuse(f"name: is {name!r}; a surface has no parameters")
+        check_name(state.kind, name)
+        valve.unset(name)
+        self._replace(i, ("unset", i, name), parameters=values_that_were_set(valve))
+
+    # ---- Placement ----
+
+    def place(
+        self, i: int, origin: Any = None, axis: Any = None, reference: Any = None, scale: float | None = None
+    ) -> None:
+        """Places a valve. What is None stays.
+
+        origin     the place of the valve's own origin, mesh units
+        axis       the direction of the valve's z axis, of any length. Without a reference the valve takes the smallest turn
+        reference  a direction to which the valve's x axis shall point as nearly as the axis allows
+        """
+        state = self._at(i).state
+        changes: dict[str, Any] = {}
+        if origin is not None:
+            changes["origin"] = vector(point(origin, "origin"))
+        if axis is not None or reference is not None:
+            changes["rotation"] = rotation_of(turned(state.matrix, axis, reference))
+        if scale is not None:
+            changes["scale"] = above_zero(scale, "scale")
+        self._replace(i, ("place", i), **changes)
+
+    def flip(self, i: int) -> None:
+        """Turns a valve upside down, by half a turn about its x axis through the middle of its annulus."""
+        state = self._at(i).state
+        matrix = state.matrix @ numpy.diag([1.0, -1.0, -1.0])
+        middle = annulus_of(state).centre if state.surface is None else numpy.zeros(3)
+        origin = numpy.array(state.origin) + state.scale * (state.matrix @ middle - matrix @ middle)
+        self._replace(i, ("flip", i), rotation=rotation_of(matrix), origin=vector(origin))
+
+    def place_by_clicks(self, i: int, points3: Any) -> None:
+        """Places a valve and sizes it by three points of the annulus, so that its annulus goes through them.
+
+        The first point tells how the valve is turned. With cusps the points are the nadirs, the lowest points of the attachment,
+        and the first is that of cusp 0, the right one of an aortic valve. Of a mitral valve the first is the middle of the
+        anterior leaflet, and the others are anywhere on the annulus. Of a bileaflet valve the first is at an end of its hinges.
+        The valve's axis stays on the side to which it points; ``flip`` turns it over. Lengths of the valve grow in proportion.
+        """
+        state = self._at(i).state
+        if state.surface is not None:
+            raise refuse(f"i: valve {i} is a surface from a file, which has no annulus")
+        self._replace(i, ("clicks", i), **placed_by(state, points3))
+
+    def place_by_landmarks(self, i: int, landmarks: Mapping[str, Any] | str | os.PathLike[str], **options: Any) -> PlaceResult:
+        """Places a valve and sizes it by a patient's landmarks, as riis.place does, with its options. Returns its result."""
+        state = self._at(i).state
+        valve = state.valve()
+        if valve is None:
+            raise refuse(f"i: valve {i} is a surface from a file, which has no landmarks")
+        if self._unit is None:
+            raise refuse("unit: is None; landmarks need the unit of the mesh")
+        if options.get("warp", "none") != "none":
+            raise refuse(f"warp: is {options['warp']!r}; the view has no warped valves")
+        found = place(landmarks, valve, unit=self._unit, **options)  # type: ignore[arg-type]
+        at = found.placement
+        x, y, z = vector(at["rotation_axis"])
+        self._replace(
+            i, ("landmarks", i), parameters=values_that_were_set(found.valve), scale=float(at["scale"]),
+            rotation=(x, y, z, float(at["rotation_angle"])), origin=vector(at["translation"]),
+        )
+        return found
+
+    # ---- Marks ----
+
+    def _region(self) -> Region:
+        lower, upper = numpy.full(3, math.inf), numpy.full(3, -math.inf)
+        for placed in self._placed:
+            info = placed.surface.info
+            lower = numpy.minimum(lower, info.lower - info.half_thickness)
+            upper = numpy.maximum(upper, info.upper + info.half_thickness)
+        if not self._placed:
+            lower = upper = (self._mesh.lower + self._mesh.upper) / 2.0
+        return self._mesh.region(lower, upper)
+
+    def update(self) -> Shown:
+        """Marks the nodes for the valves as they are now. Without a change since the last call, returns the same object."""
+        if self._shown is not None:
+            return self._shown
+        region = self._region()
+        region.prepare()
+        start = clock.perf_counter()
+        lists = []
+        for k, placed in enumerate(self._placed):
+            mark(placed.surface, region.mesh, into=placed.marks)
+            lists.append((placed.marks.ids.copy(), placed.marks.leaflet_id.copy(), placed.marks.distance.copy(), k))
+        nodes, leaflet, distance, valve = _merged(lists)
+        cells_marked, cells_partly = region.cells_of(nodes)
+        seconds = clock.perf_counter() - start
+        surfaces = []
+        for placed in self._placed:
+            seconds += placed.seconds
+            faces = placed.surface.triangles
+            surfaces.append(ShownSurface(placed.surface.vertices, faces.vertex_id, faces.leaflet_id))
+        self._shown = Shown(
+            tuple(surfaces), region.ids_of(nodes), leaflet, distance, valve, cells_marked, cells_partly, 1000.0 * seconds
+        )
+        return self._shown
+
+    def orifice(self, i: int) -> list[Reals]:
+        """Returns the outline of a valve's free orifice: closed lines (n, 3), none if it is closed."""
+        placed = self._at(i)
+        return outline_of(placed.surface, self._disc_centre(placed.state))
+
+    @staticmethod
+    def _disc_centre(state: ValveState) -> Reals:
+        valve = state.valve()
+        shift = numpy.zeros(3)
+        if valve is not None and "translation" in valve:
+            shift[:2] = valve["translation"][:2]
+        return numpy.asarray(numpy.array(state.origin) + state.scale * (state.matrix @ shift))
+
+    # ---- Lights ----
+
+    def lights(self) -> list[Light]:
+        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. Of several valves the worst light counts.
+
+        This takes longer than the marks: about half a second for 100,000 nodes, so a page calls it when the hand rests.
+        """
+        if self._lights is None:
+            self.update()
+            self._lights = [self._light(name) for name in NAMES]
+        return list(self._lights)
+
+    def _scenes(self) -> list[Scene]:
+        region = self._region()
+        return [
+            Scene(k, placed.state, placed.surface, placed.marks, region, self._mesh, self._unit)
+            for k, placed in enumerate(self._placed)
+        ]
+
+    def _light(self, name: str) -> Light:
+        scenes = self._scenes()
+        if not scenes:
+            return Light(name, "off", "there is no valve yet", "add a valve")
+        return worst([JUDGES[name](scene) for scene in scenes])
+
+    def cure(self, name: str) -> None:
+        """Does what a light offers, as one step of undo. Refuses if the light offers nothing."""
+        if name not in NAMES:
+            raise refuse(f"name: is {name!r}; the lights are {', '.join(NAMES)}")
+        self.update()
+        light = self._light(name)
+        if light.cure is None:
+            raise refuse(f"name: the light {name} is {light.level} and offers no cure: {light.text}")
+        before = _Snapshot(self.valves, self._unit), list(self._undo)
+        try:
+            self._cure(light)
+        except BaseException:
+            self._take(self._made(before[0].valves), before[0].unit)
+            self._undo = before[1]
+            raise
+        del self._undo[len(before[1]) :]
+        self._undo = [*before[1], before[0]][-_MOST_STEPS:]
+
+    def _cure(self, light: Light) -> None:
+        i, name = light.valve, light.name
+        if name == "unit":
+            self._rescale(light.value)
+        elif name == "inside":
+            self._move_inside(i)
+        elif name == "wall":
+            self.set(i, "skirt_length", light.value)
+        else:
+            # A new half thickness changes the triangles a little, so the light is read again.
+            length = light.value
+            for _ in range(6):
+                self.set(i, "half_thickness", length)
+                self.update()
+                again = JUDGES[name](self._scenes()[i])
+                if again.level != "bad" or again.cure is None:
+                    break
+                length = max(again.value, 1.02 * length)
+
+    def _rescale(self, factor: float) -> None:
+        states = tuple(
+            dataclasses.replace(state, scale=float(f"{factor * state.scale:.12g}"),
+                                half_thickness=float(f"{factor * state.half_thickness:.12g}"))
+            for state in self.valves
+        )
+        scale = states[0].scale
+        unit = next((known for known, size in UNITS.items() if scale == size), None)
+        self._change(states, unit if all(state.surface is None for state in states) else self._unit)
+
+    def _move_inside(self, i: int) -> None:
+        placed = self._at(i)
+        info = placed.surface.info
+        nodes = self._mesh.points
+        middle = nodes.mean(axis=0)
+        target = nodes[int(numpy.argmin(((nodes - middle) ** 2).sum(axis=1)))]
+        origin = numpy.array(placed.state.origin) + target - (info.lower + info.upper) / 2.0
+        self._replace(i, None, origin=vector(origin))
+
+    # ---- Time ----
+
+    def set_cycle(
+        self, builtin_or_csv: str | os.PathLike[str] | None, period: float = 1.0, *, valve: int | None = None,
+        interpolation: Literal["linear", "cubic"] = "linear",
+    ) -> None:
+        """Gives valves an opening in time, which ``at`` plays.
+
+        builtin_or_csv  "aortic", "mitral" or "slow", or a CSV file of the program with two columns, times and openings. None: no
+                        cycle
+        period          after which the cycle repeats
+        valve           the valve; None: all valves
+        """
+        cycle = None if builtin_or_csv is None else cycle_of(os.fspath(builtin_or_csv), period, interpolation)
+        if valve is not None:
+            self._at(valve)
+        states = tuple(
+            dataclasses.replace(state, cycle=cycle) if valve in (None, k) and state.surface is None else state
+            for k, state in enumerate(self.valves)
+        )
+        self._change(states, self._unit)
+
+    def at(self, time: float) -> None:
+        """Moves all valves with a cycle, and surfaces that move, to a time. This is no step of undo."""
+        moment = number(time, "time")
+        states = tuple(_moved(state, moment) for state in self.valves)
+        self._take(self._made(states), self._unit)
+        self._time = moment
+
+    def period(self, i: int) -> float:
+        """Returns the period of a valve's cycle or of a surface that moves; 0 without."""
+        state = self._at(i).state
+        if state.surface is not None:
+            times = state.surface.times
+            return 0.0 if times is None else state.surface.period or float(times[-1] - times[0])
+        return 0.0 if state.cycle is None else state.cycle.period
+
+    def curve(self, n: int = 50, i: int = 0) -> dict[str, Reals]:
+        """Returns arrays (n,) over one period of a valve: time, opening, orifice (area) and marked (number of nodes)."""
+        state = self._at(i).state
+        if isinstance(n, bool) or not isinstance(n, (int, numpy.integer)) or not 2 <= n <= 10_000:
+            raise refuse(f"n: is {n!r}; it must be from 2 to 10000")
+        whole = self.period(i)
+        if not whole > 0.0:
+            raise refuse(f"i: valve {i} has no cycle; set_cycle gives it one")
+        start = 0.0
+        if state.surface is not None and state.surface.times is not None:
+            start = float(state.surface.times[0])
+        times = start + whole * numpy.arange(n) / (n - 1)
+        marks = Marks()
+        columns: dict[str, list[float]] = {"opening": [], "orifice": [], "marked": []}
+        placed = self._at(i)
+        region = self._region()
+        for moment in times:
+            placed = _Placed.of(_moved(state, float(moment)), placed)
+            info = placed.surface.info
+            if not region.holds(info.lower - info.half_thickness, info.upper + info.half_thickness):
+                region = self._mesh.region(info.lower - info.half_thickness, info.upper + info.half_thickness)
+            mark(placed.surface, region.mesh, into=marks)
+            columns["opening"].append(placed.state.opening)
+            columns["orifice"].append(placed.surface.orifice().area)
+            columns["marked"].append(float(len(marks)))
+        return {"time": times, **{name: numpy.array(column) for name, column in columns.items()}}
+
+    # ---- Files ----
+
+    def case(self, times: Any = None) -> str:
+        """Returns a case file of the program (riis help cases): what is seen, or with times the motion by the cycles."""
+        moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
+        return _outputs.case_of(self.valves, self._unit, self._path, moments)
+
+    def command(self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis") -> str:
+        """Returns the command that marks what is seen. Several valves need the file of ``case()``, under the name case."""
+        return _outputs.command_of(self.valves, self._unit, self._path, case, output, program)
+
+    def python(self) -> str:
+        """Returns a script that marks what is seen: marks[NAME] for each valve, and K. Without a path it needs points."""
+        return _outputs.python_of(self.valves, self._path)
+
+    def openfoam(self, density: float = 1060.0) -> str:
+        """Returns fvOptions of OpenFOAM, in metres. A mesh without a unit is taken as it is."""
+        return _outputs.openfoam_of(self.valves, self._unit, density)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the session. ``load`` opens it as it was."""
+        Path(path).write_text(_outputs.session_of(self.valves, self._unit, self._path, len(self.points), self._time))
+
+    def restore(self, path: str | os.PathLike[str]) -> None:
+        """Reads the valves of a session into this model, as one step of undo. The mesh must have as many nodes."""
+        root, states = _outputs.read_session(os.fspath(path))
+        if root["n_nodes"] != len(self.points):
+            raise refuse(f"path: {os.fspath(path)!r} is of a mesh with {root['n_nodes']} nodes; this one has {len(self.points)}")
+        self._change(states, root["unit"])
+        self._time = root["time"]
+
+    @classmethod
+    def load(
+        cls,
+        path: str | os.PathLike[str],
+        mesh: Mapping[str, Any] | Callable[[str], Mapping[str, Any]] | None = None,
+    ) -> Model:
+        """Opens a session.
+
+        mesh  the arrays of its mesh, by the names of Model's arguments, such as {"points": ..., "cells": ..., "near": True}; or a
+              function that reads them from the path that the session has
+        """
+        root, _ = _outputs.read_session(os.fspath(path))
+        if callable(mesh):
+            if root["mesh"] is None:
+                raise refuse(f"mesh: {os.fspath(path)!r} names no file of a mesh; pass its arrays")
+            arrays = dict(mesh(root["mesh"]))
+        elif mesh is not None:
+            arrays = dict(mesh)
+        else:
+            raise refuse(f"mesh: is None; pass the arrays of {root['mesh'] or 'the mesh'}, or a function that reads them")
+        made = cls(**{"path": root["mesh"], "unit": root["unit"], "_near": arrays.pop("near", False), **arrays})
+        made.restore(path)
+        made._undo.clear()
+        return made
+
+
+def _merged(lists: list[tuple[Ids, Integers, Reals, int]]) -> tuple[Ids, Integers, Reals, Ids]:
+    """Returns the nodes of all valves, ascending, each with its nearest leaflet."""
+    if not lists:
+        return numpy.empty(0, numpy.int64), numpy.empty(0, numpy.int32), numpy.empty(0), numpy.empty(0, numpy.int64)
+    ids = numpy.concatenate([part[0] for part in lists])
+    leaflet = numpy.concatenate([part[1] for part in lists])
+    distance = numpy.concatenate([part[2] for part in lists])
+    valve = numpy.concatenate([numpy.full(len(part[0]), part[3], numpy.int64) for part in lists])
+    if len(lists) == 1:
+        return ids, leaflet, distance, valve
+    order = numpy.lexsort((valve, distance, ids))
+    order = order[numpy.concatenate([[True], numpy.diff(ids[order]) > 0])] if len(order) else order
+    return ids[order], leaflet[order], distance[order], valve[order]
+
+
+def _moved(state: ValveState, time: float) -> ValveState:
+    if state.surface is not None and state.surface.moves:
+        return dataclasses.replace(state, time=time)
+    if state.cycle is not None:
+        return dataclasses.replace(state, opening=float(state.cycle.law(time)))
+    return state
