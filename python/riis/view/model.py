@@ -314,6 +314,15 @@ class Model:
         self._at(i)
         self._change(tuple(state for number_of, state in enumerate(self.valves) if number_of != i), self._unit)
 
+    def change_kind(self, i: int, kind: str) -> None:
+        """Makes a valve one of another kind, with this kind's default sizes. Its placement, half thickness and cycle stay."""
+        state = self._at(i).state
+        if state.surface is not None:
+            raise refuse(f"i: valve {i} is a surface from a file, which has no kind")
+        if check_kind(kind) != state.kind:
+            name = self._free_name(kind) if re.fullmatch(state.kind + "(_[0-9]+)?", state.name) else state.name
+            self._replace(i, None, kind=kind, parameters=MappingProxyType({}), name=name)
+
     def set(self, i: int, name: str, value: Any) -> None:
         """Sets a parameter, or "opening", "half_thickness", "resistance", "scale", "triangulation" or "name", of a valve.
 
@@ -464,6 +473,12 @@ class Model:
             tuple(surfaces), region.ids_of(nodes), leaflet, distance, valve, cells_marked, cells_partly, 1000.0 * seconds
         )
         return self._shown
+
+    def marks_of(self, i: int) -> tuple[Ids, Reals, Integers]:
+        """Returns the marked nodes of one valve, ascending, with their distances and leaflets."""
+        self.update()
+        marks = self._at(i).marks
+        return self._region().ids_of(marks.ids), marks.distance.copy(), marks.leaflet_id.copy()
 
     def orifice(self, i: int) -> list[Reals]:
         """Returns the outline of a valve's free orifice: closed lines (n, 3), none if it is closed."""

@@ -464,7 +464,7 @@ class Page:
         if self.model is None or self.state.is_surface or self.state.kind == self._valve().kind:
             return
         self._end_drag()
-        _change_kind(self.model, self.state.current, self.state.kind)
+        self.model.change_kind(self.state.current, self.state.kind)
         self._renew_all()
 
     def _changed_current(self) -> None:
@@ -841,14 +841,6 @@ def _row_of(parameter: Any, value: Any, is_set: bool) -> dict[str, Any]:
         "range": f"{_number(parameter.least)} to {_number(parameter.greatest)}", "changed": is_set,
         "description": parameter.description + (f" (unless set: {parameter.rule})" if parameter.rule else ""),
     }  # fmt: skip
-
-
-def _change_kind(model: Any, i: int, kind: str) -> None:
-    if hasattr(model, "change_kind"):
-        model.change_kind(i, kind)
-    else:
-        import types
-        model._replace(i, None, kind=kind, parameters=types.MappingProxyType({}), name=model._free_name(kind))
 
 
 def _placement_of(valve: Any) -> list[dict[str, Any]]:

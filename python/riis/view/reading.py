@@ -152,13 +152,6 @@ def number_of(value: Any, name: str) -> float:
         raise Refusal(f"{name}: '{value}' is not a number") from None
 
 
-def _marks_of(model: Any, k: int) -> tuple[Any, Any, Any]:
-    if hasattr(model, "marks_of"):
-        return model.marks_of(k)
-    marks = model._at(k).marks
-    return model._region().ids_of(marks.ids), marks.distance, marks.leaflet_id
-
-
 def write_marked(grid: Any, model: Any, path: str) -> None:
     """Writes the mesh with the arrays that the program riis writes: riis_marked, riis_distance and riis_leaflet.
 
@@ -166,13 +159,12 @@ def write_marked(grid: Any, model: Any, path: str) -> None:
     """
     import pyvista
 
-    model.update()
     out = pyvista.UnstructuredGrid()
     out.deep_copy(grid)
     out.points = numpy.asarray(grid.points, numpy.float64)
     prefixes = ["riis"] if len(model.valves) == 1 else [valve.name for valve in model.valves]
     for k, prefix in enumerate(prefixes):
-        ids, distance, leaflet = _marks_of(model, k)
+        ids, distance, leaflet = model.marks_of(k)
         n_nodes = grid.n_points
         arrays = {
             "marked": (numpy.zeros(n_nodes, numpy.uint8), 1), "distance": (numpy.full(n_nodes, FAR_DISTANCE), distance),
