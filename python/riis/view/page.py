@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import base64
 import functools
+import hashlib
 import logging
 import math
 import os
@@ -121,7 +122,7 @@ class Page:
             "message": "", "message_type": "error", "folder": str(self.folder),
             "kinds": list(KINDS), "kind": KINDS[0], "is_surface": False, "valve_names": [], "current": 0,
             "sliders": [], "rows": [], "panels": [], "placement": [], "tool": "look", "n_clicks": 0,
-            "lights": [], "fresh": False, "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
+            "lights": [], "fresh": False, "digest": "", "n_marked": 0, "milliseconds": 0.0, "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
             "looks": {name: name.capitalize() for name in LOOKS},
             "playing": False, "time": 0.0, "period": 1.0, "speed": 0.25, "speeds": _SPEEDS, "cycle": "", "cycles": list(CYCLES), "curves": [],
             "texts": _TEXTS, "text": "", "text_title": "", "text_shown": False,
@@ -358,6 +359,7 @@ class Page:
         with self.state as state:
             if state.sliders and state.sliders[0]["name"] == "opening" and state.sliders[0]["value"] != valve.opening:
                 state.sliders[0]["value"] = state.slider_0 = valve.opening
+            state.n_marked, state.milliseconds = len(self._shown.marked), self._shown.milliseconds
             state.marked_text = (
                 f"{len(self._shown.marked):,} nodes marked in {self._shown.milliseconds:.1f} ms"
             )
@@ -380,6 +382,7 @@ class Page:
         self._show_orifice()
         with self.state as state:
             state.lights = [_light_of(light) for light in lights]
+            state.digest = _digest_of(self._shown)
         self._show_numbers()
         self._push(92)
         with self.state as state:
@@ -871,6 +874,12 @@ def _line_of(label: str, times: Any, values: Any, colour: str, unit: str = "", *
         label += f", at most {float(f'{top:.3g}'):,g} {unit}"
     x, y = 300 * (times - times[0]) / (times[-1] - times[0]), 41 - 38 * values / top
     return {"label": label, "colour": colour, "points": " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))}
+
+
+def _digest_of(shown: Any) -> str:
+    """Returns a digest of the marks: ids, distances and leaflets, to the last bit. ./run view --check compares it with files."""
+    parts = (shown.marked, numpy.int64), (shown.distance, numpy.float64), (shown.leaflet, numpy.int32)
+    return hashlib.sha256(b"".join(numpy.asarray(array, kind).tobytes() for array, kind in parts)).hexdigest()
 
 
 def _dragged(scene: Any, tool: str, valve: Any, dx: float, dy: float, shift: bool) -> tuple[Any, Any, Any, float]:
