@@ -107,7 +107,7 @@ class Browser:
         while still < 6:
             time.sleep(0.25)
             try:
-                number = self.get("picture_number") if self.get("fresh") and self.get("progress") is None else -1
+                number = self.get("picture_number") if self.get("fresh") and self.get("at_rest") and self.get("progress") is None else -1
             except JavascriptException:  # the page is not there yet
                 number = -1
             still = still + 1 if number == last != -1 else 0

@@ -7,6 +7,7 @@ import numpy
 from numpy.typing import NDArray
 
 import riis
+from riis.view.model import Light, Model, Shown
 
 
 def largest(parameters: Mapping[str, float]) -> float:
@@ -41,3 +42,17 @@ def valve_of(points: NDArray[numpy.float64]) -> riis.Valve:
     frames: int = riis.animate("valve.gif", [riis.Surface(found.valve, **found.placement)], frame_rate=4.0)
     assert frames == 1
     return found.valve
+
+
+def faults_of(xyz: NDArray[numpy.float64], cells: NDArray[numpy.int64]) -> list[str]:
+    model = Model(xyz, cells, unit="mm", path="root.vtu")
+    i: int = model.add("coapting")
+    with model.dragging():
+        model.set(i, "opening", 0.5)
+    model.place_by_clicks(i, xyz[:3])
+    shown: Shown = model.update()
+    ids: NDArray[numpy.int64] = shown.marked
+    lights: list[Light] = model.lights()
+    command: str = model.command()
+    assert len(ids) == len(shown.distance) and command and model.curve(9)["time"].shape == (9,)
+    return [light.text for light in lights if light.level == "bad"]

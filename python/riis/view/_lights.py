@@ -266,25 +266,25 @@ def wall(scene: Scene) -> Light:
 
 
 def _ring(scene: Scene, boundary: Surface) -> Light:
-    """Judges the distance of a bileaflet valve's housing from the wall."""
-    faces = scene.surface.triangles
-    of_ring = numpy.unique(faces.vertex_id[faces.leaflet_id == 2])
-    if len(of_ring) == 0:
-        return Light("wall", "off", "the valve has no housing (ring_height is 0)", valve=scene.number)
-    vertices = numpy.array(scene.surface.vertices)[of_ring]
-    found = boundary.closest_points(vertices, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
+    """Judges the distance of a bileaflet valve's housing, or of its circle without one, from the wall."""
+    state, valve = scene.state, scene.state.valve()
+    assert valve is not None
+    turn = numpy.linspace(0.0, 2.0 * math.pi, 72, endpoint=False)
+    height = float(valve["ring_height"])
+    levels = numpy.linspace(-height / 2.0, height / 2.0, 5 if height > 0.0 else 1)
+    circle = valve["radius"] * numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
+    own = numpy.concatenate([numpy.column_stack([circle, numpy.full(72, z)]) for z in levels])
+    ring = state.scale * own @ state.matrix.T + numpy.array(state.origin)
+    found = boundary.closest_points(ring, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
     assert found.side is not None and found.distance is not None
     gap = numpy.where(found.side > 0, -found.distance, found.distance)
-    text = f"the wall is {shown(float(gap.min()))} to {shown(float(gap.max()))} from the housing"
-    wide = gap > scene.state.half_thickness
-    # The housing is a cylinder, so a wall that meets any of its circles seals it: only angles without contact count.
-    local = (vertices - numpy.array(scene.state.origin)) @ scene.state.matrix
-    sector = numpy.floor((numpy.arctan2(local[:, 1], local[:, 0]) / numpy.pi + 1.0) * 12.0).astype(int) % 24
-    is_open = [bool(wide[sector == k].all()) for k in range(24) if (sector == k).any()]
-    if not any(is_open):
+    text = f"the wall is {shown(float(gap.min()))} to {shown(float(gap.max()))} from the {'housing' if height else 'annulus'}"
+    # A wall that meets one of the housing's circles at each angle seals it.
+    is_open = (gap.reshape(len(levels), 72) > state.half_thickness).all(axis=0)
+    if not is_open.any():
         return Light("wall", "good", text, valve=scene.number)
     return Light("wall", "bad", f"{text}: blood passes beside the valve", "make the annulus (radius) larger",
-                 points=vertices[wide][:_MOST_DRAWN], valve=scene.number)
+                 points=ring[numpy.tile(is_open, len(levels))], valve=scene.number)
 
 
 def sealed(scene: Scene) -> Light:

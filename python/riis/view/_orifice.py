@@ -15,6 +15,7 @@ Reals = NDArray[numpy.float64]
 Bools = NDArray[numpy.bool_]
 
 N_GRID = 256  # cells across the outline
+_SPECK = 12  # cells of the smallest orifice that is drawn
 
 
 def _filled(loops: Reals, x: Reals, y: Reals) -> Bools:
@@ -109,8 +110,9 @@ def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
     free = _filled(edges, x, y) & ~_covered(seen[faces][:, :, :2], x, y)
     lines = []
     for loop in _loops(free):
-        if len(loop) < 8:
-            continue  # a speck of a few grid cells, between triangles that touch
+        i, j = loop[:, 0], loop[:, 1]
+        if abs(i @ numpy.roll(j, -1) - j @ numpy.roll(i, -1)) < 2 * _SPECK:
+            continue  # between triangles that touch
         middles = (loop + numpy.roll(loop, -1, axis=0)) / 2.0
         flat = numpy.column_stack([x[0] + step * (middles[:, 0] - 0.5), y[0] + step * (middles[:, 1] - 0.5)])
         lines.append(_raised(flat, seen) @ frame.T + centre)

@@ -20,7 +20,10 @@ import numpy
 
 from riis._errors import Error, InvalidArgumentError
 from riis.laws import OpeningTable, OpeningTimes
-from riis.view._valves import KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, SurfaceSource, ValveState, Value, refuse
+from riis.view._valves import (
+    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
+    refuse, share,
+)
 
 _FORMAT, _VERSION = "riis view", 1
 
@@ -279,8 +282,9 @@ def _state_from(value: Mapping[str, Any]) -> ValveState:
     axis_x, axis_y, axis_z, angle = (float(x) for x in value["rotate"])
     x, y, z = (float(part) for part in value["origin"])
     return ValveState(
-        name=str(value["name"]), kind=value["kind"], opening=float(value["opening"]),
-        half_thickness=float(value["half_thickness"]), resistance=float(value["resistance"]), scale=float(value["scale"]),
+        name=check_valve_name(value["name"]), kind=value["kind"], opening=share(value["opening"], "opening"),
+        half_thickness=above_zero(value["half_thickness"], "half_thickness"),
+        resistance=at_least_zero(value["resistance"], "resistance"), scale=above_zero(value["scale"], "scale"),
         rotation=(axis_x, axis_y, axis_z, angle), origin=(x, y, z), parameters=MappingProxyType(parameters),
         triangulation=value["triangulation"], time=float(value["time"]),
         cycle=None if cycle is None else Cycle(cycle["source"], _law_from(cycle["law"]), float(cycle["period"])),
@@ -308,8 +312,8 @@ def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
             raise ValueError(f"unit is {root['unit']!r}")
         root["time"], root["n_nodes"] = float(root["time"]), int(root["n_nodes"])
         states = tuple(_state_from(value) for value in root["valves"])
-    except Error:
-        raise
+    except Error as error:
+        raise type(error)(f"path: {path!r} is damaged: {error}") from None
     except (AttributeError, KeyError, TypeError, ValueError, zlib.error) as error:
         raise InvalidArgumentError(f"path: {path!r} is damaged: {type(error).__name__} {error}") from None
     return root, states

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -185,6 +186,27 @@ def above_zero(value: Any, name: str) -> float:
     if not made > 0.0:
         raise refuse(f"{name}: is {value!r}; it must be above 0")
     return made
+
+
+def at_least_zero(value: Any, name: str) -> float:
+    made = number(value, name)
+    if made < 0.0:
+        raise refuse(f"{name}: is {value!r}; it must be at least 0")
+    return made
+
+
+def share(value: Any, name: str) -> float:
+    made = number(value, name)
+    if not 0.0 <= made <= 1.0:
+        raise refuse(f"{name}: is {value!r}; it must be from 0 to 1")
+    return made
+
+
+def check_valve_name(value: Any) -> str:
+    """Returns a name that the program takes as the name of a valve and of its arrays."""
+    if not isinstance(value, str) or not re.fullmatch("[A-Za-z0-9_.-]{1,64}", value) or value == "riis":
+        raise refuse(f"name: is {value!r}; it must be 1 to 64 letters, digits, _, - and ., and not riis")
+    return value
 
 
 def point(value: Any, name: str) -> Reals:

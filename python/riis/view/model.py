@@ -19,8 +19,7 @@ import math
 import os
 import re
 import time as clock
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
@@ -28,16 +27,17 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._place import PlaceResult, place
-from riis._riis import Keyframes, Marks, Surface, mark
+from riis._riis import Marks, Surface, mark
 from riis.view import _outputs
 from riis.view._annulus import annulus_of, placed_by
 from riis.view._cells import Region, WholeMesh
 from riis.view._cycles import CYCLES, cycle_of
+from riis.view._history import Placed, Valves
 from riis.view._lights import JUDGES, NAMES, Light, Scene, worst
 from riis.view._orifice import outline_of
 from riis.view._valves import (
-    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero, check_kind, check_name,
-    number, parameters_of, point, refuse, rotation_of, turned, values_of, values_that_were_set, vector,
+    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero, at_least_zero,
+    check_kind, check_name, check_valve_name, number, parameters_of, point, refuse, rotation_of, share, turned, values_of, values_that_were_set, vector,
 )
 
 __all__ = [
@@ -47,9 +47,6 @@ __all__ = [
 Reals = NDArray[numpy.float64]
 Ids = NDArray[numpy.int64]
 Integers = NDArray[numpy.int32]
-
-_MOST_STEPS = 200  # of undo
-
 
 class ShownSurface(NamedTuple):
     """The triangles of a valve as it is now."""
@@ -72,31 +69,7 @@ class Shown(NamedTuple):
     milliseconds: float  #: for the last change of the surfaces, and for these marks
 
 
-@dataclasses.dataclass
-class _Placed:
-    """A valve's state with the objects that are made from it."""
-
-    state: ValveState
-    surface: Surface
-    keyframes: Keyframes | None
-    marks: Marks
-    seconds: float  # that the surface took
-
-    @classmethod
-    def of(cls, state: ValveState, before: _Placed | None = None) -> _Placed:
-        start = clock.perf_counter()
-        same = before is not None and before.state.surface is state.surface
-        keyframes = before.keyframes if before is not None and same else state.keyframes()
-        surface = state.made_surface(keyframes)
-        return cls(state, surface, keyframes, before.marks if before is not None else Marks(), clock.perf_counter() - start)
-
-
-class _Snapshot(NamedTuple):
-    valves: tuple[ValveState, ...]
-    unit: str | None
-
-
-class Model:
+class Model(Valves):
     """A mesh with valves that can be moved, changed, judged and written.
 
     points   (n, 3): the nodes
@@ -122,12 +95,7 @@ class Model:
             raise refuse(f"unit: is {unit!r}; it must be {', '.join(UNITS)}")
         self._mesh = WholeMesh(points, cells, offsets=offsets, types=types, near=_near)
         self._path = None if path is None else os.fspath(path)
-        self._unit: str | None = unit
-        self._placed: tuple[_Placed, ...] = ()
-        self._undo: list[_Snapshot] = []
-        self._redo: list[_Snapshot] = []
-        self._drag: tuple[Any, ...] | None = None
-        self._is_dragging = False
+        super().__init__(unit)
         self._time = 0.0
         self._shown: Shown | None = None
         self._lights: list[Light] | None = None
@@ -141,12 +109,10 @@ class Model:
         """
         return cls(points, cells, _near=True, **options)
 
-    # ---- Facts ----
+    def _forget(self) -> None:
+        self._shown = self._lights = None
 
-    @property
-    def valves(self) -> tuple[ValveState, ...]:
-        """Snapshots of the valves."""
-        return tuple(placed.state for placed in self._placed)
+    # ---- Facts ----
 
     @property
     def points(self) -> Reals:
@@ -181,76 +147,6 @@ class Model:
     def surface(self, i: int) -> Surface:
         """Returns the surface of a valve as it is now, for its measures. The next change replaces it."""
         return self._at(i).surface
-
-    def _at(self, i: int) -> _Placed:
-        if isinstance(i, bool) or not isinstance(i, (int, numpy.integer)) or not 0 <= i < len(self._placed):
-            raise refuse(f"i: is {i!r}; there are {len(self._placed)} valves, from 0")
-        return self._placed[int(i)]
-
-    # ---- Changes, and undo ----
-
-    def _change(self, states: tuple[ValveState, ...], unit: str | None, key: tuple[Any, ...] | None = None) -> None:
-        """Makes the surfaces of new states, and then takes the states and one step of undo."""
-        placed = self._made(states)
-        if not (self._is_dragging and key is not None and key == self._drag):
-            self._undo.append(_Snapshot(self.valves, self._unit))
-            del self._undo[:-_MOST_STEPS]
-        self._drag = key if self._is_dragging else None
-        self._redo.clear()
-        self._take(placed, unit)
-
-    def _made(self, states: tuple[ValveState, ...]) -> tuple[_Placed, ...]:
-        known = {id(placed.state): placed for placed in self._placed}
-        made = []
-        for number_of, state in enumerate(states):
-            same = known.get(id(state))
-            before = self._placed[number_of] if number_of < len(self._placed) else None
-            made.append(same if same is not None else _Placed.of(state, before if len(states) == len(self._placed) else None))
-        return tuple(made)
-
-    def _take(self, placed: tuple[_Placed, ...], unit: str | None) -> None:
-        self._placed, self._unit = placed, unit
-        self._shown = self._lights = None
-
-    def _replace(self, i: int, key: tuple[Any, ...] | None, **changes: Any) -> None:
-        state = dataclasses.replace(self._at(i).state, **changes)
-        states = tuple(state if number_of == i else other for number_of, other in enumerate(self.valves))
-        self._change(states, self._unit, key)
-
-    @contextmanager
-    def dragging(self) -> Iterator[None]:
-        """While this lasts, successive changes of one thing are one step of undo."""
-        self._is_dragging, self._drag = True, None
-        try:
-            yield
-        finally:
-            self._is_dragging, self._drag = False, None
-
-    @property
-    def can_undo(self) -> bool:
-        return bool(self._undo)
-
-    @property
-    def can_redo(self) -> bool:
-        return bool(self._redo)
-
-    def undo(self) -> bool:
-        """Takes the last change back. Returns whether there was one."""
-        return self._step(self._undo, self._redo)
-
-    def redo(self) -> bool:
-        """Makes the change again that was taken back. Returns whether there was one."""
-        return self._step(self._redo, self._undo)
-
-    def _step(self, from_: list[_Snapshot], to: list[_Snapshot]) -> bool:
-        if not from_:
-            return False
-        now = _Snapshot(self.valves, self._unit)
-        placed = self._made(from_[-1].valves)
-        to.append(now)
-        self._drag = None
-        self._take(placed, from_.pop().unit)
-        return True
 
     # ---- Valves ----
 
@@ -332,23 +228,17 @@ class Model:
         state = self._at(i).state
         key = ("set", i, name)
         if name == "opening" and state.surface is None:
-            share = number(value, name)
-            if not 0.0 <= share <= 1.0:
-                raise refuse(f"opening: is {value!r}; it must be from 0 to 1")
-            self._replace(i, key, opening=share)
+            self._replace(i, key, opening=share(value, name))
         elif name in ("half_thickness", "scale"):
             self._replace(i, key, **{name: above_zero(value, name)})
         elif name == "resistance":
-            if number(value, name) < 0.0:
-                raise refuse(f"resistance: is {value!r}; it must be at least 0")
-            self._replace(i, key, resistance=float(value))
+            self._replace(i, key, resistance=at_least_zero(value, name))
         elif name == "triangulation":
             if value not in TRIANGULATIONS:
                 raise refuse(f"triangulation: is {value!r}; it must be {' or '.join(TRIANGULATIONS)}")
             self._replace(i, key, triangulation=value)
         elif name == "name":
-            if not isinstance(value, str) or not re.fullmatch("[A-Za-z0-9_.-]{1,64}", value) or value == "riis":
-                raise refuse(f"name: is {value!r}; it must be 1 to 64 letters, digits, _, - and ., and not riis")
+            check_valve_name(value)
             if any(other.name == value for k, other in enumerate(self.valves) if k != i):
                 raise refuse(f"name: {value!r} is the name of another valve")
             self._replace(i, key, name=value)
@@ -526,15 +416,8 @@ class Model:
         light = self._light(name)
         if light.cure is None:
             raise refuse(f"name: the light {name} is {light.level} and offers no cure: {light.text}")
-        before = _Snapshot(self.valves, self._unit), list(self._undo)
-        try:
+        with self._one_step():
             self._cure(light)
-        except BaseException:
-            self._take(self._made(before[0].valves), before[0].unit)
-            self._undo = before[1]
-            raise
-        del self._undo[len(before[1]) :]
-        self._undo = [*before[1], before[0]][-_MOST_STEPS:]
 
     def _cure(self, light: Light) -> None:
         i, name = light.valve, light.name
@@ -627,15 +510,22 @@ class Model:
         columns: dict[str, list[float]] = {"opening": [], "orifice": [], "marked": []}
         placed = self._at(i)
         region = self._region()
+        known: dict[float, tuple[float, float]] = {}  # a valve at rest has the same numbers at many times
         for moment in times:
-            placed = _Placed.of(_moved(state, float(moment)), placed)
+            moved = _moved(state, float(moment))
+            columns["opening"].append(moved.opening)
+            if state.surface is None and moved.opening in known:
+                columns["orifice"].append(known[moved.opening][0])
+                columns["marked"].append(known[moved.opening][1])
+                continue
+            placed = Placed.of(moved, placed)
             info = placed.surface.info
             if not region.holds(info.lower - info.half_thickness, info.upper + info.half_thickness):
                 region = self._mesh.region(info.lower - info.half_thickness, info.upper + info.half_thickness)
             mark(placed.surface, region.mesh, into=marks)
-            columns["opening"].append(placed.state.opening)
             columns["orifice"].append(placed.surface.orifice().area)
             columns["marked"].append(float(len(marks)))
+            known[moved.opening] = columns["orifice"][-1], columns["marked"][-1]
         return {"time": times, **{name: numpy.array(column) for name, column in columns.items()}}
 
     # ---- Files ----

@@ -44,7 +44,8 @@ _SLIDER = """
             @change="trigger('riis_set', [sliders[{k}].name, $event.target.value])">
           <span class="unit">{{{{ sliders[{k}].unit }}}}</span></div>
         <v-slider v-model="slider_{k}" :min="sliders[{k}].low" :max="sliders[{k}].high" :step="sliders[{k}].step"
-          :data-parameter="sliders[{k}].name" hide-details density="compact" color="primary" class="mx-0"></v-slider>
+          :data-parameter="sliders[{k}].name" hide-details density="compact" color="primary" class="mx-0"
+          @start="trigger('riis_hold', [true])" @end="trigger('riis_hold', [false])"></v-slider>
       </div>"""
 
 _LIGHT = {
@@ -94,6 +95,7 @@ class Page:
         self._seen_number, self._seen_at, self._number = 0, time.monotonic(), 0
         self._drag: tuple[Any, float] | None = None
         self._drag_stack = ExitStack()
+        self._held = False
         self._clicks: list[Any] = []
         self._written: set[Path] = set()
         self._text_name = "case"
@@ -122,7 +124,7 @@ class Page:
             "message": "", "message_type": "error", "folder": str(self.folder),
             "kinds": list(KINDS), "kind": KINDS[0], "is_surface": False, "valve_names": [], "current": 0,
             "sliders": [], "rows": [], "panels": [], "placement": [], "tool": "look", "n_clicks": 0,
-            "lights": [], "fresh": False, "digest": "", "n_marked": 0, "milliseconds": 0.0, "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
+            "lights": [], "fresh": False, "at_rest": False, "digest": "", "n_marked": 0, "milliseconds": 0.0, "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
             "looks": {name: name.capitalize() for name in LOOKS},
             "playing": False, "time": 0.0, "period": 1.0, "speed": 0.25, "speeds": _SPEEDS, "cycle": "", "cycles": list(CYCLES), "curves": [],
             "texts": _TEXTS, "text": "", "text_title": "", "text_shown": False,
@@ -373,7 +375,8 @@ class Page:
     def _settle(self) -> None:
         """Renews what takes longer than a move: the lights, the cut through the mesh, the handle, a sharper picture."""
         self._unsettled = False
-        self._end_drag()
+        if not self._held:
+            self._end_drag()
         lights = self.model.lights()
         self.scene.show_lights(lights)
         self.scene.show_cut()
@@ -386,7 +389,7 @@ class Page:
         self._show_numbers()
         self._push(92)
         with self.state as state:
-            state.fresh = True
+            state.fresh = state.at_rest = True
 
     async def _pictures(self) -> None:
         """Draws and sends pictures: one at a time, and the next when a browser has shown the last."""
@@ -400,6 +403,7 @@ class Page:
             self._moved.clear()
             if self.scene is None:
                 continue
+            self.state.at_rest = False
             if self._stale:
                 self._told(self._refresh)()
             self._told(self._push)(80)
@@ -438,14 +442,17 @@ class Page:
         self._move(lambda: self.model.set(self.state.current, name, value), ("set", self.state.current, name))
 
     def _move(self, change: Callable[[], Any], what: Any) -> None:
-        """Makes a change. Changes of the same thing in quick succession are one step of undo."""
+        """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo."""
         now = time.monotonic()
-        if self._drag is None or self._drag[0] != what or now - self._drag[1] > 0.7:
+        if self._drag is None or self._drag[0] != what or (not self._held and now - self._drag[1] > 0.7):
             self._end_drag()
             self._drag_stack.enter_context(self.model.dragging())
         self._drag = (what, now)
         change()
         self._touch()
+
+    def _on_hold(self, held: bool) -> None:
+        self._held = bool(held)
 
     def _end_drag(self) -> None:
         self._drag = None
@@ -572,6 +579,7 @@ class Page:
         elif tool in ("look", "click"):
             self.scene.turn_view(dx, dy)
         else:
+            self._held = True
             valve = self._valve()
             place = _dragged(self.scene, tool, valve, dx, dy, shift)
             self._move(lambda: self.model.place(self.state.current, *place), ("place", self.state.current, tool))
@@ -580,6 +588,7 @@ class Page:
         self._moved.set()
 
     def _on_gesture_ends(self) -> None:
+        self._held = False
         if self.scene is None:
             return
         if self.state.tool in ("move", "turn", "size"):

@@ -221,8 +221,8 @@ class Scene:
             marked = self._hull(self._shown.cells_marked)
             if self._cells_shown == "partly":
                 partly = self._hull(self._shown.cells_partly)
-        self._put("riis marked cells", marked, color="#56b4e9", opacity=0.32, ambient=0.3, pickable=False)
-        self._put("riis partly marked cells", partly, color="#f0e442", opacity=0.10, ambient=0.4, pickable=False)
+        self._put("riis marked cells", marked, color="#56b4e9", opacity=0.24, ambient=0.3, pickable=False)
+        self._put("riis partly marked cells", partly, color="#f0e442", opacity=0.07, ambient=0.4, pickable=False)
 
     def _hull(self, cells: Any) -> Any:
         cells = numpy.asarray(cells)

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The valves of a model with their surfaces, and the steps of undo."""
+
+from __future__ import annotations
+
+import dataclasses
+import time as clock
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+import numpy
+
+from riis._riis import Keyframes, Marks, Surface
+from riis.view._valves import ValveState, refuse
+
+_MOST_STEPS = 200  # of undo
+
+
+@dataclasses.dataclass
+class Placed:
+    """A valve's state with the objects that are made from it."""
+
+    state: ValveState
+    surface: Surface
+    keyframes: Keyframes | None
+    marks: Marks
+    seconds: float  # that the surface took
+
+    @classmethod
+    def of(cls, state: ValveState, before: Placed | None = None) -> Placed:
+        start = clock.perf_counter()
+        same = before is not None and before.state.surface is state.surface
+        keyframes = before.keyframes if before is not None and same else state.keyframes()
+        surface = state.made_surface(keyframes)
+        return cls(state, surface, keyframes, before.marks if before is not None else Marks(), clock.perf_counter() - start)
+
+
+class Snapshot(NamedTuple):
+    valves: tuple[ValveState, ...]
+    unit: str | None
+
+
+class Valves:
+    """Valves that can be changed and undone. A change that is refused changes nothing."""
+
+    def __init__(self, unit: str | None) -> None:
+        self._unit = unit
+        self._placed: tuple[Placed, ...] = ()
+        self._undo: list[Snapshot] = []
+        self._redo: list[Snapshot] = []
+        self._drag: tuple[Any, ...] | None = None
+        self._is_dragging = False
+
+    def _forget(self) -> None:
+        """Is called after each change."""
+
+    @property
+    def valves(self) -> tuple[ValveState, ...]:
+        """Snapshots of the valves."""
+        return tuple(placed.state for placed in self._placed)
+
+    def _at(self, i: int) -> Placed:
+        if isinstance(i, bool) or not isinstance(i, (int, numpy.integer)) or not 0 <= i < len(self._placed):
+            raise refuse(f"i: is {i!r}; there are {len(self._placed)} valves, from 0")
+        return self._placed[int(i)]
+
+    def _change(self, states: tuple[ValveState, ...], unit: str | None, key: tuple[Any, ...] | None = None) -> None:
+        """Makes the surfaces of new states, and then takes the states and one step of undo."""
+        placed = self._made(states)
+        if not (self._is_dragging and key is not None and key == self._drag):
+            self._undo.append(Snapshot(self.valves, self._unit))
+            del self._undo[:-_MOST_STEPS]
+        self._drag = key if self._is_dragging else None
+        self._redo.clear()
+        self._take(placed, unit)
+
+    def _made(self, states: tuple[ValveState, ...]) -> tuple[Placed, ...]:
+        known = {id(placed.state): placed for placed in self._placed}
+        made = []
+        for number_of, state in enumerate(states):
+            same = known.get(id(state))
+            before = self._placed[number_of] if number_of < len(self._placed) else None
+            made.append(same if same is not None else Placed.of(state, before if len(states) == len(self._placed) else None))
+        return tuple(made)
+
+    def _take(self, placed: tuple[Placed, ...], unit: str | None) -> None:
+        self._placed, self._unit = placed, unit
+        self._forget()
+
+    def _replace(self, i: int, key: tuple[Any, ...] | None, **changes: Any) -> None:
+        state = dataclasses.replace(self._at(i).state, **changes)
+        if state == self._at(i).state:
+            return
+        states = tuple(state if number_of == i else other for number_of, other in enumerate(self.valves))
+        self._change(states, self._unit, key)
+
+    @contextmanager
+    def dragging(self) -> Iterator[None]:
+        """While this lasts, successive changes of one thing are one step of undo."""
+        self._is_dragging, self._drag = True, None
+        try:
+            yield
+        finally:
+            self._is_dragging, self._drag = False, None
+
+    @property
+    def can_undo(self) -> bool:
+        return bool(self._undo)
+
+    @property
+    def can_redo(self) -> bool:
+        return bool(self._redo)
+
+    def undo(self) -> bool:
+        """Takes the last change back. Returns whether there was one."""
+        return self._step(self._undo, self._redo)
+
+    def redo(self) -> bool:
+        """Makes the change again that was taken back. Returns whether there was one."""
+        return self._step(self._redo, self._undo)
+
+    def _step(self, from_: list[Snapshot], to: list[Snapshot]) -> bool:
+        if not from_:
+            return False
+        now = Snapshot(self.valves, self._unit)
+        placed = self._made(from_[-1].valves)
+        to.append(now)
+        self._drag = None
+        self._take(placed, from_.pop().unit)
+        return True
+
+    @contextmanager
+    def _one_step(self) -> Iterator[None]:
+        """While this lasts, all changes are one step of undo, and none of them stays if one is refused."""
+        before, undo, redo = Snapshot(self.valves, self._unit), list(self._undo), list(self._redo)
+        try:
+            yield
+        except BaseException:
+            self._take(self._made(before.valves), before.unit)
+            self._undo, self._redo = undo, redo
+            raise
+        self._undo = [*undo, before][-_MOST_STEPS:]

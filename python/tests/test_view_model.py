@@ -1,0 +1,757 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The model of the view: what it shows, judges, undoes and writes, and what it refuses."""
+
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+
+import numpy
+import pytest
+import tube
+
+import riis
+from riis.view import model as view
+from riis.view._valves import matrix_of, rotation_of, turned
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SEED = int(os.environ.get("RIIS_TEST_SEED", "34"))
+
+
+@pytest.fixture(scope="module")
+def small():
+    return tube.mesh(13)
+
+
+@pytest.fixture(scope="module")
+def fine():
+    return tube.mesh(23)
+
+
+@pytest.fixture
+def random():
+    print("seed", SEED)
+    return numpy.random.default_rng(SEED)
+
+
+def placed_model(mesh, kinds, random, **options):
+    """Returns a model with a valve of each kind, at random places, openings and sizes."""
+    model = view.Model(*mesh, **options)
+    for kind in kinds:
+        i = model.add(kind)
+        model.place(i, random.normal(0.0, 0.2, 3), axis=(0, 0, 1) + random.normal(0.0, 0.3, 3), reference=random.normal(size=3))
+        model.set(i, "opening", random.uniform())
+        model.set(i, "half_thickness", random.uniform(0.1, 0.25))
+        name = "AP_diameter" if kind == "mitral" else "annulus"
+        model.set(i, name, random.uniform(0.9, 1.0) * model.values(i)[name])
+    return model
+
+
+def surface_of(state):
+    """Makes a surface from a snapshot, without the model."""
+    valve = riis.Valve(state.kind, **{name.replace(".", "_"): value for name, value in state.parameters.items() if "." not in name})
+    valve.update({name: value for name, value in state.parameters.items() if "." in name})
+    valve["opening"] = state.opening
+    return riis.Surface(valve, half_thickness=state.half_thickness, scale=state.scale, rotation_axis=state.rotation[:3],
+                        rotation_angle=state.rotation[3], translation=state.origin, triangulation=state.triangulation)
+
+
+# ---- What is shown ----
+
+
+@pytest.mark.parametrize("triangulation", ["adapted", "fixed"])
+@pytest.mark.parametrize("kind", view.KINDS)
+def test_marks_are_those_of_the_library(kind, triangulation, small, random):
+    model = placed_model(small, [kind], random)
+    model.set(0, "triangulation", triangulation)
+    shown = model.update()
+    marks = riis.mark(surface_of(model.valves[0]), riis.Mesh(small[0]))
+    assert len(marks) > 20 and numpy.array_equal(shown.marked, marks.ids)
+    assert numpy.array_equal(shown.distance, marks.distance) and numpy.array_equal(shown.leaflet, marks.leaflet_id)
+    triangles = surface_of(model.valves[0]).triangles
+    assert numpy.array_equal(shown.surfaces[0].triangles, triangles.vertex_id)
+    assert numpy.array_equal(shown.surfaces[0].leaflet, triangles.leaflet_id)
+    assert shown.milliseconds > 0.0 and model.update() is shown
+
+
+def test_several_valves_and_their_cells(small, random):
+    model = placed_model(small, ["mitral", "coapting", "bileaflet"], random)
+    shown = model.update()
+    best = {}
+    for k, state in enumerate(model.valves):
+        marks = riis.mark(surface_of(state), riis.Mesh(small[0]))
+        for node, distance, leaflet in zip(marks.ids, marks.distance, marks.leaflet_id, strict=True):
+            best[node] = min(best.get(node, (9.0,)), (distance, k, leaflet))
+    assert shown.marked.tolist() == sorted(best)
+    found = zip(shown.distance, shown.valve, shown.leaflet, strict=True)
+    assert [tuple(one) for one in found] == [best[node] for node in sorted(best)]
+    counts = [sum(node in best for node in cell) for cell in small[1].tolist()]
+    assert shown.cells_marked.tolist() == [k for k, n in enumerate(counts) if n == 4]
+    assert shown.cells_partly.tolist() == [k for k, n in enumerate(counts) if 0 < n < 4]
+
+
+def test_cells_of_all_types(random):
+    """A hexahedron, a voxel, a prism, a pyramid, a triangle and a line, in the numbers of the caller."""
+    points = random.uniform(-1.0, 1.0, (12, 3))
+    cells = [[0, 1, 2], [0, 1, 2, 3, 4, 5, 6, 7], [4, 5, 6, 7, 8, 9, 10, 11], [0, 1], [0, 1, 2, 3, 4, 5], [7, 8, 9, 10, 11]]
+    offsets = numpy.cumsum([0] + [len(cell) for cell in cells])
+    made = view.Model(points, numpy.concatenate(cells), offsets=offsets, types=[5, 12, 11, 3, 13, 14])
+    made.add("coapting")
+    marked = set(made.update().marked.tolist())
+    volumes = {k: sum(node in marked for node in cells[k]) / len(cells[k]) for k in (1, 2, 4, 5)}
+    assert set(made.update().cells_marked.tolist()) == {k for k, share in volumes.items() if share == 1}
+    assert set(made.update().cells_partly.tolist()) == {k for k, share in volumes.items() if 0 < share < 1}
+
+
+@pytest.mark.parametrize("kind", view.KINDS)
+def test_near_is_the_whole(kind, random):
+    """Near the valve, the marks and cells are those of the whole mesh, also after the valve left the first cells near it."""
+    mesh = tube.mesh(9, radius=4.0, length=20.0)
+    near, whole = view.Model.near(*mesh), view.Model(*mesh)
+    for model in (near, whole):
+        model.add(kind)
+        model.set(0, "half_thickness", 0.6)
+    regions = set()
+    for z in (0.0, 0.3, 7.5, -8.0):
+        axis = random.normal(size=3)
+        for model in (near, whole):
+            model.place(0, (0.3, 0.0, z), axis=axis)
+        a, b = near.update(), whole.update()
+        assert len(a.marked) > 5
+        for name in ("marked", "leaflet", "distance", "cells_marked", "cells_partly"):
+            assert numpy.array_equal(getattr(a, name), getattr(b, name)), name
+        regions.add(id(near._region()))
+        assert len(near._region().points) < 0.7 * len(whole.points)
+        levels = [[light.level for light in model.lights() if light.name in ("unit", "crossing", "half_thickness")]
+                  for model in (near, whole)]
+        assert levels[0] == levels[1]
+    assert len(regions) > 1
+
+
+def test_an_orifice_is_drawn(random):
+    """The area inside the drawn outline is the orifice's, for oblique valves of each kind."""
+    for kind in view.KINDS:
+        model = view.Model(numpy.zeros((1, 3)))
+        i = model.add(kind)
+        model.set(i, "opening", 0.9)
+        model.set(i, "half_thickness", 0.6)
+        model.place(i, random.normal(size=3), axis=random.normal(size=3), reference=random.normal(size=3), scale=3.0)
+        measured = model.surface(i).orifice()
+        area = 0.0
+        for line in model.orifice(i):
+            after = numpy.roll(line, -1, axis=0)
+            area += 0.5 * float((numpy.cross(line, after) @ measured.axis).sum())
+        assert abs(area - measured.area) < 0.02 * measured.outline_area, kind
+
+
+# ---- Placement ----
+
+
+def test_rotations(random):
+    for k in range(60):
+        angle = [0.0, 180.0, 1e-5, 179.9999][k % 6] if k % 6 < 4 else random.uniform(0.0, 180.0)
+        axis = random.normal(size=3) if k % 4 else numpy.eye(3)[k % 3]
+        matrix = matrix_of((*axis.tolist(), angle))
+        assert numpy.allclose(matrix @ matrix.T, numpy.eye(3), atol=1e-14) and numpy.linalg.det(matrix) > 0.99
+        assert numpy.allclose(matrix_of(rotation_of(matrix)), matrix, atol=1e-8)
+        z, x = random.normal(size=3), random.normal(size=3)
+        made = turned(matrix, z, x)
+        assert numpy.allclose(made[:, 2], z / numpy.linalg.norm(z)) and made[:, 0] @ x > 0.0 and abs(made[:, 1] @ x) < 1e-12
+        smallest = turned(matrix, z, None)
+        assert numpy.allclose(smallest[:, 2], z / numpy.linalg.norm(z))
+        turn = rotation_of(smallest @ matrix.T)[3]
+        assert abs(numpy.cos(numpy.radians(turn)) - matrix[:, 2] @ smallest[:, 2]) < 1e-8
+
+
+def test_the_placement_is_the_surface_s(small):
+    model = view.Model(*small)
+    i = model.add("aortic")
+    before = numpy.array(model.surface(i).vertices)
+    model.place(i, (1.0, 2.0, 3.0), axis=(1.0, 0.0, 0.0), reference=(0.0, 0.0, 2.0), scale=2.0)
+    frame = numpy.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])  # rows: x to z, y to y, z to x, but mirrored
+    frame[1] = numpy.cross(frame[2], frame[0])
+    state = model.valves[i]
+    model.set(i, "half_thickness", 0.2)  # as the scale, so that the triangles are the same
+    assert numpy.allclose(model.surface(i).vertices, 2.0 * before @ frame + (1.0, 2.0, 3.0), atol=1e-12)
+    assert numpy.allclose(state.axis, (1.0, 0.0, 0.0)) and numpy.allclose(state.reference, (0.0, 0.0, 1.0))
+
+
+@pytest.mark.parametrize("kind", view.KINDS)
+@pytest.mark.parametrize("unit", ["mm", "cm", "m"])
+def test_clicks_place_the_annulus(kind, unit, random):
+    """Three clicks on the annulus of a placed, grown valve find its place again, from another place and the default size."""
+    size = view.UNITS[unit]
+    model = view.Model(numpy.zeros((1, 3)), unit=unit)
+    known, i = model.add(kind), model.add(kind)
+    growth, axis = random.uniform(0.8, 1.25), random.normal(size=3)
+    for name, value in model.values(known).items():
+        parameter = next(one for one in model.parameters(kind) if one.name == name)
+        if parameter.unit == "length" and name in riis.Valve(kind) and not parameter.rule:
+            model.set(known, name, numpy.multiply(growth, value))
+    model.place(known, 5.0 * size * random.normal(size=3), axis=axis, reference=random.normal(size=3))
+    at = view.annulus_of(model.valves[known])
+    state = model.valves[known]
+    clicks = numpy.array(state.origin) + state.scale * at.points @ state.matrix.T
+    assert numpy.ptp(numpy.linalg.norm(clicks - clicks.mean(axis=0), axis=1)) < 0.5 * size
+    if kind not in ("mitral", "bileaflet") and random.uniform() < 0.7:
+        clicks = clicks[[0, 2, 1]]  # the order of the second and the third is free
+    model.place(i, axis=axis + 0.3 * random.normal(size=3))
+    model.place_by_clicks(i, clicks)
+    made = model.valves[i]
+    assert numpy.allclose(made.matrix, state.matrix, atol=1e-9) and made.scale == size
+    assert numpy.allclose(made.origin, state.origin, atol=1e-8 * size)
+    for name, value in model.values(known).items():
+        assert numpy.allclose(model.values(i)[name], value, rtol=1e-9, atol=1e-9), name
+
+
+@pytest.mark.parametrize("kind", view.KINDS)
+def test_clicks_anywhere_on_a_circle(kind, random):
+    """The circle through any three clicks becomes that of the annulus, on the side to which the axis points."""
+    model = view.Model(numpy.zeros((1, 3)), unit="mm")
+    i = model.add(kind)
+    for _ in range(5):
+        up, centre, radius = random.normal(size=3), 50.0 * random.normal(size=3), random.uniform(9.0, 16.0)
+        frame = turned(numpy.eye(3), up, random.normal(size=3))
+        angle = random.uniform(0, 6) + numpy.array([0.0, 2.1, 4.2]) + random.uniform(-0.6, 0.6, 3)
+        clicks = centre + radius * (numpy.cos(angle)[:, None] * frame[:, 0] + numpy.sin(angle)[:, None] * frame[:, 1])
+        model.place(i, axis=up + 0.2 * random.normal(size=3))
+        model.place_by_clicks(i, clicks)
+        state = model.valves[i]
+        at = view.annulus_of(state)
+        assert abs(state.scale * at.radius - radius) < 1e-8 * radius
+        assert numpy.allclose(state.matrix @ at.normal, up / numpy.linalg.norm(up), atol=1e-9)
+        assert numpy.allclose(state.origin + state.scale * state.matrix @ at.centre, centre, atol=1e-8)
+        model.flip(i)
+        flipped = model.valves[i]
+        assert numpy.allclose(flipped.matrix @ at.normal, -up / numpy.linalg.norm(up), atol=1e-9)
+        assert numpy.allclose(flipped.origin + flipped.scale * flipped.matrix @ at.centre, centre, atol=1e-8)
+
+
+def test_landmarks(random):
+    """Exact landmarks of a trileaflet valve give its size and place, as riis.place does."""
+    known = riis.Valve("trileaflet", annulus=2.3)
+    placement = {"scale": 10.0, "rotation_axis": (0.6, 0.0, 0.8), "rotation_angle": 40.0, "translation": (7.0, -3.0, 90.0)}
+    attachment = riis.Surface(known, half_thickness=1.0, **placement).attachment
+    up = matrix_of((0.6, 0.0, 0.8, 40.0))[:, 2]
+    marks = {"nadir": [], "commissure": []}
+    for cusp in range(3):
+        ends = attachment.edges[attachment.leaflet_id == cusp].reshape(-1, 3)
+        marks["nadir"].append(ends[numpy.argmin(ends @ up)])
+    ends = attachment.edges.reshape(-1, 3)
+    top = ends[ends @ up > (ends @ up).max() - 1e-9]
+    for k in range(3):
+        far = [numpy.linalg.norm(top - kept, axis=1) > 1.0 for kept in marks["commissure"]]
+        marks["commissure"].append(top[numpy.argmax(numpy.all(far, axis=0))] if far else top[0])
+    model = view.Model(numpy.zeros((1, 3)), unit="mm")
+    i = model.add("trileaflet")
+    found = model.place_by_landmarks(i, marks)
+    assert found.worst < 0.2 and abs(model.values(i)["annulus"] - 2.3) < 0.03
+    assert numpy.allclose(model.valves[i].axis, up, atol=0.01) and model.valves[i].scale == 10.0
+    assert model.undo() and model.valves[i].parameters == {}
+
+
+# ---- Undo ----
+
+
+def test_undo_is_exact(small, random):
+    """Random changes, undone and done again, against a list of snapshots."""
+    model = view.Model(*small, unit="cm")
+    history, at = [model.valves], 0
+    for _ in range(60):
+        move, n = random.integers(0, 8), len(model.valves)
+        if move < 2 and at > 0:
+            assert model.can_undo and model.undo()
+            at -= 1
+        elif move == 2 and at + 1 < len(history):
+            assert model.can_redo and model.redo()
+            at += 1
+        else:
+            if n == 0 or (n < 3 and move == 3):
+                model.add(view.KINDS[random.integers(5)])
+            elif move == 4 and n > 1:
+                model.remove(int(random.integers(n)))
+            elif move == 5:
+                model.place(int(random.integers(n)), random.normal(size=3), axis=random.normal(size=3))
+            elif move == 6:
+                model.set_cycle("mitral", random.uniform(0.5, 1.0))
+            else:
+                model.set(int(random.integers(n)), "opening", random.uniform())
+            history = [*history[: at + 1], model.valves]
+            at += 1
+        assert model.valves == history[at]
+        assert model.can_undo == (at > 0) and model.can_redo == (at + 1 < len(history))
+    while model.undo():
+        pass
+    assert model.valves == () and not model.undo()
+
+
+def test_a_drag_is_one_step(small):
+    model = view.Model(*small)
+    i = model.add("coapting")
+    with model.dragging():
+        for annulus in (2.4, 2.5, 2.6):
+            model.set(i, "annulus", annulus)
+        for opening in (0.1, 0.2):
+            model.set(i, "opening", opening)
+    assert model.values(i)["annulus"] == 2.6 and model.valves[i].opening == 0.2
+    assert model.undo() and model.valves[i].opening == 0.0 and model.values(i)["annulus"] == 2.6
+    assert model.undo() and model.valves[i].parameters == {}
+    assert model.redo() and model.redo() and not model.redo() and model.valves[i].opening == 0.2
+    model.set(i, "opening", 0.2)  # no change, no step
+    model.undo()
+    assert model.valves[i].opening == 0.0
+
+
+# ---- Lights ----
+
+
+def light(model, name):
+    return next(one for one in model.lights() if one.name == name)
+
+
+@pytest.mark.parametrize("kind", ["coapting", "trileaflet"])
+def test_a_valve_that_fits_is_good(kind, fine):
+    model = view.Model(*fine, unit="cm")
+    assert {one.level for one in model.lights()} == {"off"}
+    i = model.add(kind)
+    model.set(i, "annulus", 2.55)
+    model.set(i, "stj", 2.55)
+    model.set(i, "half_thickness", 0.16)
+    assert {one.name: one.level for one in model.lights()} == dict.fromkeys(view.NAMES, "good")
+    model.set(i, "opening", 1.0)
+    sealed = light(model, "sealed")
+    assert sealed.level == "off" and "open" in sealed.text
+    path = sealed.edges
+    assert path[0, 0, 2] * path[-1, 1, 2] < 0.0 and numpy.array_equal(path[1:, 0], path[:-1, 1])  # from side to side
+    marked = {tuple(point) for point in fine[0][model.update().marked]}
+    assert not any(tuple(point) in marked for point in path.reshape(-1, 3))
+
+
+def test_a_gap_to_the_wall_and_its_skirt(fine):
+    """A valve that is 0.25 too small leaks beside the wall, by the distance of the polygon; the skirt of the light seals it."""
+    model = view.Model(*fine, unit="cm")
+    i = model.add("coapting")
+    model.set(i, "half_thickness", 0.16)
+    for name in ("annulus", "stj"):
+        model.set(i, name, 2.1)
+    wall, sealed = light(model, "wall"), light(model, "sealed")
+    assert wall.level == sealed.level == "bad" and wall.cure is not None and len(wall.edges) > 10
+    n_sides = 4 * (23 - 1)
+    least, most = (float(text) for text in re.search(r"wall is (\S+) to (\S+) from", wall.text).groups())
+    assert 1.3 * numpy.cos(numpy.pi / n_sides) - 1.05 - 0.01 <= least and most <= 1.3 - 1.05 + 0.06
+    assert numpy.hypot(*sealed.points[0, :2]) > 1.0  # beside the valve
+    model.cure("wall")
+    assert light(model, "wall").level == light(model, "sealed").level == "good"
+    assert model.undo() and model.valves[i].parameters == {"root_radius": 1.05, "commissure_radius": 1.05}
+
+
+def test_a_thin_band_and_its_cure(small):
+    model = view.Model(*small, unit="cm")
+    i = model.add("coapting")
+    model.set(i, "half_thickness", 0.02)
+    found = light(model, "half_thickness")
+    assert found.level == "bad" and found.cure[1] == "half_thickness" and len(found.edges) == len(found.points)
+    leaks = riis.find_leaks(model.surface(i), model._region().mesh, model._at(i).marks)
+    assert len(found.edges) == leaks.n_edges > 100
+    model.cure("half_thickness")
+    assert light(model, "half_thickness").level == "good" and 0.02 < model.valves[i].half_thickness < 0.3
+    assert model.undo() and model.valves[i].half_thickness == 0.02
+    model.set(i, "half_thickness", 1.5)
+    assert "largest side" in light(model, "half_thickness").text
+    model.cure("half_thickness")
+    assert 0.05 < model.valves[i].half_thickness < 0.2
+
+
+def test_a_mesh_in_millimetres(fine):
+    """The unit is told and cured; one undo takes scale, half thickness and unit back."""
+    model = view.Model(10.0 * fine[0], fine[1])
+    i = model.add("coapting")
+    found = light(model, "unit")
+    assert found.level in ("bad", "warn") and "millimetres" in found.advice and found.cure[1] == "unit"
+    model.cure("unit")
+    state = model.valves[i]
+    assert (state.scale, state.half_thickness, model.unit) == (10.0, 1.0, "mm")
+    model.cure("half_thickness")
+    assert light(model, "unit").level == light(model, "sealed").level == "good"
+    assert model.undo() and model.undo() and model.unit is None and model.valves[i].scale == 1.0
+    metres = view.Model(0.01 * fine[0], fine[1])
+    metres.add("trileaflet")
+    assert "metres" in light(metres, "unit").advice
+    metres.cure("unit")
+    assert metres.unit == "m" and light(metres, "unit").level == "good"
+
+
+def test_a_valve_outside(small):
+    model = view.Model(*small, unit="cm")
+    i = model.add("coapting")
+    assert light(model, "inside").level == "good"
+    model.place(i, (0.0, 9.0, 0.0))
+    assert light(model, "inside").level == "bad" and light(model, "sealed").level == "off"
+    model.cure("inside")
+    assert light(model, "inside").level == "good" and abs(model.valves[i].origin[1]) < 1.0
+    model.place(i, (1.0, 0.0, 0.0))
+    vertices = numpy.array(model.surface(i).vertices)
+    share = (numpy.hypot(vertices[:, 0], vertices[:, 1]) > 1.3 + 0.1).mean()
+    found = light(model, "inside")
+    assert found.level == "warn" and abs(float(re.match("([0-9]+) %", found.text)[1]) / 100 - share) < 0.06
+
+
+def test_crossing_leaflets(small):
+    model = view.Model(*small, unit="cm")
+    i = model.add("trileaflet")
+    assert light(model, "crossing").level == "good"
+    model.set(i, "t3_bending", 1.5)
+    found = light(model, "crossing")
+    crossings = riis.find_crossings(model.surface(i), depth=1e-3)
+    assert crossings.n_pairs > 300 and found.level == "bad" and found.text.startswith(f"{crossings.n_pairs} pairs")
+    assert numpy.array_equal(found.points, crossings.point[:300])
+    first = crossings.triangle_id[0].tolist()
+    corners = surface_of(model.valves[i]).vertices[model.update().surfaces[i].triangles[first]]
+    drawn = {tuple(point) for point in found.edges.reshape(-1, 3)}
+    assert all(tuple(point) in drawn for point in corners.reshape(-1, 3)) and len(found.edges) == 6 * len(found.points)
+    bileaflet = view.Model(*small, unit="cm")
+    bileaflet.set(bileaflet.add("bileaflet"), "ring_height", 0.4)
+    assert riis.find_crossings(bileaflet.surface(0)).n_pairs > 0  # hinges in the housing, which do not count
+    assert light(bileaflet, "crossing").level == "good"
+
+
+def test_lights_without_cells(small):
+    model = view.Model(small[0], unit="cm")
+    model.add("coapting")
+    levels = {one.name: one.level for one in model.lights()}
+    assert levels["half_thickness"] == levels["sealed"] == levels["wall"] == "off" and levels["crossing"] == "good"
+    with pytest.raises(riis.InvalidArgumentError, match="the light sealed is off and offers no cure: the mesh has no volume cells"):
+        model.cure("sealed")
+    with pytest.raises(riis.InvalidArgumentError, match="name: is 'wal'; the lights are unit, inside"):
+        model.cure("wal")
+
+
+# ---- Time ----
+
+
+def test_cycles(small, tmp_path):
+    model = view.Model(*small, unit="cm")
+    i, j = model.add("coapting"), model.add("mitral")
+    (tmp_path / "beat.csv").write_text("# a comment\ntime; opening\n0; 0\n0.2\t1\n0.5 0,\n")
+    model.set_cycle(tmp_path / "beat.csv", 0.8, valve=i)
+    model.set_cycle("mitral", 0.8, valve=j)
+    steps = len(model._undo)
+    model.at(0.9)
+    assert model.valves[i].opening == pytest.approx(0.5) and model.time == 0.9 and len(model._undo) == steps
+    law = riis.OpeningTimes(0.8 * 0.46, 0.8 * 0.07, 0.8 * 0.92, 0.8 * 0.07, period=0.8)
+    assert model.valves[j].opening == law(0.9)
+    curve = model.curve(9, i)
+    assert numpy.allclose(curve["time"], numpy.linspace(0.0, 0.8, 9)) and model.valves[i].opening == pytest.approx(0.5)
+    assert numpy.allclose(curve["opening"], numpy.interp(curve["time"], [0.0, 0.2, 0.5], [0.0, 1.0, 0.0]))
+    model.at(0.1)
+    assert curve["marked"][1] == (model.update().valve == i).sum() or j in model.update().valve
+    assert curve["orifice"][1] == model.surface(i).orifice().area
+    model.set_cycle(None)
+    with pytest.raises(riis.InvalidArgumentError, match="i: valve 0 has no cycle"):
+        model.curve()
+
+
+def test_a_surface_that_moves(small):
+    vertices = numpy.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]])
+    frames = numpy.stack([vertices, vertices + (0.0, 0.0, 1.0)])
+    model = view.Model(*small)
+    i = model.add_surface(frames, [[0, 1, 2]], times=[0.0, 2.0], half_thickness=0.2)
+    model.at(1.0)
+    surface = riis.Surface.from_arrays(vertices + (0.0, 0.0, 0.5), numpy.array([[0, 1, 2]]), half_thickness=0.2)
+    marks = riis.mark(surface, riis.Mesh(small[0]))
+    assert len(marks) > 5 and numpy.array_equal(model.update().marked, marks.ids)
+    assert model.period(i) == 2.0 and model.values(i) == {}
+    with pytest.raises(riis.InvalidArgumentError, match="valve 0: its surface has no file"):
+        model.case()
+    with pytest.raises(riis.InvalidArgumentError, match="a surface from a file; OpenFOAM's plug-in takes only the kinds"):
+        model.openfoam()
+
+
+# ---- Files ----
+
+
+def program_riis():
+    for path in [os.environ.get("RIIS_PROGRAM"), ROOT / "build/bin/riis"]:
+        if path and os.access(path, os.X_OK):
+            return str(path)
+    pytest.skip("the program riis is not built; ./run demo builds it")
+
+
+def write_mesh(path, points, cells):
+    lines = ["# vtk DataFile Version 3.0", "tube", "ASCII", "DATASET UNSTRUCTURED_GRID", f"POINTS {len(points)} double"]
+    lines += [" ".join(map(repr, point)) for point in points.tolist()]
+    lines += [f"CELLS {len(cells)} {5 * len(cells)}"] + ["4 " + " ".join(map(str, cell)) for cell in cells.tolist()]
+    path.write_text("\n".join([*lines, f"CELL_TYPES {len(cells)}", *["10"] * len(cells)]) + "\n")
+
+
+@pytest.mark.parametrize("unit", [None, "mm"])
+def test_python_lines_give_the_same_bits(unit, small, random):
+    mesh = (small[0] * view.UNITS[unit] if unit else small[0], small[1])
+    for kind in view.KINDS:
+        model = placed_model(mesh, [], random, unit=unit)
+        i = model.add(kind)
+        model.place(i, random.normal(size=3), axis=random.normal(size=3))
+        model.set(i, "opening", random.uniform())
+        parameters = [one for one in model.parameters(kind) if one.n_values == 1 and one.unit == "length" and one.default]
+        for parameter in random.choice(len(parameters), 2, replace=False):
+            model.set(i, parameters[parameter].name, parameters[parameter].default * random.uniform(0.98, 1.02))
+        model.set(i, "triangulation", "fixed" if random.uniform() < 0.5 else "adapted")
+        lines = {"points": mesh[0]}
+        exec(model.python(), lines)
+        shown, marks = model.update(), lines["marks"][kind]
+        assert len(marks) > 10 and numpy.array_equal(marks.ids, shown.marked)
+        assert numpy.array_equal(marks.distance, shown.distance)
+        assert numpy.count_nonzero(lines["K"]) == len(marks)
+
+
+def test_the_program_gives_the_same_bits(tmp_path, small, random):
+    """riis mark, by the command for one valve and by the case for two, marks the same nodes at the same distances."""
+    pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    program = program_riis()
+    points = 10.0 * small[0]
+    write_mesh(tmp_path / "a tube.vtk", points, small[1])
+    for number, kind in enumerate(view.KINDS):
+        model = view.Model(points, small[1], unit="mm", path=tmp_path / "a tube.vtk")
+        i = model.add(kind)
+        model.place(i, random.normal(size=3), axis=(0, 0, 1) + 0.3 * random.normal(size=3), scale=None if number % 2 else 9.7)
+        model.set(i, "opening", random.uniform())
+        model.set(i, "half_thickness", random.uniform(1.5, 2.0))
+        model.set(i, "AP_diameter" if kind == "mitral" else "annulus", 2.3)
+        if kind != "bileaflet":
+            model.set(i, "translation", (0.1, -0.05, random.uniform()))
+        model.set(i, "triangulation", "fixed" if number < 3 else "adapted")
+        command = model.command(program=program, output=str(tmp_path / "marked.vtu"))
+        done = subprocess.run(command, shell=True, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        made, shown = pyvista.read(tmp_path / "marked.vtu").point_data, model.update()
+        assert numpy.array_equal(numpy.flatnonzero(made["riis_marked"]), shown.marked) and len(shown.marked) > 20
+        assert numpy.array_equal(made["riis_distance"][shown.marked], shown.distance)
+        assert numpy.array_equal(made["riis_leaflet"][shown.marked], shown.leaflet)
+    other = model.add("trileaflet")
+    model.place(other, (0.0, 0.0, -8.0))
+    (tmp_path / "two.json").write_text(model.case())
+    command = model.command(program=program, case=str(tmp_path / "two.json"), output=str(tmp_path / "two.vtu"))
+    done = subprocess.run(shlex.split(command), capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    made, shown = pyvista.read(tmp_path / "two.vtu").point_data, model.update()
+    nearest = numpy.full(len(points), numpy.inf)
+    for state in model.valves:
+        marked = made[f"{state.name}_marked"] == 1
+        nearest[marked] = numpy.minimum(nearest[marked], made[f"{state.name}_distance"][marked])
+    assert numpy.array_equal(numpy.flatnonzero(numpy.isfinite(nearest)), shown.marked)
+    assert numpy.array_equal(nearest[shown.marked], shown.distance)
+
+
+def test_a_case_that_moves(tmp_path, small):
+    """The program plays the cycle of the case, and marks at each time what the model shows at that time."""
+    pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    program = program_riis()
+    write_mesh(tmp_path / "tube.vtk", *small)
+    (tmp_path / "beat.csv").write_text("time,opening\n0,0\n0.3,1\n")
+    for cycle in ("aortic", tmp_path / "beat.csv"):
+        model = view.Model(*small, unit="cm", path=tmp_path / "tube.vtk")
+        model.set(model.add("coapting"), "half_thickness", 0.2)
+        model.set_cycle(cycle, 0.8)
+        (tmp_path / "case.json").write_text(model.case(times=[0.0, 0.07, 0.1]))
+        command = [program, "mark", "--case", tmp_path / "case.json", "--output", tmp_path / "beat.pvd", "--all-cells"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        for step, time in enumerate([0.0, 0.07, 0.1]):
+            model.at(time)
+            made, shown = pyvista.read(tmp_path / f"beat/beat_{step:04}.vtu").point_data, model.update()
+            assert numpy.array_equal(numpy.flatnonzero(made["riis_marked"]), shown.marked), (step, done.stdout)
+            assert numpy.array_equal(made["riis_distance"][shown.marked], shown.distance)
+
+
+def test_openfoam_s_dictionary(small):
+    """The dictionary has the numbers of the model in metres, and the law of its cycle."""
+    model = view.Model(10.0 * small[0], small[1], unit="mm")
+    i = model.add("mitral")
+    model.set(i, "translation", (0.1, 0.2, 0.3))
+    model.place(i, (10.0, 0.0, 5.0), axis=(1.0, 0.0, 0.0))
+    text = model.openfoam()
+    words = text.replace("(", " ( ").replace(")", " ) ").replace(";", " ;").split()
+
+    def entry(key):
+        at = words.index(key) + 1
+        return [float(word) for word in words[at : words.index(";", at)] if word not in "()"]
+
+    assert entry("scale") == [0.01] and numpy.allclose(entry("translation"), [0.1, 0.2, 0.3])
+    assert entry("halfThickness") == [0.001]
+    placement = text[text.index("placement") :]
+    assert numpy.allclose([float(x) for x in re.search(r"translation \((.*)\)", placement)[1].split()], [0.01, 0.0, 0.005])
+    assert text.count("{") == text.count("}") and "law constant" in text
+    model.set_cycle("mitral", 0.9)
+    assert "law times;" in model.openfoam() and "period 0.9;" in model.openfoam()
+    with pytest.raises(riis.InvalidArgumentError, match="density: is 0; it must be above 0"):
+        model.openfoam(0)
+
+
+def test_a_session_opens_as_it_was(tmp_path, small, random):
+    model = placed_model(small, view.KINDS, random, unit="cm", path="tube.vtu")
+    model.set(0, "name", "my.valve")
+    model.set_cycle("aortic", 0.8, valve=1)
+    (tmp_path / "beat.csv").write_text("0 0\n0.1 1\n")
+    model.set_cycle(tmp_path / "beat.csv", 0.9, valve=2, interpolation="cubic")
+    vertices = random.normal(size=(2, 3, 3))
+    model.add_surface(vertices, [[0, 1, 2]], times=[0.0, 1.0], period=2.0, path="leaf let.pvd", leaflet_id=[4])
+    model.at(0.07)
+    model.save(tmp_path / "session.json")
+    opened = [view.Model.load(tmp_path / "session.json", {"points": small[0], "cells": small[1]}),
+              view.Model.load(tmp_path / "session.json", lambda path: {"points": small[0], "cells": small[1], "path": path,
+                                                                      "near": True})]
+    for other in opened:
+        assert (other.unit, other.path, other.time, other.can_undo) == ("cm", "tube.vtu", 0.07, False)
+        a, b = model.update(), other.update()
+        for name in ("marked", "leaflet", "distance", "valve", "cells_marked", "cells_partly"):
+            assert numpy.array_equal(getattr(a, name), getattr(b, name)), name
+        for one, two in zip(model.valves, other.valves, strict=True):
+            assert (one.name, one.kind, one.parameters, one.opening, one.rotation, one.origin, one.scale, one.resistance,
+                    one.triangulation) == (two.name, two.kind, two.parameters, two.opening, two.rotation, two.origin,
+                                           two.scale, two.resistance, two.triangulation)
+        for each in (model, other):
+            each.at(0.42)
+        assert numpy.array_equal(model.update().distance, other.update().distance)
+        model.at(0.07)
+        other.save(tmp_path / "again.json")
+        other.at(0.07)
+        other.save(tmp_path / "again.json")
+        assert (tmp_path / "again.json").read_text() == (tmp_path / "session.json").read_text()
+
+
+# ---- Refusals ----
+
+
+def damaged(tmp_path, small, change):
+    model = view.Model(*small)
+    model.add("coapting")
+    path = tmp_path / "session.json"
+    model.save(path)
+    root = json.loads(path.read_text())
+    change(root)
+    path.write_text(json.dumps(root))
+    return lambda: view.Model.load(path, {"points": small[0], "cells": small[1]})
+
+
+def test_refused_sessions(tmp_path, small):
+    (tmp_path / "no.json").write_text("{}")
+    for change, message in [
+        (lambda root: root.update(version=7), "has the version 7"),
+        (lambda root: root.pop("valves"), "is damaged: KeyError 'valves'"),
+        (lambda root: root.update(n_nodes=5), f"is of a mesh with 5 nodes; this one has {len(small[0])}"),
+        (lambda root: root.update(unit="inch"), "is damaged: ValueError unit is 'inch'"),
+        (lambda root: root["valves"][0].update(kind="tricuspid"), "kind is 'tricuspid'"),
+        (lambda root: root["valves"][0].update(opening=3.0), "is damaged: opening: is 3.0; it must be from 0 to 1"),
+        (lambda root: root["valves"][0].update(half_thickness=-1.0), "is damaged: half_thickness: is -1.0"),
+        (lambda root: root["valves"][0].update(scale=0), "is damaged: scale: is 0"),
+        (lambda root: root["valves"][0].update(origin=[0, 0]), "is damaged: ValueError"),
+        (lambda root: root["valves"][0]["parameters"].update(gap=1e99), "parameter 'gap' is 1e\\+99"),
+    ]:
+        with pytest.raises(riis.Error, match=message):
+            damaged(tmp_path, small, change)()
+    for path, message in [("no.json", "is not a session of the view"), ("none.json", "cannot be read as a session")]:
+        with pytest.raises(riis.InvalidArgumentError, match=message):
+            view.Model.load(tmp_path / path, {"points": small[0]})
+    view.Model(*small, path="m.vtu").save(tmp_path / "s.json")
+    with pytest.raises(riis.InvalidArgumentError, match="mesh: is None; pass the arrays of m.vtu, or a function that reads them"):
+        view.Model.load(tmp_path / "s.json")
+
+
+NAN, INF = float("nan"), float("inf")
+
+
+@pytest.mark.parametrize("change, error, message", [
+    (lambda m: m.add("tricuspid"), riis.InvalidArgumentError, "kind: is 'tricuspid'; it must be one of coapting, trileaflet"),
+    (lambda m: m.set(0, "opening", 1.5), riis.InvalidArgumentError, "opening: is 1.5; it must be from 0 to 1"),
+    (lambda m: m.set(0, "opening", NAN), riis.InvalidArgumentError, "opening: is nan; it must be a finite number"),
+    (lambda m: m.set(0, "gap", -1), riis.InvalidParameterError, "parameter 'gap' is -1; it must be from"),
+    (lambda m: m.set(0, "gap", "wide"), riis.InvalidArgumentError, "gap: is 'wide'; it must be a finite number"),
+    (lambda m: m.set(0, "coaptation_height", 1.3), riis.InvalidParameterError, "coaptation_height"),
+    (lambda m: m.set(0, "gapp", 1), riis.UnknownParameterError, "name: is 'gapp'; a coapting valve has annulus"),
+    (lambda m: m.set(0, "half_thickness", 0), riis.InvalidArgumentError, "half_thickness: is 0; it must be above 0"),
+    (lambda m: m.set(0, "scale", -2.0), riis.InvalidArgumentError, "scale: is -2.0; it must be above 0"),
+    (lambda m: m.set(0, "resistance", -1), riis.InvalidArgumentError, "resistance: is -1; it must be at least 0"),
+    (lambda m: m.set(0, "triangulation", "x"), riis.InvalidArgumentError, "triangulation: is 'x'; it must be adapted or fixed"),
+    (lambda m: m.set(0, "name", "a b"), riis.InvalidArgumentError, "name: is 'a b'; it must be 1 to 64 letters"),
+    (lambda m: m.set(2, "gap", 1), riis.InvalidArgumentError, "i: is 2; there are 1 valves, from 0"),
+    (lambda m: m.unset(0, "gapp"), riis.UnknownParameterError, "name: is 'gapp'"),
+    (lambda m: m.place(0, (0, 0)), riis.InvalidArgumentError, r"origin: is \(0, 0\); it must be three finite numbers"),
+    (lambda m: m.place(0, axis=(0, 0, 0)), riis.InvalidArgumentError, r"axis: is \(0.0, 0.0, 0.0\); a direction must not be zero"),
+    (lambda m: m.place(0, axis=(0, 0, 1), reference=(0, 0, 2)), riis.InvalidArgumentError, "which is along the axis"),
+    (lambda m: m.place(0, scale=INF), riis.InvalidArgumentError, "scale: is inf; it must be a finite number"),
+    (lambda m: m.place_by_clicks(0, [[0, 0, 0]]), riis.InvalidArgumentError, r"points3: has the shape \(1, 3\)"),
+    (lambda m: m.place_by_clicks(0, [[0, 0, 0], [1, 0, 0], [1, 0, 0]]), riis.InvalidArgumentError,
+     r"points3: points 1 and 2 are in one place, \(1.0, 0.0, 0.0\)"),
+    (lambda m: m.place_by_clicks(0, [[0, 0, 0], [1, 0, 0], [2, 0, 1e-4]]), riis.InvalidArgumentError, "are on a line"),
+    (lambda m: m.place_by_clicks(0, [[0, 0, NAN], [1, 0, 0], [2, 0, 1]]), riis.InvalidArgumentError, "points3: point 0 is"),
+    (lambda m: m.place_by_clicks(0, [[90, 0, 0], [0, 90, 0], [-90, 0, 0]]), riis.InvalidArgumentError,
+     "are on a circle of radius 90, and that of the valve is 1.25: choose the mesh's unit"),
+    (lambda m: m.place_by_landmarks(0, {"nadir": numpy.eye(3)}), riis.InvalidArgumentError, "commissure"),
+    (lambda m: m.place_by_landmarks(0, {}, warp="exact"), riis.InvalidArgumentError, "warp: is 'exact'"),
+    (lambda m: m.add_surface([[0, 0]], [[0, 1, 2]]), riis.InvalidArgumentError, r"vertices: has the shape \(1, 2\)"),
+    (lambda m: m.add_surface(numpy.eye(3), [[0, 1, 7]]), riis.InvalidSurfaceError, "7"),
+    (lambda m: m.add_surface(numpy.zeros((2, 3, 3)), [[0, 1, 2]]), riis.InvalidArgumentError, "times: has the shape"),
+    (lambda m: m.set_cycle("aortic", 0), riis.InvalidArgumentError, "period: is 0; it must be above 0"),
+    (lambda m: m.set_cycle("aorta"), riis.InvalidArgumentError, "builtin_or_csv: 'aorta' is neither aortic, mitral, slow nor a"),
+    (lambda m: m.set_cycle("mitral", valve=3), riis.InvalidArgumentError, "i: is 3"),
+    (lambda m: m.at(INF), riis.InvalidArgumentError, "time: is inf"),
+    (lambda m: m.curve(1), riis.InvalidArgumentError, "n: is 1; it must be from 2 to 10000"),
+])
+def test_refused_changes(change, error, message, small):
+    """A refused change names the value, and changes nothing."""
+    model = view.Model(*small, unit="cm")
+    model.add("coapting")
+    before = model.valves
+    with pytest.raises(error, match=message):
+        change(model)
+    assert model.valves == before and model.undo() and not model.can_undo
+
+
+def test_refused_meshes(small):
+    points, cells = small
+    bad = points.copy()
+    bad[7, 1] = INF
+    far = cells.copy()
+    far[3, 2] = len(points)
+    for error, message, make in [
+        (riis.InvalidMeshError, "y of node 7 is inf", lambda: view.Model(bad, cells)),
+        (riis.InvalidMeshError, "y of node 7 is inf", lambda: view.Model.near(bad, cells)),
+        (riis.InvalidArgumentError, r"points: has the shape \(3,\)", lambda: view.Model(numpy.zeros(3))),
+        (riis.InvalidMeshError, "points: there are none", lambda: view.Model(numpy.zeros((0, 3)))),
+        (riis.InvalidMeshError, f"cells: none of the {len(cells)} is a volume cell, they are triangles",
+         lambda: view.Model(points, cells[:, :3])),
+        (riis.InvalidMeshError, "cells: none of the 2 is a volume cell, they are quads and triangles",
+         lambda: view.Model(points, [0, 1, 2, 0, 1, 2, 3], offsets=[0, 3, 7], types=[5, 9])),
+        (riis.InvalidMeshError, rf"cells: cell 3 has the nodes \[.*{len(points)}.*\]; the mesh has {len(points)}",
+         lambda: view.Model(points, far)),
+        (riis.InvalidMeshError, "cells: cell 0 of type 10 has 3 nodes; it must have 4",
+         lambda: view.Model(points, [0, 1, 2], offsets=[0, 3], types=[10])),
+        (riis.InvalidArgumentError, "offsets: must ascend from 0 to 4, the length of cells; they go from 0 to 3",
+         lambda: view.Model(points, [0, 1, 2, 3], offsets=[0, 3])),
+        (riis.InvalidArgumentError, "types: has 1 entries for", lambda: view.Model(points, cells, types=[10])),
+        (riis.InvalidArgumentError, "cells: has the type float64", lambda: view.Model(points, cells * 1.0)),
+        (riis.InvalidArgumentError, "unit: is 'inch'; it must be mm, cm, m", lambda: view.Model(points, cells, unit="inch")),
+    ]:
+        with pytest.raises(error, match=message):
+            make()
+
+
+@pytest.mark.parametrize("text, message", [
+    ("0,0,1\n", "line 1: has 3 columns: '0,0,1'; it must have 2, time and opening"),
+    ("just words\nand more\n", "line 2: the time 'and' is not a finite number"),
+    ("0\n", "line 1: has 1 columns"),
+    ("0,0\n0.1,nan\n", "line 2: the opening 'nan' is not a finite number"),
+    ("0,0\n0,1\n", "line 2: the time 0 is not above the time before it"),
+    ("0,0\n1,1.5\n", "line 2: the opening 1.5 is not from 0 to 1"),
+    ("# nothing\n", "holds no times and openings"),
+    ("0,0\n7,1\n", "7"),
+])
+def test_refused_cycles(text, message, tmp_path, small):
+    (tmp_path / "beat.csv").write_text(text)
+    model = view.Model(*small)
+    model.add("coapting")
+    with pytest.raises(riis.InvalidArgumentError, match=message):
+        model.set_cycle(tmp_path / "beat.csv", 0.8)
+    assert model.valves[0].cycle is None
