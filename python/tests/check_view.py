@@ -237,18 +237,18 @@ def place_by_clicks(browser):
 def play(browser):
     browser.press("#play")
     browser.wait(lambda: browser.get("playing") and len(browser.get("curves")) == 3, "it plays, with curves")
-    times = []
-    for _ in range(30):
+    times, end = [], time.monotonic() + 60
+    while len(set(times)) < 8 and time.monotonic() < end:
         times.append(browser.get("time"))
-        time.sleep(0.1)
+        time.sleep(0.05)
         if 0.1 < times[-1] < 0.35:
             browser.shot("6-playing")
-    assert len(set(times)) > 3, times
+    assert len(set(times)) >= 8, times
     browser.press("#play")
     browser.wait(lambda: not browser.get("playing"), "it pauses")
     browser.rest()
     browser.shot("6-paused")
-    say(f"it plays; {len(set(times))} of 30 looks at the time differ")
+    say("it plays and pauses")
 
 
 def write_and_reopen(browser, folder, program):

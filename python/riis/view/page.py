@@ -233,7 +233,7 @@ class Page:
 
     def _take(self, grid: Any, wall: Any, model: Any, path: str) -> None:
         self._pause()
-        size = tuple(self.scene.plotter.window_size) if self.scene is not None else (900, 700)
+        size = self.scene.size if self.scene is not None else (900, 700)
         if self.scene is not None:
             self.scene.close()
         self.model, self._grid = model, grid
@@ -317,7 +317,10 @@ class Page:
     def _legend(self) -> list[dict[str, str]]:
         legend = []
         for k, valve in enumerate(self.model.valves):
-            legend += [{"label": name, "colour": colour_of(k, j)} for j, name in enumerate(_LEAFLETS.get(valve.kind, ["surface"]))]
+            names = _LEAFLETS.get(valve.kind, ["surface"])
+            if valve.parameters.get("skirt_length", 0.0) != 0.0:
+                names = [*names, "skirt"]
+            legend += [{"label": name, "colour": colour_of(k, j)} for j, name in enumerate(names)]
         return legend + [{"label": "marked cells", "colour": "#56b4e9"}, {"label": "partly marked", "colour": "#f0e442"}]
 
     def _renew_all(self) -> None:
@@ -361,6 +364,8 @@ class Page:
         with self.state as state:
             if state.sliders and state.sliders[0]["name"] == "opening" and state.sliders[0]["value"] != valve.opening:
                 state.sliders[0]["value"] = state.slider_0 = valve.opening
+            if self._playing is not None:
+                state.time = float(self.model.time)
             state.n_marked, state.milliseconds = len(self._shown.marked), self._shown.milliseconds
             state.marked_text = (
                 f"{len(self._shown.marked):,} nodes marked in {self._shown.milliseconds:.1f} ms"
@@ -387,7 +392,7 @@ class Page:
             state.lights = [_light_of(light) for light in lights]
             state.digest = _digest_of(self._shown)
         self._show_numbers()
-        self._push(92)
+        self._push(self.scene.picture)
         with self.state as state:
             state.fresh = state.at_rest = True
 
@@ -406,18 +411,18 @@ class Page:
             self.state.at_rest = False
             if self._stale:
                 self._told(self._refresh)()
-            self._told(self._push)(80)
+            self._told(self._push)(self.scene.quick_picture)
             self._unsettled = True
             try:
                 await asyncio.wait_for(self._seen.wait(), 1.0)
             except asyncio.TimeoutError:
                 pass
 
-    def _push(self, quality: int) -> None:
+    def _push(self, draw: Callable[[], bytes]) -> None:
         self._number += 1
         self._seen.clear()
         with self.state as state:
-            state.picture = "data:image/jpeg;base64," + base64.b64encode(self.scene.picture(quality)).decode()
+            state.picture = "data:image/jpeg;base64," + base64.b64encode(draw()).decode()
             state.picture_number = self._number
 
     def _on_seen(self, number: float) -> None:
@@ -699,10 +704,8 @@ class Page:
                 break
             if self._moved.is_set() or not self._seen.is_set():
                 continue  # the last picture is still under way
-            seconds = (float(self.state.time) + (now - last) * float(self.state.speed)) % float(self.state.period)
+            seconds = (self.model.time + (now - last) * float(self.state.speed)) % float(self.state.period)
             last = now
-            with self.state as state:
-                state.time = seconds
             self._told(self._at)(seconds)
         self._playing = None
         with self.state as state:
@@ -769,6 +772,7 @@ class Page:
         elif name == "mesh":
             reading.write_marked(self._grid, self.model, str(path))
         else:
+            self.scene.sharpen()
             self.scene.plotter.screenshot(str(path))
         self._wrote(path)
 
@@ -776,16 +780,17 @@ class Page:
         """Writes one heartbeat as a movie. Browsers see its progress."""
         self._pause()
         self._need_cycle()
-        before = float(self.state.time)
-        width, height = self.scene.plotter.window_size
+        width, height = self.scene.size
         try:
             import imageio
 
             self.scene.resize(width // 16 * 16, height // 16 * 16)  # as .mp4 needs
-            with imageio.get_writer(str(path), fps=24) as writer:
+            self.scene.sharpen()
+            with self.model.kept(), imageio.get_writer(str(path), fps=24) as writer:
                 for k in range(n_frames):
                     self.model.at(k / n_frames * float(self.state.period))
                     self._refresh()
+                    self._show_orifice()
                     writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
                     with self.state as state:
                         state.progress = round(100 * (k + 1) / n_frames)
@@ -797,9 +802,9 @@ class Page:
             self._say(_text_of(error))
         finally:
             self.scene.resize(width, height)
-            self._told(self._at)(before)
             with self.state as state:
                 state.progress = None
+            self._touch()
 
     # the server
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ctypes
 import math
 import os
+import time
 from collections.abc import Sequence
 from typing import Any
 
@@ -21,6 +22,7 @@ WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000",
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
+SLOW = 0.12  # seconds for a picture, above which pictures of a moving hand get fewer pixels
 MANY_CELLS = 2_000_000  # larger meshes show the cut through the cells near the valve only
 
 
@@ -90,6 +92,7 @@ class Scene:
             check_of_graphics()
             plotter = pyvista.Plotter(off_screen=True, window_size=size)
         self.plotter, self.model, self.grid = plotter, model, grid
+        self._size, self._ratio = (int(plotter.window_size[0]), int(plotter.window_size[1])), 1.0
         self._pv = pyvista
         self._wall = wall if wall is not None or grid is None else boundary_of(grid)
         self._how, self._cells_shown = "cut", "partly"
@@ -363,11 +366,44 @@ class Scene:
 
     # the picture
 
-    def resize(self, width: int, height: int) -> None:
-        self.plotter.window_size = [max(64, min(4096, int(width))), max(64, min(4096, int(height)))]
+    @property
+    def size(self) -> tuple[int, int]:
+        """The width and the height of a sharp picture, in pixels."""
+        return self._size
 
-    def picture(self, quality: int = 80) -> bytes:
-        """Returns the picture as the bytes of a JPEG file."""
+    def resize(self, width: int, height: int) -> None:
+        self._size = max(64, min(4096, int(width))), max(64, min(4096, int(height)))
+        self._set_window(1.0)
+
+    def _set_window(self, ratio: float) -> None:
+        size = tuple(int(ratio * length + 0.5) for length in self._size)
+        if tuple(self.plotter.render_window.GetSize()) != size:
+            self.plotter.window_size = list(size)
+
+    def quick_picture(self) -> bytes:
+        """Returns the picture as the bytes of a JPEG file, with as few pixels as needed to keep up with a hand that moves."""
+        self.plotter.render_window.SetMultiSamples(0)
+        self._set_window(self._ratio)
+        start = time.perf_counter()
+        made = self._jpeg(75)
+        seconds = time.perf_counter() - start
+        if seconds > SLOW and self._ratio > 0.5:
+            self._ratio = max(0.5, 0.8 * self._ratio)
+        elif seconds < 0.4 * SLOW and self._ratio < 1.0:
+            self._ratio = min(1.0, self._ratio / 0.8)
+        return made
+
+    def picture(self) -> bytes:
+        """Returns the picture as the bytes of a JPEG file, with all pixels and smooth edges."""
+        self.sharpen()
+        return self._jpeg(92)
+
+    def sharpen(self) -> None:
+        """Makes the next picture one with all pixels and smooth edges."""
+        self.plotter.render_window.SetMultiSamples(4)
+        self._set_window(1.0)
+
+    def _jpeg(self, quality: int) -> bytes:
         from vtkmodules.vtkIOImage import vtkJPEGWriter
         from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
