@@ -11,12 +11,11 @@ import ctypes
 import math
 import os
 import time
-from collections.abc import Sequence
 from typing import Any
 
 import numpy
 
-from riis._plot import COLOURS, _pyvista
+from riis._plot import COLOURS, _pyvista, coloured, widget_of
 
 WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
 WALLS = ("cut", "clear", "none")
@@ -63,13 +62,6 @@ def _egl_works() -> bool:
         return any(display and initialize(display, None, None) for display in displays)
     except (OSError, AttributeError):
         return False
-
-
-def _rgb(colours: Sequence[str]) -> Any:
-    return numpy.array([[int(colour[at : at + 2], 16) for at in (1, 3, 5)] for colour in colours], numpy.uint8)
-
-
-_LEAFLET_RGB = _rgb(COLOURS)
 
 
 def colour_of(valve: int, leaflet: int) -> str:
@@ -124,6 +116,14 @@ class Scene:
             actor.SetVisibility(how == self._how)
         if "riis cut" in self._actors:
             self._actors["riis cut"].SetVisibility(self._how == "cut")
+
+    def freeze(self) -> None:
+        """Cuts the wall itself, where otherwise a plane hides the half towards the camera. vtk.js knows no such plane."""
+        if self._plane is not None:
+            rest = self._wall.clip(normal=self._plane.GetNormal(), origin=self._plane.GetOrigin(), invert=False)
+            self.plotter.remove_actor("riis wall", reset_camera=False)
+            self.plotter.remove_actor("riis clear wall", reset_camera=False)
+            self._wall_actors = {"cut": self.plotter.add_mesh(rest, color=WALL, ambient=0.35, name="riis wall", reset_camera=False)}
 
     def show_wall(self, how: str) -> None:
         """Shows the mesh's boundary cut open ("cut"), see-through ("clear") or not at all ("none")."""
@@ -202,8 +202,8 @@ class Scene:
                 data = data.compute_normals(
                     cell_normals=False, split_vertices=False, consistent_normals=False, auto_orient_normals=False
                 )
-            data.cell_data["colour"] = _LEAFLET_RGB[(3 * k + numpy.maximum(surface.leaflet, 0)) % len(_LEAFLET_RGB)]
-            self._put(f"riis valve {k}", data, scalars="colour", rgb=True, ambient=0.3, specular=0.15, pickable=False)
+            data.cell_data["leaflet_id"] = surface.leaflet
+            self._put(f"riis valve {k}", coloured(data, k), scalars="colour", rgb=True, ambient=0.3, specular=0.15, pickable=False)
         for name in [name for name in self._data if name.startswith("riis valve ")]:
             if int(name.split()[-1]) >= len(shown.surfaces):
                 self._drop(name)
@@ -423,6 +423,30 @@ class Scene:
 
     def close(self) -> None:
         self.plotter.close()
+
+
+def widget(model: Any, grid: Any = None) -> Any:
+    """Shows a Model in a notebook, by PyVista's widget: the mesh cut open, the leaflets, the marked cells, the lights' places.
+
+    model  a riis.view.model.Model
+    grid   its mesh as pyvista.UnstructuredGrid; without it the leaflets are alone
+
+    The mouse turns the scene. Call it again after a change of the model. It needs pyvista[jupyter].
+    """
+    check_of_graphics()
+    scene = Scene(model, grid, plotter=_pyvista().Plotter(notebook=True, off_screen=True, window_size=(900, 600)))
+    shown = model.update()
+    scene.show(shown)
+    if shown.surfaces:
+        valve, points = model.valves[0], numpy.asarray(shown.surfaces[0].points)
+        centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
+        reach = float(numpy.linalg.norm(points - centre, axis=1).max())
+        scene.look("oblique", centre, valve.axis, valve.reference, 1.45 * reach)
+        scene.cut_here(valve.origin, valve.axis)
+    scene.show_cut()
+    scene.show_lights(model.lights())
+    scene.freeze()
+    return widget_of(scene.plotter)
 
 
 def _smooth(line: Any, axis: Any) -> Any:
