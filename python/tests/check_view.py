@@ -107,7 +107,8 @@ class Browser:
         while still < 6:
             time.sleep(0.25)
             try:
-                number = self.get("picture_number") if self.get("fresh") and self.get("at_rest") and self.get("progress") is None else -1
+                rests = self.get("fresh") and self.get("at_rest") and self.get("progress") is None
+                number = self.get("picture_number") if rests else -1
             except JavascriptException:  # the page is not there yet
                 number = -1
             still = still + 1 if number == last != -1 else 0
@@ -345,7 +346,8 @@ def status_of(server, path, **headers):
 
 def strangers(server):
     upgrade = {
-        "Connection": "Upgrade", "Upgrade": "websocket", "Sec_WebSocket_Version": "13", "Sec_WebSocket_Key": "MDEyMzQ1Njc4OWFiY2RlZg==",
+        "Connection": "Upgrade", "Upgrade": "websocket", "Sec_WebSocket_Version": "13",
+        "Sec_WebSocket_Key": "MDEyMzQ1Njc4OWFiY2RlZg==",
     }  # fmt: skip
     assert status_of(server, "")[0] == 200 and b"tube" not in status_of(server, "")[1]
     assert status_of(server, "", Host="evil.example")[0] == 403
@@ -411,8 +413,8 @@ def measure(browser):
     browser.driver.set_script_timeout(300)
     times, marks = browser.driver.execute_async_script(script, N_MOVES)
     print(
-        f"median of {N_MOVES} moves, {browser.get('mesh_text')}: new marks {statistics.median(marks):.1f} ms, from the move to the "
-        f"picture in the browser {statistics.median(times):.0f} ms"
+        f"median of {N_MOVES} moves, {browser.get('mesh_text')}: new marks {statistics.median(marks):.1f} ms, from the move to "
+        f"the picture in the browser {statistics.median(times):.0f} ms"
     )
 
 

@@ -28,7 +28,8 @@ from riis.view.model import Model  # noqa: E402
 
 def box(n=12):
     """Returns a box of hexahedra around a valve, of n^3 nodes."""
-    return pyvista.ImageData(dimensions=(n, n, n), spacing=3 * [4.0 / (n - 1)], origin=(-2.0, -2.0, -1.5)).cast_to_unstructured_grid()
+    image = pyvista.ImageData(dimensions=(n, n, n), spacing=3 * [4.0 / (n - 1)], origin=(-2.0, -2.0, -1.5))
+    return image.cast_to_unstructured_grid()
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +41,7 @@ def server(tmp_path_factory):
         pytest.skip(str(missing))
     folder = tmp_path_factory.mktemp("view")
     box().save(folder / "box.vtu")
-    words = [sys.executable, "-W", "ignore", "-m", "riis", "view", str(folder / "box.vtu"), "--no-browser", "--folder", str(folder)]
+    words = [sys.executable, "-W", "ignore", "-m", "riis", "view", str(folder / "box.vtu"), "--no-browser"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
         found = re.search(r"http://127\.0\.0\.1:(\d+)/#([0-9a-f]{64})", process.stdout.readline())
         yield process, int(found[1]), found[2]

@@ -124,9 +124,11 @@ class Page:
             "message": "", "message_type": "error", "folder": str(self.folder),
             "kinds": list(KINDS), "kind": KINDS[0], "is_surface": False, "valve_names": [], "current": 0,
             "sliders": [], "rows": [], "panels": [], "placement": [], "tool": "look", "n_clicks": 0,
-            "lights": [], "fresh": False, "at_rest": False, "digest": "", "n_marked": 0, "milliseconds": 0.0, "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
+            "lights": [], "fresh": False, "at_rest": False, "digest": "", "n_marked": 0, "milliseconds": 0.0,
+            "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
             "looks": {name: name.capitalize() for name in LOOKS},
-            "playing": False, "time": 0.0, "period": 1.0, "speed": 0.25, "speeds": _SPEEDS, "cycle": "", "cycles": list(CYCLES), "curves": [],
+            "playing": False, "time": 0.0, "period": 1.0, "speed": 0.25, "speeds": _SPEEDS,
+            "cycle": "", "cycles": list(CYCLES), "curves": [],
             "texts": _TEXTS, "text": "", "text_title": "", "text_shown": False,
             "writes": _WRITES, "file_name": "valve", "replace": False,
             "open_rows": [
@@ -419,11 +421,15 @@ class Page:
                 pass
 
     def _push(self, draw: Callable[[], bytes]) -> None:
+        picture = "data:image/jpeg;base64," + base64.b64encode(draw()).decode()
+        if picture == self.state.picture:  # no browser would acknowledge it
+            self._seen_at = time.monotonic()
+            self._seen.set()
+            return
         self._number += 1
         self._seen.clear()
         with self.state as state:
-            state.picture = "data:image/jpeg;base64," + base64.b64encode(draw()).decode()
-            state.picture_number = self._number
+            state.picture, state.picture_number = picture, self._number
 
     def _on_seen(self, number: float) -> None:
         self._seen_at = time.monotonic()
@@ -526,7 +532,7 @@ class Page:
         self._need_model()
         self._end_drag()
         valve = self._valve()
-        place = {"origin": list(valve.origin), "axis": list(valve.axis), "reference": list(valve.reference), "scale": [valve.scale]}
+        place = {name: list(getattr(valve, name)) for name in ("origin", "axis", "reference")} | {"scale": [valve.scale]}
         place[field][int(k)] = reading.number_of(value, field)
         self.model.place(self.state.current, **place | {"scale": place["scale"][0]})
         self._renew_all()
@@ -841,7 +847,8 @@ def _slider_of(parameter: Any, value: float) -> dict[str, Any]:
     low, high = min(float(parameter.low), value), max(float(parameter.high), value)
     step = 10.0 ** math.floor(math.log10((high - low) / 100)) if high > low else 0.01
     return {
-        "name": parameter.name, "label": _LABELS.get(parameter.name, parameter.name.replace("_", " ")), "unit": _UNITS[parameter.unit],
+        "name": parameter.name, "label": _LABELS.get(parameter.name, parameter.name.replace("_", " ")),
+        "unit": _UNITS[parameter.unit],
         "least": float(parameter.least), "greatest": float(parameter.greatest), "low": low, "high": high, "step": step,
         "value": value, "description": parameter.description,
     }  # fmt: skip
@@ -875,8 +882,8 @@ def _placement_of(valve: Any) -> list[dict[str, Any]]:
 def _light_of(light: Any) -> dict[str, Any]:
     icon, colour = _LIGHT[light.level]
     return {
-        "name": light.name, "level": light.level, "text": light.text, "advice": light.advice or "", "cure": light.cure[0] if light.cure else "",
-        "icon": icon, "colour": colour,
+        "name": light.name, "level": light.level, "text": light.text, "advice": light.advice or "",
+        "cure": light.cure[0] if light.cure else "", "icon": icon, "colour": colour,
     }  # fmt: skip
 
 

@@ -78,7 +78,9 @@ class Scene:
     plotter  the pyvista.Plotter to draw into. If None, the scene makes one without a window
     """
 
-    def __init__(self, model: Any, grid: Any = None, *, wall: Any = None, plotter: Any = None, size: tuple[int, int] = (900, 700)):
+    def __init__(
+        self, model: Any, grid: Any = None, *, wall: Any = None, plotter: Any = None, size: tuple[int, int] = (900, 700)
+    ) -> None:
         pyvista = _pyvista()
         if plotter is None:
             check_of_graphics()
@@ -123,7 +125,8 @@ class Scene:
             rest = self._wall.clip(normal=self._plane.GetNormal(), origin=self._plane.GetOrigin(), invert=False)
             self.plotter.remove_actor("riis wall", reset_camera=False)
             self.plotter.remove_actor("riis clear wall", reset_camera=False)
-            self._wall_actors = {"cut": self.plotter.add_mesh(rest, color=WALL, ambient=0.35, name="riis wall", reset_camera=False)}
+            still = self.plotter.add_mesh(rest, color=WALL, ambient=0.35, name="riis wall", reset_camera=False)
+            self._wall_actors = {"cut": still}
 
     def show_wall(self, how: str) -> None:
         """Shows the mesh's boundary cut open ("cut"), see-through ("clear") or not at all ("none")."""
@@ -203,7 +206,8 @@ class Scene:
                     cell_normals=False, split_vertices=False, consistent_normals=False, auto_orient_normals=False
                 )
             data.cell_data["leaflet_id"] = surface.leaflet
-            self._put(f"riis valve {k}", coloured(data, k), scalars="colour", rgb=True, ambient=0.3, specular=0.15, pickable=False)
+            name = f"riis valve {k}"
+            self._put(name, coloured(data, k), scalars="colour", rgb=True, ambient=0.3, specular=0.15, pickable=False)
         for name in [name for name in self._data if name.startswith("riis valve ")]:
             if int(name.split()[-1]) >= len(shown.surfaces):
                 self._drop(name)
@@ -250,7 +254,9 @@ class Scene:
             lines[:, 1:] = numpy.arange(2 * n_edges).reshape(-1, 2)
             corners = numpy.full((len(points), 2), 1, numpy.int64)
             corners[:, 1] = 2 * n_edges + numpy.arange(len(points))
-            data = self._pv.PolyData(both, lines=lines.ravel() if n_edges else None, verts=corners.ravel() if len(points) else None)
+            data = self._pv.PolyData(
+                both, lines=lines.ravel() if n_edges else None, verts=corners.ravel() if len(points) else None
+            )
             self._drop(name)
             self._put(
                 name, data, color=CROSSING if light.name == "crossing" else LEAK, line_width=6, point_size=10, lighting=False,
@@ -268,7 +274,9 @@ class Scene:
         if not lines:
             return
         starts = numpy.cumsum([0] + [len(line) for line in lines])
-        rows = [numpy.concatenate([[len(line) + 1], start + numpy.arange(len(line)), [start]]) for start, line in zip(starts, lines)]
+        rows = [
+            numpy.concatenate([[len(line) + 1], start + numpy.arange(len(line)), [start]]) for start, line in zip(starts, lines)
+        ]
         data = self._pv.PolyData(numpy.concatenate(lines), lines=numpy.concatenate(rows))
         self._put("riis orifice", data, color=ORIFICE, line_width=4, lighting=False, pickable=False)
 
@@ -277,14 +285,17 @@ class Scene:
         self._drop("riis points")
         if len(points) > 0:
             data = self._pv.PolyData(numpy.asarray(points, float))
-            self._put("riis points", data, color=LEAK, point_size=14, render_points_as_spheres=True, lighting=False, pickable=False)
+            self._put(
+                "riis points", data, color=LEAK, point_size=14, render_points_as_spheres=True, lighting=False, pickable=False
+            )
 
     def show_handle(self, origin: Any = None, axis: Any = None, length: float = 1.0) -> None:
         """Draws the valve's axis as an arrow downstream from its origin, or nothing."""
         self._drop("riis handle")
         if origin is not None:
             arrow = self._pv.Arrow(
-                start=origin, direction=axis, tip_length=0.12, tip_radius=0.025, shaft_radius=0.006, scale=length, tip_resolution=24
+                start=origin, direction=axis, tip_length=0.12, tip_radius=0.025, shaft_radius=0.006, scale=length,
+                tip_resolution=24,
             )
             self._put("riis handle", arrow, color=HANDLE, ambient=0.4, pickable=False)
 
@@ -347,7 +358,10 @@ class Scene:
         self.plotter.renderer.ResetCameraClippingRange()
 
     def pick(self, x: float, y: float) -> Any:
-        """Returns the point of the mesh's wall under a point of the picture, or None. x and y are from 0 to 1, from below left."""
+        """Returns the point of the mesh's wall under a point of the picture, or None.
+
+        x and y are from 0 to 1, from the picture's lower left corner.
+        """
         from vtkmodules.vtkRenderingCore import vtkCellPicker
 
         picker = vtkCellPicker()
