@@ -51,9 +51,8 @@ def placed_model(mesh, kinds, random, **options):
 
 def surface_of(state):
     """Makes a surface from a snapshot, without the model."""
-    valve = riis.Valve(state.kind, **{name.replace(".", "_"): value for name, value in state.parameters.items() if "." not in name})
-    valve.update({name: value for name, value in state.parameters.items() if "." in name})
-    valve["opening"] = state.opening
+    valve = riis.Valve(state.kind, opening=state.opening)
+    valve.update(state.parameters)
     return riis.Surface(valve, half_thickness=state.half_thickness, scale=state.scale, rotation_axis=state.rotation[:3],
                         rotation_angle=state.rotation[3], translation=state.origin, triangulation=state.triangulation)
 
@@ -103,6 +102,91 @@ def test_cells_of_all_types(random):
     volumes = {k: sum(node in marked for node in cells[k]) / len(cells[k]) for k in (1, 2, 4, 5)}
     assert set(made.update().cells_marked.tolist()) == {k for k, share in volumes.items() if share == 1}
     assert set(made.update().cells_partly.tolist()) == {k for k, share in volumes.items() if 0 < share < 1}
+
+
+def faces_alone(cells, faces):
+    """Returns the sets of nodes of the faces that only one cell has, by counting."""
+    count = {}
+    for cell in cells:
+        for face in faces:
+            key = frozenset(cell[k] for k in face)
+            count[key] = count.get(key, 0) + 1
+    return {key for key, n in count.items() if n == 1}
+
+
+def test_the_wall_is_the_boundary(small, random):
+    """The wall of tetrahedra with a hole inside, and of hexahedra, with normals outwards: its volume is that of the cells."""
+    points, tetrahedra = small
+    n = 5
+    axis = numpy.linspace(-1.0, 1.0, n)
+    grid = numpy.stack(numpy.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+    i, j, k = (part.ravel() for part in numpy.meshgrid(*3 * [numpy.arange(n - 1)], indexing="ij"))
+    corner = [(a, b, c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    hexahedra = numpy.column_stack([(i + a) * n * n + (j + b) * n + k + c for a, b, c in corner])
+    six = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+    middle = points[tetrahedra].mean(axis=1)
+    holed = tetrahedra[numpy.linalg.norm(middle, axis=1) > 0.6]
+    a, b, c, d = (points[holed[:, k]] for k in range(4))
+    volume = numpy.abs(numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a)).sum() / 6.0
+    for nodes, cells, faces, known in [
+        (points, holed, [(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)], volume),
+        (grid, hexahedra[random.permutation(len(hexahedra))], six, 8.0),
+    ]:
+        wall = view.Model(nodes, cells)._region().wall()
+        vertices, triangles = wall.vertices, wall.triangles.vertex_id
+        x, y, z = (vertices[triangles[:, k]] for k in range(3))
+        assert abs(numpy.einsum("ij,ij->i", x, numpy.cross(y, z)).sum() / 6.0 - known) < 1e-9 * known
+        sets = faces_alone(cells.tolist(), faces)
+        assert len(triangles) == sum(len(key) - 2 for key in sets)
+
+
+def of_second_order(points, tetrahedra):
+    """Returns the mesh with a node in the middle of each edge, in VTK's order."""
+    edges = [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]
+    pairs = numpy.sort(numpy.stack([tetrahedra[:, edge] for edge in edges], axis=1), axis=2)
+    known, place = numpy.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
+    middles = points[known].mean(axis=1)
+    return numpy.concatenate([points, middles]), numpy.concatenate([tetrahedra, len(points) + place.reshape(-1, 6)], axis=1)
+
+
+def test_edges_of_second_order(small):
+    """A tetrahedron of second order has the edges of its eight small ones, except for the one inside that joins two middles."""
+    points, cells = of_second_order(*tube.mesh(5))
+    small_ones = [(0, 4, 6, 7), (1, 4, 5, 8), (2, 5, 6, 9), (3, 7, 8, 9)]
+    middles = [(4, 5, 6), (4, 7, 8), (5, 8, 9), (6, 7, 9)]
+    known = set()
+    for cell in cells.tolist():
+        for group in small_ones + middles:
+            known |= {(cell[a], cell[b]) for a in group for b in group if a != b}
+    rows = view.Model(points, cells, types=numpy.full(len(cells), 24))._region().adjacency()
+    found = {(k, int(n)) for k in range(len(points)) for n in rows.columns[rows.offsets[k] : rows.offsets[k + 1]]}
+    assert found == known
+    model = view.Model(*of_second_order(*small), types=numpy.full(len(small[1]), 24), unit="cm")
+    model.add("coapting")
+    for name in ("annulus", "stj"):
+        model.set(0, name, 2.55)
+    assert light(model, "half_thickness").level == "good" and light(model, "sealed").cure[1] == "sealed"
+    model.cure("sealed")
+    assert 0.1 < model.valves[0].half_thickness < 0.12
+    assert {one.name: one.level for one in model.lights()} == dict.fromkeys(view.NAMES, "good")
+    strange = view.Model(numpy.zeros((27, 3)) + numpy.arange(27.0)[:, None], numpy.arange(27)[None], types=[29], unit="cm")
+    strange.add("coapting")
+    assert light(strange, "sealed").text == "the mesh has cells of a type whose edges the view does not know"
+
+
+def test_another_kind(small):
+    model = view.Model(*small, unit="cm")
+    i, j = model.add("mitral"), model.add("coapting")
+    model.set(i, "AP_diameter", 2.8)
+    model.place(i, (0.1, 0.0, 0.0))
+    model.change_kind(i, "coapting")
+    state = model.valves[i]
+    assert (state.kind, state.name, state.parameters, state.origin) == ("coapting", "coapting_2", {}, (0.1, 0.0, 0.0))
+    for k in (i, j):
+        marks = riis.mark(surface_of(model.valves[k]), riis.Mesh(small[0]))
+        nodes, distance, leaflet = model.marks_of(k)
+        assert numpy.array_equal(nodes, marks.ids) and numpy.array_equal(distance, marks.distance)
+        assert numpy.array_equal(leaflet, marks.leaflet_id)
 
 
 @pytest.mark.parametrize("kind", view.KINDS)
@@ -422,7 +506,7 @@ def test_lights_without_cells(small):
     model.add("coapting")
     levels = {one.name: one.level for one in model.lights()}
     assert levels["half_thickness"] == levels["sealed"] == levels["wall"] == "off" and levels["crossing"] == "good"
-    with pytest.raises(riis.InvalidArgumentError, match="the light sealed is off and offers no cure: the mesh has no volume cells"):
+    with pytest.raises(riis.InvalidArgumentError, match="the light sealed is off and offers no cure: there are no volume cells"):
         model.cure("sealed")
     with pytest.raises(riis.InvalidArgumentError, match="name: is 'wal'; the lights are unit, inside"):
         model.cure("wal")
@@ -490,9 +574,10 @@ def write_mesh(path, points, cells):
 def test_python_lines_give_the_same_bits(unit, small, random):
     mesh = (small[0] * view.UNITS[unit] if unit else small[0], small[1])
     for kind in view.KINDS:
-        model = placed_model(mesh, [], random, unit=unit)
+        model = view.Model(*mesh, unit=unit)
         i = model.add(kind)
-        model.place(i, random.normal(size=3), axis=random.normal(size=3))
+        size = 0.2 * view.UNITS[unit or "cm"]
+        model.place(i, size * random.normal(size=3), axis=(0, 0, 1) + 0.5 * random.normal(size=3))
         model.set(i, "opening", random.uniform())
         parameters = [one for one in model.parameters(kind) if one.n_values == 1 and one.unit == "length" and one.default]
         for parameter in random.choice(len(parameters), 2, replace=False):
@@ -542,6 +627,38 @@ def test_the_program_gives_the_same_bits(tmp_path, small, random):
         nearest[marked] = numpy.minimum(nearest[marked], made[f"{state.name}_distance"][marked])
     assert numpy.array_equal(numpy.flatnonzero(numpy.isfinite(nearest)), shown.marked)
     assert numpy.array_equal(nearest[shown.marked], shown.distance)
+
+
+def test_the_program_marks_a_surface_from_a_file(tmp_path, small):
+    """A surface of the mesh's unit beside a valve: the case, and the command for the surface alone."""
+    pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    program = program_riis()
+    write_mesh(tmp_path / "tube.vtk", *small)
+    shape = pyvista.Sphere(radius=0.7, theta_resolution=12, phi_resolution=9)
+    shape.save(tmp_path / "ball.vtp")
+    read = pyvista.read(tmp_path / "ball.vtp")
+    model = view.Model(*small, unit="cm", path=tmp_path / "tube.vtk")
+    i = model.add_surface(read.points, read.regular_faces, path=tmp_path / "ball.vtp", half_thickness=0.15)
+    model.place(i, (0.1, 0.2, 0.3), axis=(1.0, 1.0, 0.0), scale=1.2)
+    assert model.valves[i].name == "ball"
+    with pytest.raises(riis.InvalidArgumentError, match="name: is 'gap'; a surface has half_thickness, resistance and scale"):
+        model.set(i, "gap", 1.0)
+    for kinds in ([], ["coapting"]):
+        for kind in kinds:
+            model.add(kind)
+        (tmp_path / "case.json").write_text(model.case())
+        command = model.command(program=program, case=str(tmp_path / "case.json"), output=str(tmp_path / "marked.vtu"))
+        done = subprocess.run(shlex.split(command), capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        made = pyvista.read(tmp_path / "marked.vtu").point_data
+        for k, state in enumerate(model.valves):
+            nodes, distance, _ = model.marks_of(k)
+            name = state.name if kinds else "riis"
+            assert len(nodes) > 20 and numpy.array_equal(numpy.flatnonzero(made[f"{name}_marked"]), nodes)
+            assert numpy.array_equal(made[f"{name}_distance"][nodes], distance)
+    lines = {}
+    exec(model.python(), lines)
+    assert numpy.array_equal(lines["marks"]["ball"].ids, model.marks_of(i)[0])
 
 
 def test_a_case_that_moves(tmp_path, small):
@@ -678,7 +795,7 @@ NAN, INF = float("nan"), float("inf")
     (lambda m: m.set(2, "gap", 1), riis.InvalidArgumentError, "i: is 2; there are 1 valves, from 0"),
     (lambda m: m.unset(0, "gapp"), riis.UnknownParameterError, "name: is 'gapp'"),
     (lambda m: m.place(0, (0, 0)), riis.InvalidArgumentError, r"origin: is \(0, 0\); it must be three finite numbers"),
-    (lambda m: m.place(0, axis=(0, 0, 0)), riis.InvalidArgumentError, r"axis: is \(0.0, 0.0, 0.0\); a direction must not be zero"),
+    (lambda m: m.place(0, axis=(0, 0, 0)), riis.InvalidArgumentError, r"axis: is \(0.0, 0.0, 0.0\); a direction must not be"),
     (lambda m: m.place(0, axis=(0, 0, 1), reference=(0, 0, 2)), riis.InvalidArgumentError, "which is along the axis"),
     (lambda m: m.place(0, scale=INF), riis.InvalidArgumentError, "scale: is inf; it must be a finite number"),
     (lambda m: m.place_by_clicks(0, [[0, 0, 0]]), riis.InvalidArgumentError, r"points3: has the shape \(1, 3\)"),

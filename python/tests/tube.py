@@ -21,7 +21,8 @@ def mesh(n, radius=1.3, length=4.0):
     other = numpy.pi / 2 - numpy.pi / 4 * x / numpy.where(y == 0, 1.0, y)
     angle = numpy.where(numpy.abs(x) >= numpy.abs(y), turn + numpy.where(x < 0, numpy.pi, 0.0),
                         other + numpy.where(y < 0, numpy.pi, 0.0))
-    points = numpy.column_stack([(radius * ring * numpy.cos(angle)).ravel(), (radius * ring * numpy.sin(angle)).ravel(), z.ravel()])
+    disc = radius * ring * numpy.cos(angle), radius * ring * numpy.sin(angle)
+    points = numpy.column_stack([disc[0].ravel(), disc[1].ravel(), z.ravel()])
     i, j, k = (part.ravel() for part in numpy.meshgrid(*(numpy.arange(m - 1) for m in (n, n, n_z)), indexing="ij"))
 
     def node(di, dj, dk):
@@ -32,6 +33,6 @@ def mesh(n, radius=1.3, length=4.0):
     return numpy.ascontiguousarray(points), cells
 
 
-def of_nodes(n_nodes):
+def of_nodes(n_nodes, radius=1.3, length=4.0):
     """Returns a tube with about so many nodes."""
-    return mesh(round((n_nodes / (4.0 / 2.6)) ** (1 / 3)))
+    return mesh(round((n_nodes / (length / (2.0 * radius))) ** (1 / 3)), radius, length)

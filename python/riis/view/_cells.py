@@ -7,12 +7,12 @@ In: arrays of nodes and cells, as a reader of meshes gives them. Out: marked and
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from riis._errors import InvalidArgumentError, InvalidMeshError
+from riis._errors import Error, InvalidArgumentError, InvalidMeshError
 from riis._riis import Adjacency, Mesh, Surface
 
 Reals = NDArray[numpy.float64]
@@ -34,6 +34,14 @@ _FACES = {
     5: ((0, 3, 2, 1), (0, 1, 4, 4), (1, 2, 4, 4), (2, 3, 4, 4), (3, 0, 4, 4)),
     6: ((0, 1, 2, 2), (3, 5, 4, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     8: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
+}
+_MARGIN = 0.4  # of the size of the valves: how far the region near them reaches beyond them
+# The edges of a cell by its number of corners, and for cells of second order the nodes in the middles of these edges.
+_EDGES = {
+    4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    5: ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
+    6: ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
+    8: ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
 }
 _CHUNK = 2_000_000  # rows that one step gathers, so that a large mesh needs little memory besides its arrays
 
@@ -132,12 +140,35 @@ def _checked(blocks: list[Block], n_nodes: int) -> list[Block]:
     return blocks
 
 
+def _order_of(numbers: AnyIds) -> AnyIds:
+    """Returns the stable order of numbers from 0 to 2**32 - 1. numpy sorts 16 bits by counting, so two such sorts are faster."""
+    order = numpy.argsort((numbers & 0xFFFF).astype(numpy.uint16), kind="stable")
+    high = (numbers >> 16).astype(numpy.uint16)[order]
+    return numpy.asarray(order[numpy.argsort(high, kind="stable")])
+
+
+def _alone(quads: Ids) -> Ids:
+    """Returns the rows of the faces that only one cell has. A face of three nodes has its last node twice."""
+    key = numpy.sort(quads, axis=1)
+    is_triangle = quads[:, 2] == quads[:, 3]
+    # The three least nodes tell a face. Of a triangle these are its nodes, without the one that is there twice.
+    second = numpy.where(is_triangle & (key[:, 0] == key[:, 1]), key[:, 2], key[:, 1])
+    third = numpy.where(is_triangle, key[:, 3], key[:, 2])
+    order = numpy.lexsort((third, second, key[:, 0]))
+    low, mid, high = key[order, 0], second[order], third[order]
+    same = (low[1:] == low[:-1]) & (mid[1:] == mid[:-1]) & (high[1:] == high[:-1])
+    alone = numpy.ones(len(order), numpy.bool_)
+    alone[1:] &= ~same
+    alone[:-1] &= ~same
+    return numpy.asarray(order[alone])
+
+
 class _Incidence:
     """For each node of a block, the rows of the cells that have it."""
 
     def __init__(self, nodes: AnyIds, n_nodes: int) -> None:
         flat = nodes.ravel()
-        order = numpy.argsort(flat, kind="stable")
+        order = _order_of(flat)
         self.row = (order // nodes.shape[1]).astype(numpy.int32 if len(nodes) < 2**31 else numpy.int64)
         self.start = numpy.zeros(n_nodes + 1, numpy.int64)
         numpy.cumsum(numpy.bincount(flat, minlength=n_nodes), out=self.start[1:])
@@ -149,6 +180,44 @@ class _Incidence:
         total = int(count.sum())
         before = numpy.cumsum(count) - count
         return numpy.asarray(self.row[numpy.repeat(first - before, count) + numpy.arange(total)])
+
+
+def _links(n_corners: int, n_nodes: int) -> list[tuple[int, int]]:
+    """Returns the pairs of a cell's nodes that are neighbours, as in the program.
+
+    The edges of a cell of second order have two halves, and the middles of a face's edges form a ring.
+    """
+    edges = _EDGES[n_corners]
+    if n_nodes == n_corners:
+        return list(edges)
+    middle = {frozenset(edge): n_corners + k for k, edge in enumerate(edges)}
+    made = [(end, n_corners + k) for k, edge in enumerate(edges) for end in edge]
+    for face in _FACES[n_corners]:
+        ring = list(dict.fromkeys(face))
+        middles = [middle[frozenset((ring[k], ring[k - 1]))] for k in range(len(ring))]
+        made += [(middles[k], middles[k - 1]) for k in range(len(middles))]
+    return made
+
+
+class Rows(NamedTuple):
+    """The neighbours of the nodes, as compressed sparse rows."""
+
+    offsets: Ids
+    columns: AnyIds
+
+
+def _rows_of(blocks: list[Block], n_nodes: int) -> Rows:
+    """Makes the rows from the edges of all cells."""
+    pairs = [numpy.empty(0, numpy.int64)]
+    for block in blocks:
+        for a, b in _links(block.n_corners, block.nodes.shape[1]):
+            first, second = block.nodes[:, a].astype(numpy.int64), block.nodes[:, b].astype(numpy.int64)
+            pairs += [numpy.unique(first * n_nodes + second), numpy.unique(second * n_nodes + first)]
+    both = numpy.unique(numpy.concatenate(pairs))
+    both = both[both // n_nodes != both % n_nodes]
+    offsets = numpy.zeros(n_nodes + 1, numpy.int64)
+    numpy.cumsum(numpy.bincount(both // n_nodes, minlength=n_nodes), out=offsets[1:])
+    return Rows(offsets, both % n_nodes)
 
 
 class Region:
@@ -167,7 +236,7 @@ class Region:
         self.mesh = Mesh(points)
         self._cut = cut  # nodes on the cut, whose faces are no wall
         self._incidence: list[_Incidence] | None = None
-        self._adjacency: Adjacency | None = None
+        self._rows: Rows | None = None
         self._wall: Surface | None = None
         self._knows_wall = False
 
@@ -200,22 +269,32 @@ class Region:
             partly.append(block.numbers(touched[~is_whole]))
         return numpy.sort(numpy.concatenate(whole)), numpy.sort(numpy.concatenate(partly))
 
-    def adjacency(self) -> Adjacency:
+    @property
+    def has_edges(self) -> bool:
+        """Whether there are volume cells, and the edges of all of them are known."""
+        n_known = [(block.n_corners, block.n_corners + len(_EDGES[block.n_corners])) for block in self.blocks]
+        return self.has_cells and all(block.nodes.shape[1] in n for block, n in zip(self.blocks, n_known, strict=True))
+
+    def adjacency(self) -> Rows:
         """Returns the neighbours of the nodes, and gives them to the mesh."""
-        if self._adjacency is None:
-            tables = [block.nodes[:, : block.n_corners] for block in self.blocks]
-            if len(tables) == 1:
-                cells, offsets = numpy.ascontiguousarray(tables[0]), None
-                wide = cells.dtype if cells.dtype in (numpy.int32, numpy.int64) else numpy.int64
-                made = Adjacency.from_cells(cells.astype(wide, copy=False), len(self.points))
+        if self._rows is None:
+            n_nodes = len(self.points)
+            if all(block.nodes.shape[1] == block.n_corners for block in self.blocks):
+                tables = [block.nodes if block.nodes.dtype in (numpy.int32, numpy.int64) else block.nodes.astype(numpy.int64)
+                          for block in self.blocks]
+                if len(tables) == 1:
+                    made = Adjacency.from_cells(numpy.ascontiguousarray(tables[0]), n_nodes)
+                else:
+                    sizes = numpy.concatenate([numpy.full(len(table), table.shape[1], numpy.int64) for table in tables])
+                    offsets = numpy.concatenate([numpy.zeros(1, numpy.int64), numpy.cumsum(sizes)])
+                    flat = numpy.concatenate([table.ravel().astype(numpy.int64) for table in tables])
+                    made = Adjacency.from_cells(flat, n_nodes, offsets=offsets)
+                self.mesh.set_adjacency(made)
+                self._rows = Rows(made.offsets, made.columns)
             else:
-                cells = numpy.concatenate([table.ravel().astype(numpy.int64) for table in tables])
-                sizes = numpy.concatenate([numpy.full(len(table), table.shape[1], numpy.int64) for table in tables])
-                offsets = numpy.concatenate([[0], numpy.cumsum(sizes)]).astype(numpy.int64)
-                made = Adjacency.from_cells(cells, len(self.points), offsets=offsets)
-            self.mesh.set_adjacency(made)
-            self._adjacency = made
-        return self._adjacency
+                self._rows = _rows_of(self.blocks, n_nodes)
+                self.mesh.set_adjacency(offsets=self._rows.offsets, columns=self._rows.columns)
+        return self._rows
 
     def path(self, start: int, end: int, is_open: Bools) -> Ids:
         """Returns the nodes of a shortest path along edges through open nodes; empty if there is none."""
@@ -248,30 +327,32 @@ class Region:
             self._wall = self._made_wall()
         return self._wall
 
+    def _may_be_wall(self) -> Bools:
+        """Returns the nodes that may be on the boundary. The others are certainly not.
+
+        The tetrahedra around an inner node cover a sphere about it. By Euler's formula, their number is 2 n - 4 if the node has n
+        neighbours. At a boundary node they cover a part of the sphere, with fewer triangles.
+        """
+        made = numpy.ones(len(self.points), numpy.bool_)
+        if len(self.blocks) == 1 and self.blocks[0].nodes.shape[1] == 4:
+            n_cells = numpy.diff(self.prepare()[0].start)
+            made[n_cells == 2 * numpy.diff(self.adjacency().offsets) - 4] = False
+        return made
+
     def _made_wall(self) -> Surface | None:
         faces, cells = [], []
+        may_be_wall = self._may_be_wall()
         for block in self.blocks:
-            corners = block.nodes[:, : block.n_corners].astype(numpy.int64)
-            middles = self.points[corners].mean(axis=1)
             for face in _FACES[block.n_corners]:
-                faces.append(corners[:, face])
-                cells.append(middles)
+                a, b, c = (may_be_wall[block.nodes[:, corner]] for corner in face[:3])
+                row = numpy.flatnonzero(a & b & c)
+                corners = block.nodes[row]
+                faces.append(corners[:, face].astype(numpy.int64))
+                cells.append(self.points[corners[:, : block.n_corners]].mean(axis=1))
         if not faces:
             return None
         quads, middle = numpy.concatenate(faces), numpy.concatenate(cells)
-        key = numpy.sort(quads, axis=1)
-        # A face of three nodes has one node twice. Without it, its three least nodes tell a face.
-        is_triangle = quads[:, 2] == quads[:, 3]
-        double = is_triangle & (key[:, 0] == key[:, 1])
-        second = numpy.where(double, key[:, 2], key[:, 1])
-        third = numpy.where(is_triangle, key[:, 3], key[:, 2])
-        order = numpy.lexsort((third, second, key[:, 0]))
-        low, mid, high = key[order, 0], second[order], third[order]
-        same = (low[1:] == low[:-1]) & (mid[1:] == mid[:-1]) & (high[1:] == high[:-1])
-        alone = numpy.ones(len(order), bool)
-        alone[1:] &= ~same
-        alone[:-1] &= ~same
-        kept = order[alone]
+        kept = _alone(quads)
         quads, middle = quads[kept], middle[kept]
         if self._cut is not None:
             is_wall = ~self._cut[quads].all(axis=1)
@@ -285,10 +366,13 @@ class Region:
         halves[outwards < 0.0] = halves[outwards < 0.0][:, ::-1]
         used, faces_of_wall = numpy.unique(halves.ravel(), return_inverse=True)
         size = float(numpy.ptp(self.points[used], axis=0).max())
-        return Surface.from_arrays(
-            numpy.ascontiguousarray(self.points[used]), faces_of_wall.reshape(-1, 3).astype(numpy.int64),
-            half_thickness=1e-3 * size, zero_area="skip",
-        )
+        try:
+            return Surface.from_arrays(
+                numpy.ascontiguousarray(self.points[used]), faces_of_wall.reshape(-1, 3).astype(numpy.int64),
+                half_thickness=1e-3 * size, zero_area="skip",
+            )
+        except Error:  # no face has an area, so the cells have no volume
+            return None
 
 
 class WholeMesh:
@@ -318,7 +402,7 @@ class WholeMesh:
         return self._region
 
     def _cut_out(self, lower: Reals, upper: Reals) -> Region:
-        margin = 0.6 * float((upper - lower).max())
+        margin = _MARGIN * float((upper - lower).max())
         low, high = lower - margin, upper + margin
         inside: Bools = numpy.asarray(((self.points >= low) & (self.points <= high)).all(axis=1), numpy.bool_)
         chosen, cut = inside.copy(), numpy.zeros(len(inside), numpy.bool_)

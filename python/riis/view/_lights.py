@@ -162,6 +162,12 @@ def inside(scene: Scene) -> Light:
                  valve=scene.number)
 
 
+def _no_edges(scene: Scene) -> str:
+    if not scene.region.has_cells:
+        return "there are no volume cells near the valve, so the edges of the mesh are unknown"
+    return "the mesh has cells of a type whose edges the view does not know"
+
+
 def half_thickness(scene: Scene) -> Light:
     """Judges whether the band is thick enough for the mesh's edges, and thin beside the valve."""
     half, side = scene.state.half_thickness, scene.largest_side
@@ -170,8 +176,8 @@ def half_thickness(scene: Scene) -> Light:
         return Light("half_thickness", "bad", f"the half thickness is {shown(half)}, the valve's largest side {shown(side)}",
                      "make it thinner", (f"Set the half thickness to {better:g}", "half_thickness"), valve=scene.number,
                      value=better)
-    if not scene.region.has_cells:
-        return Light("half_thickness", "off", "the mesh has no volume cells, so its edges are unknown", valve=scene.number)
+    if not scene.region.has_edges:
+        return Light("half_thickness", "off", _no_edges(scene), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("half_thickness", "off", "no node is marked", valve=scene.number)
     scene.region.adjacency()
@@ -289,8 +295,8 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
 
 def sealed(scene: Scene) -> Light:
     """Judges whether unmarked nodes join the two sides of the valve, and shows the way."""
-    if not scene.region.has_cells:
-        return Light("sealed", "off", "the mesh has no volume cells, so passages are unknown", valve=scene.number)
+    if not scene.region.has_edges:
+        return Light("sealed", "off", _no_edges(scene), valve=scene.number)
     if len(scene.marks) == 0:
         return Light("sealed", "off", "no node is marked", valve=scene.number)
     ends = _sides(scene)

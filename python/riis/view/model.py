@@ -38,8 +38,9 @@ from riis.view._history import Placed, Valves
 from riis.view._lights import JUDGES, NAMES, Light, Scene, worst
 from riis.view._orifice import outline_of
 from riis.view._valves import (
-    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero, at_least_zero,
-    check_kind, check_name, check_valve_name, number, parameters_of, point, refuse, rotation_of, share, turned, values_of, values_that_were_set, vector,
+    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero,
+    at_least_zero, check_kind, check_name, check_valve_name, number, parameters_of, point, refuse, rotation_of, share,
+    turned, values_of, values_that_were_set, vector,
 )
 
 __all__ = [
