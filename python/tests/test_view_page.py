@@ -2,6 +2,7 @@
 """The server of riis view without a browser: who may see the page, and what it refuses. ./run view --check uses a browser."""
 
 import asyncio
+import importlib.util
 import json
 import os
 import re
@@ -114,6 +115,53 @@ def test_the_key_opens_the_socket_and_nothing_else_does(server):
     assert len(words) == 1 and key.encode() not in words[0]
     process.send_signal(signal.SIGTERM)
     assert process.wait(30) == 0
+
+
+def test_missing_graphics_name_their_packages(monkeypatch):
+    monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
+    monkeypatch.setattr(scene, "_egl_works", lambda: False)
+    monkeypatch.setenv("DISPLAY", ":1")
+    scene.check_of_graphics()  # VTK draws by X
+    monkeypatch.delenv("DISPLAY")
+    with pytest.raises(RuntimeError, match="apt-get install libegl1 libgl1-mesa-dri$"):
+        scene.check_of_graphics()
+
+
+def test_a_widget_for_notebooks():
+    surface = riis.Surface(riis.Valve("mitral"))
+    if importlib.util.find_spec("trame_pyvista") is None:
+        with pytest.raises(ImportError, match=r"pip install 'pyvista\[jupyter\]'"):
+            riis.plot(surface, interactive=True)
+    else:
+        assert "vtk" in riis.plot(surface, interactive=True).value
+
+
+def test_pictures_of_a_scene():
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    grid = box(20)
+    model = Model(**reading.arrays_of(grid))
+    model.add("mitral")
+    drawn = scene.Scene(model, grid, size=(320, 240))
+    drawn.show(model.update())
+    drawn.look("oblique", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), 3.0)
+    drawn.cut_here((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    drawn.show_cut()
+    closed = drawn.picture()
+    assert closed[:2] == b"\xff\xd8" and drawn.picture() == closed  # a JPEG file, and the same scene gives the same
+    model.set(0, "opening", 0.8)
+    drawn.show(model.update())
+    assert drawn.picture() != closed
+    on_wall = drawn.pick(0.5, 0.5)  # the wall is the box's: one coordinate is that of a side
+    sides = numpy.abs(on_wall[:2]) - 2.0, [on_wall[2] + 1.5, on_wall[2] - 2.5]
+    assert min(numpy.abs(numpy.concatenate(sides))) < 1e-5, on_wall
+    assert drawn.pick(0.001, 0.001) is None
+    for name, call in (("wall", drawn.show_wall), ("cells", drawn.show_cells), ("look", drawn.look)):
+        with pytest.raises(ValueError, match=f"^{name}: is 'oblong'; it must be one of "):
+            call("oblong")
+    drawn.close()
 
 
 def test_wrong_words(tmp_path, capsys):

@@ -174,7 +174,8 @@ class Scene:
         low, high = bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)
         margin = 0.15 * numpy.linalg.norm(high - low)
         inside = numpy.all((grid.points >= low - margin) & (grid.points <= high + margin), axis=1)
-        return grid.extract_points(inside, adjacent_cells=False)
+        offsets = grid.cell_offsets if hasattr(grid, "cell_offsets") else grid.offset  # PyVista 0.49 renamed it
+        return grid.extract_cells(numpy.flatnonzero(inside[grid.cell_connectivity[offsets[:-1]]]))
 
     # what moves
 
