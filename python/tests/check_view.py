@@ -302,6 +302,7 @@ def write_and_reopen(browser, folder, program):
 
 
 def bad_input(browser, folder):
+    browser.rest()
     digest = browser.get("digest")
     (folder / "text.vtu").write_text("this is no mesh\n", encoding="utf-8")
     (folder / "empty.vtk").write_text("", encoding="utf-8")
@@ -312,6 +313,7 @@ def bad_input(browser, folder):
         ("surface.vtk", "is a surface"), ("triangles.vtu", "volume cell"), ("server.log", "riis view reads"),
     ):  # fmt: skip
         browser.write("#open-mesh", name)
+        browser.refused(name)
         browser.refused(text)
         browser.shot(f"10-refused-{name.split('.')[0].replace(' ', '-')}-{name.split('.')[1]}")
     for selector, value, text in (

@@ -31,6 +31,13 @@
     sendGesture();
   }
 
+  // The picture keeps its shape: if another browser has set its size, there are stripes beside it or above and below it.
+  function shape() {
+    const scale = Math.min(image.clientWidth / image.naturalWidth, image.clientHeight / image.naturalHeight);
+    const width = scale * image.naturalWidth, height = scale * image.naturalHeight;
+    return { width, height, left: (image.clientWidth - width) / 2, top: (image.clientHeight - height) / 2 };
+  }
+
   function attach(element) {
     image = element;
     image.addEventListener("load", () => send("riis_seen", Number(image.dataset.number)));
@@ -46,14 +53,15 @@
       if (!start) return;
       if (!start.moved && Math.hypot(event.offsetX - start.x, event.offsetY - start.y) < 4) return;
       start.moved = true;
-      const height = image.clientHeight;
+      const height = shape().height;
       add(start.kind, (event.offsetX - start.lastX) / height, (start.lastY - event.offsetY) / height, event.shiftKey);
       start.lastX = event.offsetX;
       start.lastY = event.offsetY;
     });
     image.addEventListener("pointerup", (event) => {
       if (start && !start.moved && start.kind === "tool") {
-        send("riis_click", event.offsetX / image.clientWidth, 1 - event.offsetY / image.clientHeight);
+        const { left, top, width, height } = shape();
+        send("riis_click", (event.offsetX - left) / width, 1 - (event.offsetY - top) / height);
       }
       if (start && start.moved) send("riis_gesture_ends");
       start = null;

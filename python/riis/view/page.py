@@ -858,11 +858,18 @@ def _number(value: float) -> str:
     return f"{value:.6g}"
 
 
+def _range_of(parameter: Any) -> str:
+    """Returns a range in words. The library's widest ranges only keep out numbers that overflow."""
+    if parameter.greatest < 1e8:
+        return f"{_number(parameter.least)} to {_number(parameter.greatest)}"
+    return "any" if parameter.least < -1e8 else "above 0" if 0.0 < parameter.least < 1e-8 else f"at least {_number(parameter.least)}"
+
+
 def _row_of(parameter: Any, value: Any, is_set: bool) -> dict[str, Any]:
     parts = value if isinstance(value, tuple) else (value,)
     return {
         "name": parameter.name, "value": ", ".join(_number(part) for part in parts), "unit": _UNITS[parameter.unit],
-        "range": f"{_number(parameter.least)} to {_number(parameter.greatest)}", "changed": is_set,
+        "range": _range_of(parameter), "changed": is_set,
         "description": parameter.description + (f" (unless set: {parameter.rule})" if parameter.rule else ""),
     }  # fmt: skip
 
