@@ -10,8 +10,6 @@ from __future__ import annotations
 import asyncio
 import base64
 import functools
-import hashlib
-import logging
 import math
 import os
 import shlex
@@ -27,7 +25,7 @@ import numpy
 
 import riis
 from riis._plot import COLOURS
-from riis.view import guard, reading
+from riis.view import guard, reading, rows
 from riis.view.model import CYCLES, KINDS, Model
 from riis.view.scene import LOOKS, Scene, boundary_of, check_of_graphics, colour_of
 
@@ -36,24 +34,7 @@ MANY_NODES = 1_000_000  # larger meshes are marked near the valves
 REST = 0.25  # seconds without a move after which the lights and the cut are renewed
 UNSEEN = 4.0  # seconds after which a picture that no browser shows pauses a heartbeat
 
-_SLIDER = """
-      <div class="slider" v-if="sliders.length > {k}" :title="sliders[{k}].description">
-        <div class="line"><span class="name">{{{{ sliders[{k}].label }}}}</span>
-          <input type="number" step="any" :id="'slider-' + sliders[{k}].name" :value="Number(Number(slider_{k}).toPrecision(4))"
-            :min="sliders[{k}].least" :max="sliders[{k}].greatest"
-            @change="trigger('riis_set', [sliders[{k}].name, $event.target.value])">
-          <span class="unit">{{{{ sliders[{k}].unit }}}}</span></div>
-        <v-slider v-model="slider_{k}" :min="sliders[{k}].low" :max="sliders[{k}].high" :step="sliders[{k}].step"
-          :data-parameter="sliders[{k}].name" hide-details density="compact" color="primary" class="mx-0"
-          @start="trigger('riis_hold', [true])" @end="trigger('riis_hold', [false])"></v-slider>
-      </div>"""
 
-_LIGHT = {
-    "good": ("mdi-check-circle", "#009e73"),
-    "warn": ("mdi-alert", "#e69f00"),
-    "bad": ("mdi-close-octagon", "#d55e00"),
-    "off": ("mdi-minus-circle-outline", "#9e9e9e"),
-}
 _TEXTS = {"case": "Case file", "command": "Command", "python": "Python", "openfoam": "OpenFOAM"}
 _TEXT_ENDINGS = {"case": ".case.json", "command": ".sh", "python": ".py", "openfoam": ".foam.txt"}
 _WRITES = {"view": "This view", "mesh": "Marked mesh", "picture": "Picture", "movie": "Movie"}
@@ -116,7 +97,7 @@ class Page:
             {"serve": {"riis_view": str(here)}, "scripts": ["riis_view/browser.js"], "styles": ["riis_view/page.css"]}
         )
         template = (here / "page.html").read_text(encoding="utf-8")
-        sliders = "".join(_SLIDER.format(k=k) for k in range(N_SLIDERS))
+        sliders = "".join(rows.SLIDER.format(k=k) for k in range(N_SLIDERS))
         first = {
             "trame__title": "riis view", "trame__template_main": template.replace("{{SLIDERS}}", sliders),
             "trame__vuetify3_config": {"theme": {"themes": {"light": {"colors": {"primary": COLOURS[0]}}}}},
@@ -230,7 +211,10 @@ class Page:
         grid = reading.read_mesh(path, parts)
         parts["part"] = -1.0
         make = Model.near if grid.n_points > MANY_NODES else Model
-        model = make(**reading.arrays_of(grid), unit=self._unit, path=path)
+        try:
+            model = make(**reading.arrays_of(grid), unit=self._unit, path=path)
+        except riis.Error as error:
+            raise reading.Refusal(f"{path}: {error}") from error
         return grid, boundary_of(grid), model
 
     def _take(self, grid: Any, wall: Any, model: Any, path: str) -> None:
@@ -298,28 +282,28 @@ class Page:
             )
             state.is_surface = valve.surface is not None
             state.sliders, state.rows = [], []
-            sliders, rows = [_half_thickness_of(valve, unit)], []
+            sliders, table = [rows.half_thickness_of(valve, unit)], []
             if valve.surface is None:
                 state.kind = valve.kind
                 values = model.values(state.current)
-                sliders.insert(0, _OPENING | {"value": valve.opening})
+                sliders.insert(0, rows.OPENING | {"value": valve.opening})
                 for parameter in model.parameters(valve.kind):
                     value = values[parameter.name]
                     if parameter.first and parameter.n_values == 1 and len(sliders) < N_SLIDERS:
-                        sliders.append(_slider_of(parameter, float(value)))
+                        sliders.append(rows.slider_of(parameter, float(value)))
                     else:
-                        rows.append(_row_of(parameter, value, parameter.name in valve.parameters))
+                        table.append(rows.row_of(parameter, value, parameter.name in valve.parameters))
             for k, slider in enumerate(sliders):
                 state[f"slider_{k}"] = slider["value"]
-            state.sliders, state.rows = sliders, rows
-            state.placement = _placement_of(valve)
+            state.sliders, state.rows = sliders, table
+            state.placement = rows.placement_of(valve)
             state.can_undo, state.can_redo = bool(model.can_undo), bool(model.can_redo)
             state.legend = self._legend()
 
     def _legend(self) -> list[dict[str, str]]:
         legend = []
         for k, valve in enumerate(self.model.valves):
-            names = _LEAFLETS.get(valve.kind, ["surface"])
+            names = rows.LEAFLETS.get(valve.kind, ["surface"])
             if valve.parameters.get("skirt_length", 0.0) != 0.0:
                 names = [*names, "skirt"]
             legend += [{"label": name, "colour": colour_of(k, j)} for j, name in enumerate(names)]
@@ -391,8 +375,8 @@ class Page:
         self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
         self._show_orifice()
         with self.state as state:
-            state.lights = [_light_of(light) for light in lights]
-            state.digest = _digest_of(self._shown)
+            state.lights = [rows.light_of(light) for light in lights]
+            state.digest = rows.digest_of(self._shown)
         self._show_numbers()
         self._push(self.scene.picture)
         with self.state as state:
@@ -592,7 +576,7 @@ class Page:
         else:
             self._held = True
             valve = self._valve()
-            place = _dragged(self.scene, tool, valve, dx, dy, shift)
+            place = rows.dragged(self.scene, tool, valve, dx, dy, shift)
             self._move(lambda: self.model.place(self.state.current, *place), ("place", self.state.current, tool))
             valve = self._valve()
             self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
@@ -649,9 +633,9 @@ class Page:
             curve = model.curve(41, i)
             times, unit = curve["time"], f"{model.unit}²" if model.unit else "square units"
             state.curves = [
-                _line_of("Opening, from 0 to 1", times, curve["opening"], COLOURS[0], top=1.0),
-                _line_of("Orifice area", times, curve["orifice"], COLOURS[1], unit),
-                _line_of("Marked nodes", times, curve["marked"], COLOURS[2], "nodes"),
+                rows.line_of("Opening, from 0 to 1", times, curve["opening"], COLOURS[0], top=1.0),
+                rows.line_of("Orifice area", times, curve["orifice"], COLOURS[1], unit),
+                rows.line_of("Marked nodes", times, curve["marked"], COLOURS[2], "nodes"),
             ]
 
     def _on_cycle(self, cycle: str | None, period: Any) -> None:
@@ -818,122 +802,3 @@ class Page:
         """Serves the page on 127.0.0.1 until Ctrl C. A port of 0 takes a free one."""
         with guard.Guard(self.server) as gate:
             gate.start(port, browser)
-
-
-_OPENING = {
-    "name": "opening", "label": "opening", "unit": "", "least": 0.0, "greatest": 1.0, "low": 0.0, "high": 1.0, "step": 0.005,
-    "description": "0 is closed, 1 is open",
-}  # fmt: skip
-_LABELS = {"annulus": "annulus, diameter", "stj": "sinotubular junction, diameter"}
-_UNITS = {"length": "cm", "degree": "°", "1": ""}
-_CUSPS = ["right cusp", "left cusp", "non-coronary cusp"]
-_LEAFLETS = {
-    "aortic": _CUSPS, "coapting": _CUSPS, "trileaflet": _CUSPS, "mitral": ["anterior leaflet", "posterior leaflet"],
-    "bileaflet": ["leaflet at x > 0", "leaflet at x < 0", "housing"],
-}  # fmt: skip
-
-
-def _half_thickness_of(valve: Any, unit: str) -> dict[str, Any]:
-    value = float(valve.half_thickness)
-    middle = 10.0 ** round(math.log10(value))
-    return {
-        "name": "half_thickness", "label": "half thickness", "unit": unit, "least": 0.0, "greatest": 1e60, "low": 0.05 * middle,
-        "high": 4.0 * middle, "step": 0.005 * middle, "value": value,
-        "description": "nodes closer than this to a leaflet are marked; in the mesh's unit",
-    }  # fmt: skip
-
-
-def _slider_of(parameter: Any, value: float) -> dict[str, Any]:
-    low, high = min(float(parameter.low), value), max(float(parameter.high), value)
-    step = 10.0 ** math.floor(math.log10((high - low) / 100)) if high > low else 0.01
-    return {
-        "name": parameter.name, "label": _LABELS.get(parameter.name, parameter.name.replace("_", " ")),
-        "unit": _UNITS[parameter.unit],
-        "least": float(parameter.least), "greatest": float(parameter.greatest), "low": low, "high": high, "step": step,
-        "value": value, "description": parameter.description,
-    }  # fmt: skip
-
-
-def _number(value: float) -> str:
-    return f"{value:.6g}"
-
-
-def _range_of(parameter: Any) -> str:
-    """Returns a range in words. The library's widest ranges only keep out numbers that overflow."""
-    if parameter.greatest < 1e8:
-        return f"{_number(parameter.least)} to {_number(parameter.greatest)}"
-    return "any" if parameter.least < -1e8 else "above 0" if 0.0 < parameter.least < 1e-8 else f"at least {_number(parameter.least)}"
-
-
-def _row_of(parameter: Any, value: Any, is_set: bool) -> dict[str, Any]:
-    parts = value if isinstance(value, tuple) else (value,)
-    return {
-        "name": parameter.name, "value": ", ".join(_number(part) for part in parts), "unit": _UNITS[parameter.unit],
-        "range": _range_of(parameter), "changed": is_set,
-        "description": parameter.description + (f" (unless set: {parameter.rule})" if parameter.rule else ""),
-    }  # fmt: skip
-
-
-def _placement_of(valve: Any) -> list[dict[str, Any]]:
-    def row(name: str, label: str, values: Any, description: str) -> dict[str, Any]:
-        return {"name": name, "label": label, "values": [float(_number(x)) for x in values], "description": description}
-
-    return [
-        row("origin", "Centre", valve.origin, "the valve's origin, in the mesh's unit"),
-        row("axis", "Axis", valve.axis, "the direction of the flow"),
-        row("reference", "Turn", valve.reference, "the direction of the valve's x axis"),
-        row("scale", "Scale", [valve.scale], "the mesh's units in one of the valve's"),
-    ]
-
-
-def _light_of(light: Any) -> dict[str, Any]:
-    icon, colour = _LIGHT[light.level]
-    return {
-        "name": light.name, "level": light.level, "text": light.text, "advice": light.advice or "",
-        "cure": light.cure[0] if light.cure else "", "icon": icon, "colour": colour,
-    }  # fmt: skip
-
-
-def _line_of(label: str, times: Any, values: Any, colour: str, unit: str = "", *, top: float = 0.0) -> dict[str, str]:
-    """Returns a curve as the points of an SVG polyline of 300 times 44."""
-    values = numpy.nan_to_num(numpy.asarray(values, float))
-    if top == 0.0:
-        top = max(float(values.max()), 1e-300)
-        label += f", at most {float(f'{top:.3g}'):,g} {unit}"
-    x, y = 300 * (times - times[0]) / (times[-1] - times[0]), 41 - 38 * values / top
-    return {"label": label, "colour": colour, "points": " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x, y, strict=True))}
-
-
-def _digest_of(shown: Any) -> str:
-    """Returns a digest of the marks: ids, distances and leaflets, to the last bit. ./run view --check compares it with files."""
-    parts = (shown.marked, numpy.int64), (shown.distance, numpy.float64), (shown.leaflet, numpy.int32)
-    return hashlib.sha256(b"".join(numpy.asarray(array, kind).tobytes() for array, kind in parts)).hexdigest()
-
-
-def _dragged(scene: Any, tool: str, valve: Any, dx: float, dy: float, shift: bool) -> tuple[Any, Any, Any, float]:
-    """Returns the placement of a valve after a drag."""
-    origin, axis, reference = (numpy.asarray(v, float) for v in (valve.origin, valve.axis, valve.reference))
-    scale = float(valve.scale)
-    if tool == "move":
-        step = scene.world_step(dx, dy, origin)
-        origin = origin + (axis * (step @ axis) if shift else step)
-    elif tool == "size":
-        scale *= math.exp(2.0 * max(-1.0, min(1.0, dy)))
-    elif shift:
-        reference = _turned(reference, axis, math.pi * dx)
-    else:
-        right, up = scene.axes_of_view()
-        axis, reference = (_turned(_turned(v, up, math.pi * dx), right, -math.pi * dy) for v in (axis, reference))
-    return origin, axis, reference, scale
-
-
-def _turned(vector: Any, about: Any, angle: float) -> Any:
-    """Returns a vector turned about a unit vector (Rodrigues)."""
-    along = about * (about @ vector)
-    return along + math.cos(angle) * (vector - along) + math.sin(angle) * numpy.cross(about, vector)
-
-
-def quiet() -> None:
-    """Silences the access logs of the libraries below, which would print each request."""
-    for name in ("wslink", "aiohttp.access", "aiohttp.server", "trame"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)

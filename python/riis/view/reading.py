@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import Any
 
 import numpy
@@ -61,7 +62,7 @@ def _by_vtk(path: str, progress: dict[str, float]) -> Any:
     except Exception as error:  # PyVista raises many kinds for files that it cannot parse
         raise Refusal(f"{path}: is not a mesh that VTK can read ({error})") from error
     if said or low.GetErrorCode() != 0:
-        lines = [line.strip() for line in " ".join(said).splitlines() if line.strip()]
+        lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in " ".join(said).splitlines() if line.strip()]
         raise Refusal(f"{path}: is not a mesh that VTK can read" + (f" ({lines[-1]})" if lines else ""))
     if isinstance(grid, pyvista.PolyData):
         raise Refusal(f"{path}: is a surface; riis view needs a mesh of volume cells")
