@@ -230,7 +230,7 @@ def place_by_clicks(browser):
     browser.press("#undo")
     browser.press("button[value=look]")
     browser.write("#place-origin-2", "0.05")
-    browser.wait(lambda: browser.get("placement")[0]["values"][2] == 0.05, "a typed number moves the valve")
+    browser.wait(lambda: browser.get("placement")[0]["values"][2] == "0.05", "a typed number moves the valve")
     browser.rest()
     say("a drag in the picture and a typed number move the valve")
 

@@ -517,7 +517,10 @@ class Page:
         self._end_drag()
         valve = self._valve()
         place = {name: list(getattr(valve, name)) for name in ("origin", "axis", "reference")} | {"scale": [valve.scale]}
-        place[field][int(k)] = reading.number_of(value, field)
+        if field in ("axis", "reference"):
+            place[field] = [reading.number_of(part, field) for part in str(value).replace(",", " ").split()]
+        else:
+            place[field][int(k)] = reading.number_of(value, field)
         self.model.place(self.state.current, **place | {"scale": place["scale"][0]})
         self._renew_all()
 

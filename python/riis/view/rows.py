@@ -86,13 +86,16 @@ def row_of(parameter: Any, value: Any, is_set: bool) -> dict[str, Any]:
 
 def placement_of(valve: Any) -> list[dict[str, Any]]:
     def row(name: str, label: str, values: Any, description: str) -> dict[str, Any]:
-        return {"name": name, "label": label, "values": [float(_number(x)) for x in values], "description": description}
+        return {"name": name, "label": label, "values": values, "description": description}
+
+    def direction(values: Any) -> list[str]:  # in one field, because a direction with one new component is another direction
+        return [", ".join(f"{round(x, 6) + 0.0:g}" for x in values)]
 
     return [
-        row("origin", "Centre", valve.origin, "the valve's origin, in the mesh's unit"),
-        row("axis", "Axis", valve.axis, "the direction of the flow"),
-        row("reference", "Turn", valve.reference, "the direction of the valve's x axis"),
-        row("scale", "Scale", [valve.scale], "the mesh's units in one of the valve's"),
+        row("origin", "Centre", [_number(x) for x in valve.origin], "the valve's origin, in the mesh's unit"),
+        row("axis", "Axis", direction(valve.axis), "the direction of the flow, of any length"),
+        row("reference", "Turn", direction(valve.reference), "the direction of the valve's x axis, of any length"),
+        row("scale", "Scale", [_number(valve.scale)], "the mesh's units in one of the valve's"),
     ]
 
 
