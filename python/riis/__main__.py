@@ -14,7 +14,7 @@ def _parser() -> argparse.ArgumentParser:
     view = commands.add_parser(
         "view", help="show a valve in a mesh, in a browser", description="Shows a valve in a mesh, in a browser on this machine."
     )
-    view.add_argument("mesh", nargs="?", metavar="MESH", help="a mesh: .vtu, .vtk, .pvtu, .msh, .xdmf; the page can also open one")
+    view.add_argument("mesh", nargs="?", metavar="MESH", help="a mesh: .vtu, .vtk, .pvtu, .msh, .xdmf; or the page opens one")
     view.add_argument("--open", metavar="FILE", dest="saved", help="a saved view, which names its mesh")
     view.add_argument("--unit", choices=("mm", "cm", "m"), help="the unit of the mesh; not known unless given")
     view.add_argument("--folder", default=".", help="where the page writes files; the current folder unless given")
