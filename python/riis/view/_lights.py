@@ -29,6 +29,7 @@ _SUSPICIOUS = 12.0  # a mesh without a unit that is so many times as large may h
 _LARGEST_HALF, _USUAL_HALF = 0.25, 0.04  # of the largest side of the valve
 _SMALLEST_HALF = 0.3  # of the mesh's edges
 _FACTORS = (0.1, 10.0, 0.01, 100.0, 0.001, 1000.0)
+_N_LEAFLETS = {"aortic": 3, "coapting": 3, "trileaflet": 3, "mitral": 2}  # a skirt has the next leaflet id
 _MOST_DRAWN = 300  # crossing pairs that are drawn
 
 _NO_POINTS = numpy.empty((0, 3))
@@ -133,8 +134,10 @@ def unit(scene: Scene) -> Light:
 
 
 def inside(scene: Scene) -> Light:
-    """Judges whether the valve lies in the mesh."""
-    vertices = numpy.array(scene.surface.vertices)
+    """Judges whether the valve lies in the mesh. A skirt may reach beyond the wall."""
+    faces = scene.surface.triangles
+    of_leaflets = faces.leaflet_id < _N_LEAFLETS.get(scene.state.kind, 2**31 - 1)
+    vertices = numpy.array(scene.surface.vertices)[numpy.unique(faces.vertex_id[of_leaflets])]
     info = scene.surface.info
     wall = scene.region.wall()
     if wall is not None:
@@ -155,7 +158,7 @@ def inside(scene: Scene) -> Light:
                      "move the valve, or click three points of the annulus", cure, valve=scene.number)
     if share > 0.2:
         return Light("inside", "warn", f"{100 * share:.0f} % of the leaflets lie outside the mesh",
-                     "move or turn the valve, or make it smaller", cure, points=vertices[is_out][:_MOST_DRAWN],
+                     "move or turn the valve, or make it smaller", points=vertices[is_out][:_MOST_DRAWN],
                      valve=scene.number)
     text = f"{n_marked} nodes are marked"
     return Light("inside", "good", text + (f"; {100 * share:.0f} % of the leaflets lie outside" if share > 0.005 else ""),
