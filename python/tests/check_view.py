@@ -322,6 +322,7 @@ def bad_input(browser, folder):
         browser.write(selector, value)
         browser.refused(text)
         browser.rest()
+        assert browser.find(selector).get_property("value") != value, f"{selector} still shows {value}"
     browser.shot("10-refused-parameter")
     assert browser.get("digest") == digest, "a refusal changed the marks"
     tube(25, 31, 10.0).save(folder / "millimetres.vtu")
@@ -333,6 +334,7 @@ def bad_input(browser, folder):
     browser.press("#cure-unit")
     browser.rest()
     browser.shot("11-millimetres-cured")
+    assert browser.find(".v-app-bar").rect["y"] == 0, "the page has scrolled"
     assert browser.light("unit")["level"] == "good", browser.light("unit")
     say("bad files and values give a message; a mesh in millimetres gives a light, and a click cures it")
 

@@ -102,7 +102,7 @@ class Page:
             "trame__title": "riis view", "trame__template_main": template.replace("{{SLIDERS}}", sliders),
             "trame__vuetify3_config": {"theme": {"themes": {"light": {"colors": {"primary": COLOURS[0]}}}}},
             "path": "", "mesh_text": "no mesh", "marked_text": "", "loaded": False, "progress": None,
-            "message": "", "message_type": "error", "folder": str(self.folder),
+            "message": "", "message_type": "error", "refusals": 0, "folder": str(self.folder),
             "kinds": list(KINDS), "kind": KINDS[0], "is_surface": False, "valve_names": [], "current": 0,
             "sliders": [], "rows": [], "panels": [], "placement": [], "tool": "look", "n_clicks": 0,
             "lights": [], "fresh": False, "at_rest": False, "digest": "", "n_marked": 0, "milliseconds": 0.0,
@@ -139,6 +139,8 @@ class Page:
                 return function(*values)
             except _REFUSALS as error:
                 self._say(_text_of(error))
+                with self.state as state:
+                    state.refusals += 1  # makes the fields anew, with the values that hold
                 self._show_numbers()
             except Exception as error:  # a fault of the page itself; the server lives on
                 traceback.print_exc()
@@ -229,6 +231,7 @@ class Page:
         with self.state:
             self.state.path, self.state.loaded = path, True
             self.state.current, self.state.message = 0, ""
+            self.state.time, self.state.cycle, self.state.curves = 0.0, "", []
         if not model.valves:
             model.add(self.state.kind)
         self._refresh()
@@ -508,6 +511,9 @@ class Page:
         self._need_model()
         self._end_drag()
         self.model.cure(name)
+        if name in ("unit", "inside"):  # the valve is elsewhere
+            self._refresh()
+            self._look("oblique")
         self._renew_all()
 
     # placement
