@@ -19,7 +19,8 @@ _LIGHT = {
 SLIDER = """
       <div class="slider" v-if="sliders.length > {k}" :title="sliders[{k}].description">
         <div class="line"><span class="name">{{{{ sliders[{k}].label }}}}</span>
-          <input type="number" step="any" :key="refusals" :id="'slider-' + sliders[{k}].name" :value="Number(Number(slider_{k}).toPrecision(4))"
+          <input type="number" step="any" :key="refusals" :id="'slider-' + sliders[{k}].name"
+            :value="Number(Number(slider_{k}).toPrecision(4))"
             :min="sliders[{k}].least" :max="sliders[{k}].greatest"
             @change="trigger('riis_set', [sliders[{k}].name, $event.target.value])">
           <span class="unit">{{{{ sliders[{k}].unit }}}}</span></div>
