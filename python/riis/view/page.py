@@ -101,7 +101,7 @@ class Page:
         first = {
             "trame__title": "riis view", "trame__template_main": template.replace("{{SLIDERS}}", sliders),
             "trame__vuetify3_config": {"theme": {"themes": {"light": {"colors": {"primary": COLOURS[0]}}}}},
-            "path": "", "mesh_text": "no mesh", "marked_text": "", "loaded": False, "progress": None,
+            "path": "", "mesh_text": "no mesh", "marked_text": "", "loaded": False, "progress": None, "progress_text": "",
             "message": "", "message_type": "error", "refusals": 0, "folder": str(self.folder),
             "kinds": list(KINDS), "kind": KINDS[0], "is_surface": False, "valve_names": [], "current": 0,
             "sliders": [], "rows": [], "panels": [], "placement": [], "tool": "look", "n_clicks": 0,
@@ -192,8 +192,9 @@ class Page:
         work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, parts)
         try:
             while not work.done():
-                with self.state:
-                    self.state.progress = round(100 * parts["part"]) if parts["part"] >= 0 else -1
+                with self.state as state:
+                    state.progress = round(100 * parts["part"]) if parts["part"] >= 0 else -1
+                    state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {os.path.basename(path)}"
                 await asyncio.wait([work], timeout=0.2)
             grid, wall, model = work.result()
         except _REFUSALS as error:
@@ -792,7 +793,7 @@ class Page:
                     self._show_orifice()
                     writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
                     with self.state as state:
-                        state.progress = round(100 * (k + 1) / n_frames)
+                        state.progress, state.progress_text = round(100 * (k + 1) / n_frames), "Writing the movie"
                     await asyncio.sleep(0)
             self._wrote(path)
         except ImportError:
