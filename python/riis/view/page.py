@@ -343,7 +343,7 @@ class Page:
 
     def _refresh(self) -> None:
         self._shown = self.model.update()
-        self.scene.show(self._shown)
+        self.scene.show(self._shown, quick=True)
         self._stale = False
         if self._playing is None:
             self.scene.show_orifice([])
@@ -374,7 +374,7 @@ class Page:
             self._end_drag()
         lights = self.model.lights()
         self.scene.show_lights(lights)
-        self.scene.show_cut()
+        self.scene.rest()
         valve = self._valve()
         self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
         self._show_orifice()
@@ -791,6 +791,7 @@ class Page:
                     self.model.at(k / n_frames * float(self.state.period))
                     self._refresh()
                     self._show_orifice()
+                    self.scene.rest()
                     writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
                     with self.state as state:
                         state.progress, state.progress_text = round(100 * (k + 1) / n_frames), "Writing the movie"

@@ -22,6 +22,7 @@ WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
 SLOW = 0.12  # seconds for a picture, above which pictures of a moving hand get fewer pixels
+MANY_MARKED = 400_000  # so many cells around the leaflets are drawn at rest only
 MANY_CELLS = 2_000_000  # larger meshes show the cut through the cells near the valve only
 
 
@@ -91,6 +92,7 @@ class Scene:
         self._wall = wall if wall is not None or grid is None else boundary_of(grid)
         self._how, self._cells_shown = "cut", "partly"
         self._plane: Any = None
+        self._waiting = False  # whether marked cells wait for rest
         self._shown: Any = None
         self._data: dict[str, Any] = {}
         self._actors: dict[str, Any] = {}
@@ -195,9 +197,10 @@ class Scene:
         self._actors.pop(name, None)
         self.plotter.remove_actor(name, reset_camera=False)
 
-    def show(self, shown: Any) -> None:
-        """Draws the leaflets, and the cells around them, of Model.update()."""
+    def show(self, shown: Any, quick: bool = False) -> None:
+        """Draws the leaflets, and the cells around them, of Model.update(). In a quick show, very many cells wait for rest()."""
         self._shown = shown
+        self._waiting = quick and len(shown.cells_marked) + len(shown.cells_partly) > MANY_MARKED
         for k, surface in enumerate(shown.surfaces):
             faces = numpy.full((len(surface.triangles), 4), 3, numpy.int64)
             faces[:, 1:] = surface.triangles
@@ -214,6 +217,13 @@ class Scene:
                 self._drop(name)
         self._show_cells()
 
+    def rest(self) -> None:
+        """Draws what a quick show left out, and the mesh in the plane of the cut."""
+        if self._waiting:
+            self._waiting = False
+            self._show_cells()
+        self.show_cut()
+
     def show_cells(self, which: str) -> None:
         """Shows the cells with a marked node ("partly"), only the cells with all nodes marked ("marked"), or none."""
         if which not in CELLS:
@@ -225,7 +235,7 @@ class Scene:
     def _show_cells(self) -> None:
         empty = self._pv.PolyData()
         marked = partly = empty
-        if self.grid is not None and self._cells_shown != "none":
+        if self.grid is not None and self._cells_shown != "none" and not self._waiting:
             marked = self._hull(self._shown.cells_marked)
             if self._cells_shown == "partly":
                 partly = self._hull(self._shown.cells_partly)
