@@ -12,7 +12,6 @@ import base64
 import functools
 import math
 import os
-import shlex
 import sys
 import time
 import traceback
@@ -25,7 +24,7 @@ import numpy
 
 import riis
 from riis._plot import COLOURS
-from riis.view import guard, reading, rows
+from riis.view import guard, reading, rows, saving
 from riis.view.model import CYCLES, KINDS, Model
 from riis.view.scene import LOOKS, Scene, boundary_of, check_of_graphics, colour_of
 
@@ -35,22 +34,10 @@ REST = 0.25  # seconds without a move after which the lights and the cut are ren
 UNSEEN = 4.0  # seconds after which a picture that no browser shows pauses a heartbeat
 
 
-_TEXTS = {"case": "Case file", "command": "Command", "python": "Python", "openfoam": "OpenFOAM"}
-_TEXT_ENDINGS = {"case": ".case.json", "command": ".sh", "python": ".py", "openfoam": ".foam.txt"}
-_WRITES = {"view": "This view", "mesh": "Marked mesh", "picture": "Picture", "movie": "Movie"}
-_WRITE_ENDINGS = {"view": ".view.json", "mesh": ".vtu", "picture": ".png", "movie": ".mp4"}
 _SPEEDS = [{"title": name, "value": value} for name, value in (("1/10", 0.1), ("1/4", 0.25), ("1/2", 0.5), ("as in life", 1.0))]
 
-# Errors that a person's input causes. Their message goes to the page. Other exceptions go to stderr as well.
-_REFUSALS = (riis.Error, OSError, ValueError, TypeError, KeyError, ImportError, reading.Refusal)
 
-
-def _text_of(error: BaseException) -> str:
-    text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
-    return text or type(error).__name__
-
-
-class Page:
+class Page(saving.Files):
     """A server with one model, which all its browsers share.
 
     path    the mesh to read, or None
@@ -110,8 +97,8 @@ class Page:
             "looks": {name: name.capitalize() for name in LOOKS},
             "playing": False, "time": 0.0, "period": 1.0, "speed": 0.25, "speeds": _SPEEDS,
             "cycle": "", "cycles": list(CYCLES), "curves": [],
-            "texts": _TEXTS, "text": "", "text_title": "", "text_shown": False,
-            "writes": _WRITES, "file_name": "valve", "replace": False,
+            "texts": saving.TEXTS, "text": "", "text_title": "", "text_shown": False,
+            "writes": saving.WRITES, "file_name": "valve", "replace": False,
             "open_rows": [
                 {"name": "mesh", "label": "Mesh", "value": ""},
                 {"name": "surface", "label": "A patient's surface", "value": ""},
@@ -137,8 +124,8 @@ class Page:
         def told(*values: Any, **_: Any) -> Any:
             try:
                 return function(*values)
-            except _REFUSALS as error:
-                self._say(_text_of(error))
+            except saving.REFUSALS as error:
+                self._say(saving.text_of(error))
                 with self.state as state:
                     state.refusals += 1  # makes the fields anew, with the values that hold
                 self._show_numbers()
@@ -197,8 +184,8 @@ class Page:
                     state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {os.path.basename(path)}"
                 await asyncio.wait([work], timeout=0.2)
             grid, wall, model = work.result()
-        except _REFUSALS as error:
-            self._say(_text_of(error))
+        except saving.REFUSALS as error:
+            self._say(saving.text_of(error))
             return False
         except Exception as error:
             traceback.print_exc()
@@ -250,8 +237,8 @@ class Page:
             self._pause()
             self._end_drag()
             self.model.restore(path)
-        except _REFUSALS as error:
-            self._say(_text_of(error))
+        except saving.REFUSALS as error:
+            self._say(saving.text_of(error))
             return
         self.state.current = 0
         with self.state as state:
@@ -710,102 +697,6 @@ class Page:
         self._playing = None
         with self.state as state:
             state.playing = False
-
-    # files
-
-    def _on_text(self, name: str) -> None:
-        self._need_model()
-        text = self._text(name)
-        self._text_name = name
-        with self.state as state:
-            state.text, state.text_title, state.text_shown = text, _TEXTS[name], True
-
-    def _text(self, name: str) -> str:
-        if name not in _TEXTS:
-            raise reading.Refusal(f"text: '{name}' is not one of {', '.join(_TEXTS)}")
-        if name == "case" and any(valve.cycle is not None for valve in self.model.valves):
-            return str(self.model.case(numpy.linspace(0.0, float(self.state.period), 51)))
-        if name == "command":
-            base = str(self.folder / self._name())
-            words = shlex.split(self.model.command(case=base + _TEXT_ENDINGS["case"], output=base + ".vtu"))
-            lines = [shlex.join(words[: words.index("mark") + 1])]
-            for word in words[words.index("mark") + 1 :]:
-                if lines[-1].startswith("--") and not word.startswith("--") and "=" not in lines[-1]:
-                    lines[-1] += " " + shlex.quote(word)
-                else:
-                    lines.append(shlex.quote(word))
-            return " \\\n  ".join(lines) + "\n"
-        return str(getattr(self.model, name)())
-
-    def _on_write_text(self) -> None:
-        self._need_model()
-        path = self._path(_TEXT_ENDINGS[self._text_name])
-        path.write_text(self._text(self._text_name), encoding="utf-8")
-        self._wrote(path)
-
-    def _name(self) -> str:
-        name = str(self.state.file_name).strip()
-        if not name or name in (".", "..") or "/" in name or "\0" in name:
-            raise reading.Refusal(f"file name: '{name}' must be a name without a folder")
-        return name
-
-    def _path(self, ending: str) -> Path:
-        path = self.folder / (self._name() + ending)
-        if path.exists() and not self.state.replace and path not in self._written:
-            raise reading.Refusal(f"{path} exists: tick 'Replace files that exist', or take another name")
-        return path
-
-    def _wrote(self, path: Path) -> None:
-        self._written.add(path)
-        self._say(f"wrote {path}", "success")
-
-    def _on_write(self, name: str) -> None:
-        self._need_model()
-        if name not in _WRITES:
-            raise reading.Refusal(f"file: '{name}' is not one of {', '.join(_WRITES)}")
-        path = self._path(_WRITE_ENDINGS[name])
-        if name == "movie":
-            self._tasks.append(asyncio.ensure_future(self._movie(path)))
-            return
-        if name == "view":
-            self.model.save(str(path))
-        elif name == "mesh":
-            reading.write_marked(self._grid, self.model, str(path))
-        else:
-            self.scene.sharpen()
-            self.scene.plotter.screenshot(str(path))
-        self._wrote(path)
-
-    async def _movie(self, path: Path, n_frames: int = 48) -> None:
-        """Writes one heartbeat as a movie. Browsers see its progress."""
-        self._pause()
-        self._need_cycle()
-        width, height = self.scene.size
-        try:
-            import imageio
-
-            self.scene.resize(width // 16 * 16, height // 16 * 16)  # as .mp4 needs
-            self.scene.sharpen()
-            with self.model.kept(), imageio.get_writer(str(path), fps=24) as writer:
-                for k in range(n_frames):
-                    self.model.at(k / n_frames * float(self.state.period))
-                    self._refresh()
-                    self._show_orifice()
-                    self.scene.rest()
-                    writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
-                    with self.state as state:
-                        state.progress, state.progress_text = round(100 * (k + 1) / n_frames), "Writing the movie"
-                    await asyncio.sleep(0)
-            self._wrote(path)
-        except ImportError:
-            self._say("a movie needs imageio and imageio-ffmpeg: pip install imageio imageio-ffmpeg")
-        except _REFUSALS as error:
-            self._say(_text_of(error))
-        finally:
-            self.scene.resize(width, height)
-            with self.state as state:
-                state.progress = None
-            self._touch()
 
     # the server
 
