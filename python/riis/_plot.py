@@ -15,6 +15,11 @@ if TYPE_CHECKING:
     from riis._riis import Marks, Mesh, Surface
 
 
+# Blue, orange, bluish green, reddish purple, vermilion and sky blue: distinct for all kinds of colour vision (Okabe, Ito 2008).
+# The program's pictures have the same colours in the same order.
+COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9")
+
+
 def _pyvista() -> Any:
     try:
         import pyvista
@@ -37,10 +42,6 @@ def surface_to_pyvista(surface: Surface) -> Any:
     return data
 
 
-# The colours of the leaflets, by leaflet_id in turn. They are those of the program's pictures, which are distinct for all kinds
-# of colour vision (Okabe, Ito 2008).
-LEAFLET_COLOURS = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (204, 121, 167), (213, 94, 0), (86, 180, 233))
-
 _BAR = {
     "title": "distance\n", "vertical": True, "position_x": 0.88, "position_y": 0.2, "height": 0.6, "width": 0.06, "n_labels": 3,
     "fmt": "{:.2g}", "title_font_size": 16, "label_font_size": 14,
@@ -53,6 +54,13 @@ def _look(plotter: Any, zoom: float) -> None:
     plotter.camera.zoom(zoom)
 
 
+def coloured(data: Any, valve: int = 0) -> Any:
+    """Gives a surface of to_pyvista the cell array colour. The leaflets of a second valve have the next three colours."""
+    rgb = numpy.array([[int(colour[at : at + 2], 16) for at in (1, 3, 5)] for colour in COLOURS], numpy.uint8)
+    data.cell_data["colour"] = rgb[(3 * valve + numpy.maximum(data.cell_data["leaflet_id"], 0)) % len(COLOURS)]
+    return data
+
+
 def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
     if mesh is not None and marks is not None and marks._places != mesh._places:
         raise InvalidArgumentError(
@@ -63,10 +71,9 @@ def _check_of_mesh(marks: Marks | None, mesh: Mesh | None) -> None:
 def _draw(plotter: Any, surface: Surface, mesh: Mesh | None, marks: Marks | None) -> None:
     """Draws or replaces the leaflets and the marked nodes."""
     pyvista = _pyvista()
-    data = surface_to_pyvista(surface)
-    data.cell_data["colour"] = numpy.array(LEAFLET_COLOURS, numpy.uint8)[data.cell_data["leaflet_id"] % len(LEAFLET_COLOURS)]
     plotter.add_mesh(
-        data, scalars="colour", rgb=True, show_scalar_bar=False, ambient=0.3, name="riis leaflets", reset_camera=False,
+        coloured(surface_to_pyvista(surface)), scalars="colour", rgb=True, show_scalar_bar=False, ambient=0.3,
+        name="riis leaflets", reset_camera=False,
     )
     if mesh is not None and marks is not None and len(marks) > 0:
         nodes = pyvista.PolyData(numpy.array(mesh.xyz[marks.ids]))
@@ -86,14 +93,16 @@ def plot(
     *,
     screenshot: str | os.PathLike[str] | None = None,
     plotter: Any = None,
+    interactive: bool = False,
 ) -> Any:
     """Draws a surface, coloured by leaflet, and the marked nodes, coloured by distance.
 
     mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
     screenshot   a .png file to write; then no window opens
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
+    interactive  whether to return PyVista's widget for a notebook, in which the mouse turns the scene
 
-    Returns the plotter.
+    Returns the plotter, or the widget. riis.view.scene.widget also shows a mesh around the valve.
     """
     pyvista = _pyvista()
     if (mesh is None) != (marks is None):
@@ -101,15 +110,30 @@ def plot(
     _check_of_mesh(marks, mesh)
     given = plotter is not None
     if not given:
-        plotter = pyvista.Plotter(off_screen=screenshot is not None)
+        plotter = pyvista.Plotter(off_screen=interactive or screenshot is not None, notebook=True if interactive else None)
     _draw(plotter, surface, mesh, marks)
     if not given:
         _look(plotter, 1.2)
     if screenshot is not None:
         plotter.screenshot(os.fspath(screenshot))
-    elif not given:
+    elif not given and not interactive:
         plotter.show()
-    return plotter
+    return widget_of(plotter) if interactive else plotter
+
+
+def widget_of(plotter: Any) -> Any:
+    """Returns a plotter's scene as PyVista's widget for notebooks. The notebook keeps it, and no server is started."""
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            made = plotter.show(jupyter_backend="html", return_viewer=True)
+        except ImportError:
+            made = None
+    if not hasattr(made, "value"):  # PyVista falls back to a picture
+        raise ImportError("a widget needs more of PyVista: pip install 'pyvista[jupyter]'")
+    return made
 
 
 def _frame_of(item: Any, number: int, mesh: Mesh | None) -> tuple[Surface, Marks | None, str]:

@@ -11,6 +11,7 @@
 #include "program/command_options.hpp"
 #include "program/help.hpp"
 #include "program/outputs.hpp"
+#include "program/view.hpp"
 
 namespace riis::program {
 namespace {
@@ -169,6 +170,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   const Command frames(command(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", "export"));
   const Command values(command(app, "params", "Print the parameters of a valve", "params"));
   const Command places(command(app, "place", "Find a valve's sizes and placement from a patient's landmarks", "place"));
+  command(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)", "view");
   CLI::App *help = command(app, "help", "Explain a topic, or list the topics", "help");
   help->add_option("TOPIC", topic, "One of the topics that riis help lists");
   declare_mark(marks, mark);
@@ -180,6 +182,9 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   declare_export(frames, exported);
   declare_params(values, params);
   declare_place(places, placed);
+  const auto asks_for_help = [](const std::string &word) { return word == "--help" || word == "-h"; };
+  if (argc > 1 && std::string("view") == argv[1] && std::none_of(argv + 2, argv + argc, asks_for_help))
+    run_view(argc, argv);
   check_equals_signs(argc, argv);
   check_commands(app, argc, argv);
   try {

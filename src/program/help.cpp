@@ -57,6 +57,12 @@ riis help parameters explains the names.)"},
   riis mark root.vtu --valve placed.json --opening 0.3 --output marked.vtu
   riis place annulus.csv --valve mitral --flow 0,0,-1 --set anterior_length=2.4 --c lines.c
 riis help landmarks explains the files and the report.)"},
+    {"view", R"(Examples:
+  riis view root.vtu
+  riis view root.vtu --unit mm --folder results --no-browser
+  riis view --open valve.view.json
+A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N. RIIS_PYTHON names the Python
+that has the package riis; python3 unless set.)"},
     {"help", R"(Examples:
   riis help units)"},
     {"riis", R"(Examples:

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "program.h"
@@ -42,6 +43,7 @@ static void test_help(void **state) {
       {"states", {"OUT", "--count", "--tolerance", "--params-open"}},
       {"export", {"FOLDER", "--time-step", "--largest-edge", "--closing-span"}},
       {"params", {"--describe", "--set", "--opening"}},
+      {"view", {"--unit", "--folder", "--no-browser", "--open", "--port", "RIIS_PYTHON"}},
       {"help", {"TOPIC"}},
   };
   for (size_t i = 0; i < sizeof helps / sizeof helps[0]; ++i) {
@@ -141,11 +143,32 @@ static void test_locale(void **state) {
   assert_true(json_number(program_out, "half_thickness") == 0.25);
 }
 
+/* riis view hands its words to Python's riis. Without that package it says how to install it. The Python here is a script. */
+static void test_view(void **state) {
+  (void)state;
+  const char *python = scratch_path("python");
+  FILE *file = fopen(python, "w");
+  assert_non_null(file);
+  fputs("#!/bin/sh\nif [ \"$1\" = -c ]; then exit ${MISSING:-0}; fi\nprintf '<%s>' \"$@\"\nexit 4\n", file);
+  assert_int_equal(fclose(file), 0);
+  assert_int_equal(chmod(python, 0700), 0);
+  setenv("RIIS_PYTHON", python, 1);
+  run_program("view", "a mesh.vtu", "--unit=mm", "-", NULL);
+  assert_string_equal(program_out, "<-m><riis><view><a mesh.vtu><--unit=mm><->");
+  assert_int_equal(program_exit_code, 4);
+  setenv("MISSING", "3", 1);
+  RUN_REFUSED(1, "does not find the Python package riis; install it by 'python3 -m venv", "view", "mesh.vtu");
+  unsetenv("MISSING");
+  setenv("RIIS_PYTHON", scratch_path("no python"), 1);
+  RUN_REFUSED(1, "no python cannot be run; install it by", "view");
+  unsetenv("RIIS_PYTHON");
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_version), cmocka_unit_test(test_help),         cmocka_unit_test(test_topics),
       cmocka_unit_test(test_order),   cmocka_unit_test(test_no_stdout),    cmocka_unit_test(test_skip_zero_area),
-      cmocka_unit_test(test_locale),  cmocka_unit_test(test_no_arguments),
+      cmocka_unit_test(test_locale),  cmocka_unit_test(test_no_arguments), cmocka_unit_test(test_view),
   };
   return cmocka_run_group_tests(tests, make_box, scratch_teardown);
 }

@@ -3,4 +3,7 @@
 
 riis.view.model has everything but the pictures: the valves, their placement, the marks, undo, the lights that tell faults, and
 the files that the rest of the project takes. It needs numpy only.
+
+riis.view.scene draws a model by PyVista, also in a notebook. riis.view.page serves it to a browser: python -m riis view MESH
+(docs/view.md). riis.view.guard says who may see that page.
 """

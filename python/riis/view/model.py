@@ -19,7 +19,8 @@ import math
 import os
 import re
 import time as clock
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, NamedTuple
@@ -487,6 +488,16 @@ class Model(Valves):
         states = tuple(_moved(state, moment) for state in self.valves)
         self._take(self._made(states), self._unit)
         self._time = moment
+
+    @contextmanager
+    def kept(self) -> Iterator[None]:
+        """Puts the valves back to the time and the openings that they had before, whatever ``at`` did meanwhile."""
+        states, moment = self.valves, self._time
+        try:
+            yield
+        finally:
+            self._take(self._made(states), self._unit)
+            self._time = moment
 
     def period(self, i: int) -> float:
         """Returns the period of a valve's cycle or of a surface that moves; 0 without."""

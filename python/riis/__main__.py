@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""python -m riis view MESH: a valve in a mesh, in a browser (docs/view.md)."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m riis", description="Heart valves in meshes.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    view = commands.add_parser(
+        "view", help="show a valve in a mesh, in a browser", description="Shows a valve in a mesh, in a browser on this machine."
+    )
+    view.add_argument("mesh", nargs="?", metavar="MESH", help="a mesh: .vtu, .vtk, .pvtu, .msh, .xdmf; or the page opens one")
+    view.add_argument("--open", metavar="FILE", dest="saved", help="a saved view, which names its mesh")
+    view.add_argument("--unit", choices=("mm", "cm", "m"), help="the unit of the mesh; not known unless given")
+    view.add_argument("--folder", default=".", help="where the page writes files; the current folder unless given")
+    view.add_argument("--port", type=int, default=0, help="the port on 127.0.0.1; a free one unless given")
+    view.add_argument("--no-browser", action="store_true", help="print the address, and open no browser")
+    return parser
+
+
+def main(words: list[str] | None = None) -> int:
+    """Runs a command. Returns the exit status: 0, 1 if the command failed, 2 for wrong usage."""
+    options = _parser().parse_args(words)
+    for path in (options.mesh, options.saved):
+        if path is not None and not os.path.exists(path):
+            print(f"riis view: {path}: there is no such file", file=sys.stderr)
+            return 2
+    if not os.path.isdir(options.folder):
+        print(f"riis view: --folder: {options.folder} is not a folder", file=sys.stderr)
+        return 2
+    if not 0 <= options.port <= 65535:
+        print(f"riis view: --port: is {options.port}; it must be from 0 to 65535", file=sys.stderr)
+        return 2
+    try:
+        from riis.view.page import Page
+    except ImportError as missing:
+        print(f"riis view: {missing.name or missing} is missing: pip install 'riis[view]'", file=sys.stderr)
+        return 1
+    try:
+        path = None if options.mesh is None else os.path.abspath(options.mesh)
+        saved = None if options.saved is None else os.path.abspath(options.saved)
+        Page(path, saved=saved, unit=options.unit, folder=options.folder).serve(port=options.port, browser=not options.no_browser)
+    except (RuntimeError, OSError) as error:
+        print(f"riis view: {error}", file=sys.stderr)
+        return 1
+    except ImportError as missing:
+        print(f"riis view: {missing.name or missing} is missing: pip install 'riis[view]'", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of riis view in the browser: it hands gestures to the server and acknowledges pictures. Gestures add up while the
+// server answers, so that a slow server skips pictures and never lags behind the hand.
+"use strict";
+(() => {
+  let image = null, busy = false, gesture = null, start = null;
+
+  const send = (name, ...values) => window.trame.trigger(name, values);
+
+  async function sendGesture() {
+    if (busy) return;
+    busy = true;
+    try {
+      while (gesture) {
+        const { kind, dx, dy, shift } = gesture;
+        gesture = null;
+        await send("riis_gesture", kind, dx, dy, shift);
+      }
+    } finally {
+      busy = false;
+    }
+  }
+
+  // dx and dy are parts of the picture's height, upwards and to the right.
+  function add(kind, dx, dy, shift) {
+    if (gesture && gesture.kind === kind) {
+      gesture = { kind, dx: gesture.dx + dx, dy: gesture.dy + dy, shift };
+    } else {
+      gesture = { kind, dx, dy, shift };
+    }
+    sendGesture();
+  }
+
+  // The picture keeps its shape: if another browser has set its size, there are stripes beside it or above and below it.
+  function shape() {
+    const scale = Math.min(image.clientWidth / image.naturalWidth, image.clientHeight / image.naturalHeight);
+    const width = scale * image.naturalWidth, height = scale * image.naturalHeight;
+    return { width, height, left: (image.clientWidth - width) / 2, top: (image.clientHeight - height) / 2 };
+  }
+
+  function attach(element) {
+    image = element;
+    image.addEventListener("load", () => send("riis_seen", Number(image.dataset.number)));
+    image.addEventListener("dragstart", (event) => event.preventDefault());
+    image.addEventListener("contextmenu", (event) => event.preventDefault());
+    image.addEventListener("pointerdown", (event) => {
+      image.setPointerCapture(event.pointerId);
+      start = { x: event.offsetX, y: event.offsetY, lastX: event.offsetX, lastY: event.offsetY, moved: false };
+      start.kind = event.button === 2 || event.button === 1 || event.ctrlKey ? "pan" : "tool";
+      event.preventDefault();
+    });
+    image.addEventListener("pointermove", (event) => {
+      if (!start) return;
+      if (!start.moved && Math.hypot(event.offsetX - start.x, event.offsetY - start.y) < 4) return;
+      start.moved = true;
+      const height = shape().height;
+      add(start.kind, (event.offsetX - start.lastX) / height, (start.lastY - event.offsetY) / height, event.shiftKey);
+      start.lastX = event.offsetX;
+      start.lastY = event.offsetY;
+    });
+    image.addEventListener("pointerup", (event) => {
+      if (start && !start.moved && start.kind === "tool") {
+        const { left, top, width, height } = shape();
+        send("riis_click", (event.offsetX - left) / width, 1 - (event.offsetY - top) / height);
+      }
+      if (start && start.moved) send("riis_gesture_ends");
+      start = null;
+    });
+    image.addEventListener("wheel", (event) => {
+      add("zoom", 0, -event.deltaY / 1000, false);
+      event.preventDefault();
+    }, { passive: false });
+    new ResizeObserver(() => {
+      if (image.parentElement) send("riis_size", image.parentElement.clientWidth, image.parentElement.clientHeight);
+    }).observe(image.parentElement);
+  }
+
+  window.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.target.matches("input, textarea")) return;
+    if (event.key === "z") send(event.shiftKey ? "riis_redo" : "riis_undo");
+    else if (event.key === "y") send("riis_redo");
+    else return;
+    event.preventDefault();
+  });
+
+  new MutationObserver(() => {
+    const found = document.getElementById("riis-picture");
+    if (found && found !== image) attach(found);
+  }).observe(document.documentElement, { childList: true, subtree: true });
+})();

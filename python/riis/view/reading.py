@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The files of riis view: meshes in, marked meshes out."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import Any
+
+import numpy
+
+from riis import FAR_DISTANCE
+
+BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
+
+
+class Refusal(Exception):
+    """Bad input, with a message for the page."""
+
+
+def read_mesh(path: str, progress: dict[str, float]) -> Any:
+    """Returns a mesh of volume cells as pyvista.UnstructuredGrid. progress["part"] grows from 0 to 1.
+
+    Nodes and cells keep the file's order, and the points its precision, so that marks are those of the program riis.
+    """
+    import pyvista
+
+    ending = os.path.splitext(path)[1].lower()
+    if not os.path.exists(path):
+        raise Refusal(f"{path}: there is no such file")
+    if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
+        raise Refusal(
+            f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}. The program reads more formats, and writes what the view "
+            f"reads: riis mark {os.path.basename(path)} --output mesh.vtu"
+        )
+    if ending in BY_MESHIO:
+        grid = _by_meshio(path)
+    else:
+        grid = _by_vtk(path, progress)
+    if not isinstance(grid, pyvista.UnstructuredGrid):
+        raise Refusal(f"{path}: holds {type(grid).__name__}, not an unstructured grid")
+    if grid.n_points == 0:
+        raise Refusal(f"{path}: has no nodes, or is not a mesh")
+    return grid
+
+
+def _by_vtk(path: str, progress: dict[str, float]) -> Any:
+    import pyvista
+
+    said: list[str] = []
+    reader = pyvista.get_reader(path)
+    low = reader.reader
+    low.AddObserver("ProgressEvent", lambda source, _: progress.update(part=float(source.GetProgress())))
+
+    def hear(_: Any, __: str, text: str = "") -> None:
+        said.append(text)
+
+    hear.CallDataType = "string0"  # type: ignore[attr-defined]
+    low.AddObserver("ErrorEvent", hear)
+    try:
+        grid = reader.read()
+    except Exception as error:  # PyVista raises many kinds for files that it cannot parse
+        raise Refusal(f"{path}: is not a mesh that VTK can read ({error})") from error
+    if said or low.GetErrorCode() != 0:
+        lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in " ".join(said).splitlines() if line.strip()]
+        raise Refusal(f"{path}: is not a mesh that VTK can read" + (f" ({lines[-1]})" if lines else ""))
+    if isinstance(grid, pyvista.PolyData):
+        raise Refusal(f"{path}: is a surface; riis view needs a mesh of volume cells")
+    return grid
+
+
+def _by_meshio(path: str) -> Any:
+    import pyvista
+
+    try:
+        import meshio
+    except ImportError:
+        raise Refusal(f"{path}: this format needs meshio: pip install meshio") from None
+    try:
+        return pyvista.from_meshio(meshio.read(path))
+    except SystemExit:  # meshio ends the process for some files
+        raise Refusal(f"{path}: is not a mesh that meshio can read") from None
+    except Exception as error:
+        raise Refusal(f"{path}: is not a mesh that meshio can read ({error})") from error
+
+
+def arrays_of(grid: Any) -> dict[str, Any]:
+    """Returns the arrays of a grid by the names of Model's arguments."""
+    offsets = grid.cell_offsets if hasattr(grid, "cell_offsets") else grid.offset  # PyVista 0.49 renamed it
+    return {
+        "points": numpy.ascontiguousarray(grid.points, numpy.float64), "cells": numpy.asarray(grid.cell_connectivity),
+        "offsets": numpy.asarray(offsets), "types": numpy.asarray(grid.celltypes),
+    }  # fmt: skip
+
+
+def read_surface(path: str) -> dict[str, Any]:
+    """Returns a surface by the names of the arguments of Model.add_surface. A .pvd file gives a surface that moves."""
+    import pyvista
+
+    ending = os.path.splitext(path)[1].lower()
+    if not os.path.isfile(path):
+        raise Refusal(f"{path}: there is no such file")
+    if ending not in (".vtp", ".stl", ".pvd"):
+        raise Refusal(f"{path}: a surface is a file .vtp, .stl or .pvd")
+    try:
+        reader = pyvista.get_reader(path)
+        if ending != ".pvd":
+            frames, times = [_triangles_of(reader.read())], None
+        else:
+            times = numpy.array(reader.time_values, float)
+            frames = []
+            for value in times:
+                reader.set_active_time_value(value)
+                frames.append(_triangles_of(reader.read()[0]))
+    except Refusal:
+        raise
+    except Exception as error:  # PyVista raises many kinds for files that it cannot parse
+        raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
+    faces = frames[0].regular_faces if len(frames) else numpy.zeros((0, 3), int)
+    if len(faces) == 0:
+        raise Refusal(f"{path}: has no triangles")
+    if any(frame.n_points != frames[0].n_points or not numpy.array_equal(frame.regular_faces, faces) for frame in frames):
+        raise Refusal(f"{path}: its frames differ in their triangles; all must have those of the first")
+    points = numpy.array([frame.points for frame in frames], numpy.float64)
+    leaflet = frames[0].cell_data.get("riis_leaflet")
+    return {
+        "vertices": points if times is not None else points[0], "faces": numpy.array(faces, numpy.int64), "times": times,
+        "leaflet_id": None if leaflet is None else numpy.array(leaflet, numpy.int32),
+    }  # fmt: skip
+
+
+def _triangles_of(data: Any) -> Any:
+    import pyvista
+
+    if not isinstance(data, pyvista.PolyData):
+        raise Refusal(f"holds {type(data).__name__}, not a surface")
+    return data.triangulate()
+
+
+def mesh_of_saved(path: str) -> str | None:
+    """Returns the path of the mesh of a saved view."""
+    from riis.view._outputs import read_session
+
+    if not os.path.isfile(path):
+        raise Refusal(f"{path}: there is no such file")
+    return read_session(path)[0]["mesh"]
+
+
+def number_of(value: Any, name: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise Refusal(f"{name}: '{value}' is not a number") from None
+
+
+def write_marked(grid: Any, model: Any, path: str) -> None:
+    """Writes the mesh with the arrays that the program riis writes: riis_marked, riis_distance and riis_leaflet.
+
+    With several valves the names begin with a valve's name in place of riis, as in the program.
+    """
+    import pyvista
+
+    out = pyvista.UnstructuredGrid()
+    out.deep_copy(grid)
+    out.points = numpy.asarray(grid.points, numpy.float64)
+    prefixes = ["riis"] if len(model.valves) == 1 else [valve.name for valve in model.valves]
+    for k, prefix in enumerate(prefixes):
+        ids, distance, leaflet = model.marks_of(k)
+        n_nodes = grid.n_points
+        arrays = {
+            "marked": (numpy.zeros(n_nodes, numpy.uint8), 1), "distance": (numpy.full(n_nodes, FAR_DISTANCE), distance),
+            "leaflet": (numpy.full(n_nodes, -1, numpy.int32), leaflet),
+        }  # fmt: skip
+        for name, (array, values) in arrays.items():
+            array[ids] = values
+            out.point_data[f"{prefix}_{name}"] = array
+    out.save(path)

@@ -1,0 +1,461 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Uses riis view as a person does, in Chromium without a window, and leaves a picture of each step (./run view --check).
+
+    python check_view.py FOLDER [PROGRAM]
+
+FOLDER gets the pictures and the files that the page writes. PROGRAM is the program riis, which runs the copied command. Each
+step ends with checks, and the first that fails ends the run. Times are measured and printed, and no check looks at them.
+"""
+
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import signal
+import statistics
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+
+import numpy
+import pyvista
+from selenium import webdriver
+from selenium.common.exceptions import JavascriptException
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+N_MOVES = 50
+
+
+def tube(n_across=41, n_along=61, scale=1.0):
+    """Returns a tube of tetrahedra around the z axis, of radius 1.26, with n_across^2 n_along nodes."""
+    u, v, w = numpy.meshgrid(*2 * [numpy.linspace(-1.0, 1.0, n_across)], numpy.linspace(-0.9, 2.3, n_along), indexing="ij")
+    x, y = u * numpy.sqrt(1.0 - v**2 / 2), v * numpy.sqrt(1.0 - u**2 / 2)  # from a square to a disc
+    points = scale * numpy.stack([1.26 * x.ravel(), 1.26 * y.ravel(), w.ravel()], axis=1)
+    ids = numpy.arange(len(points)).reshape(u.shape)
+    corner = [ids[i : i + n_across - 1, j : j + n_across - 1, k : k + n_along - 1].ravel() for i, j, k in numpy.ndindex(2, 2, 2)]
+    ways = [(1, 3), (3, 2), (2, 6), (6, 4), (4, 5), (5, 1)]  # around the cube's diagonal from corner 0 to corner 7
+    cells = numpy.concatenate([numpy.stack([corner[0], corner[a], corner[b], corner[7]], axis=1) for a, b in ways])
+    rows = numpy.column_stack([numpy.full(len(cells), 4), cells])
+    return pyvista.UnstructuredGrid(rows.ravel(), numpy.full(len(cells), pyvista.CellType.TETRA), points)
+
+
+class Server:
+    """riis view as a process of its own."""
+
+    def __init__(self, folder, *words):
+        self.log = folder / "server.log"
+        with open(self.log, "w", encoding="utf-8") as log:
+            self.process = subprocess.Popen(
+                [sys.executable, "-W", "ignore", "-m", "riis", "view", *map(str, words), "--no-browser", "--folder", str(folder)],
+                stdout=log, stderr=subprocess.STDOUT, env={name: text for name, text in os.environ.items() if name != "DISPLAY"},
+            )  # fmt: skip
+        for _ in range(600):
+            found = re.search(r"(http://127\.0\.0\.1:(\d+)/)#([0-9a-f]{64})", self.log.read_text(encoding="utf-8"))
+            if found:
+                break
+            assert self.process.poll() is None, self.log.read_text(encoding="utf-8")
+            time.sleep(0.1)
+        self.address, self.root, self.port, self.key = found[0], found[1], int(found[2]), found[3]
+
+    def end(self):
+        """Ends the process as Ctrl C does. It must end by itself, without an error."""
+        self.process.send_signal(signal.SIGINT)
+        assert self.process.wait(30) == 0, self.log.read_text(encoding="utf-8")
+
+
+class Browser:
+    """Chromium without a window."""
+
+    def __init__(self, folder):
+        options = webdriver.ChromeOptions()
+        for word in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1500,1040", "--disable-dev-shm-usage"):
+            options.add_argument(word)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+        self.folder = folder
+
+    def open(self, address):
+        self.driver.get(address)
+        self.rest()
+
+    def get(self, name):
+        return self.driver.execute_script("return window.trame.state.get(arguments[0])", name)
+
+    def wait(self, condition, what, seconds=90):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            try:
+                if condition():
+                    return
+            except JavascriptException:  # the page is not there yet
+                pass
+            time.sleep(0.1)
+        self.shot("failed")
+        raise AssertionError(f"waited {seconds} s in vain: {what}")
+
+    def rest(self):
+        """Waits until the lights are those of the last change, and no new picture has come for a while."""
+        end, still, last = time.monotonic() + 120, 0, -1
+        while still < 6:
+            time.sleep(0.25)
+            try:
+                rests = self.get("fresh") and self.get("at_rest") and self.get("progress") is None
+                number = self.get("picture_number") if rests else -1
+            except JavascriptException:  # the page is not there yet
+                number = -1
+            still = still + 1 if number == last != -1 else 0
+            last = number
+            if time.monotonic() > end:
+                self.shot("failed")
+                raise AssertionError("waited in vain for the page to come to rest")
+
+    def shot(self, name):
+        self.driver.save_screenshot(str(self.folder / f"{name}.png"))
+
+    def find(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def press(self, selector):
+        element = self.find(selector)
+        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", element)
+        time.sleep(0.4)
+        element.click()
+
+    def unfold(self, title):
+        """Opens a folded part of the page, and leaves an open one."""
+        for element in self.driver.find_elements(By.CSS_SELECTOR, ".v-expansion-panel-title"):
+            if title in element.text and element.get_attribute("aria-expanded") != "true":
+                element.click()
+                time.sleep(0.6)
+
+    def write(self, selector, text):
+        element = self.find(selector)
+        self.driver.execute_script("arguments[0].scrollIntoView({ block: 'center' })", element)
+        time.sleep(0.4)
+        element.click()
+        element.send_keys(Keys.CONTROL, "a")
+        element.send_keys(str(text) + Keys.ENTER)
+
+    def drag_slider(self, name, pixels):
+        thumb = self.find(f"[data-parameter={name}] .v-slider-thumb")
+        ActionChains(self.driver, duration=40).click_and_hold(thumb).move_by_offset(pixels // 2, 0).move_by_offset(
+            pixels - pixels // 2, 0
+        ).release().perform()
+
+    def drag_picture(self, start, *steps):
+        picture = self.find("#riis-picture")
+        chain = ActionChains(self.driver, duration=40).move_to_element_with_offset(picture, *start).click_and_hold()
+        for step in steps:
+            chain = chain.move_by_offset(*step)
+        chain.release().perform()
+
+    def click_picture(self, x, y):
+        ActionChains(self.driver).move_to_element_with_offset(self.find("#riis-picture"), x, y).click().perform()
+
+    def refused(self, text):
+        self.wait(lambda: text in (self.get("message") or ""), f"a message with '{text}'")
+        assert self.find("#message").is_displayed()
+
+    def light(self, name):
+        return next(light for light in self.get("lights") if light["name"] == name)
+
+
+def digest_of(grid):
+    """Returns the digest of the marks in a file, as the page computes it of its own."""
+    ids = numpy.flatnonzero(grid.point_data["riis_marked"]).astype(numpy.int64)
+    distance, leaflet = (numpy.asarray(grid.point_data[f"riis_{name}"])[ids] for name in ("distance", "leaflet"))
+    return hashlib.sha256(ids.tobytes() + distance.tobytes() + leaflet.astype(numpy.int32).tobytes()).hexdigest()
+
+
+def say(text):
+    print(f"  {text}", flush=True)
+
+
+def load_and_move(browser):
+    browser.shot("1-loaded")
+    assert browser.get("message") == "", browser.get("message")
+    assert browser.light("sealed")["level"] == "good", browser.light("sealed")
+    first = browser.get("digest")
+    browser.drag_slider("opening", 190)
+    browser.rest()
+    assert 0.3 < browser.get("slider_0") < 0.9 and browser.get("digest") != first
+    browser.shot("2-opening-moved")
+    say(f"a drag of the slider gives opening {browser.get('slider_0')} and other marks")
+    number = browser.get("picture_number")
+    browser.drag_picture((150, 0), (-90, 25), (-90, 25))
+    browser.wait(lambda: browser.get("picture_number") > number, "the camera turns")
+    browser.rest()
+    browser.shot("3-view-turned")
+    for look in ("top", "side", "oblique"):
+        browser.press(f"#look-{look}")
+        browser.rest()
+        browser.shot(f"3-look-{look}")
+    browser.press("#undo")
+    browser.wait(lambda: browser.get("digest") == first, "undo gives the first marks")
+    say("one undo gives the first marks")
+
+
+def place_by_clicks(browser):
+    browser.unfold("Placement")
+    before = browser.get("placement")
+    browser.press("#click-three")
+    browser.wait(lambda: browser.get("tool") == "click", "the page waits for clicks")
+    for k, (x, y) in enumerate(((-150, 60), (10, 25), (160, 60))):
+        browser.click_picture(x, y)
+        if k < 2:
+            browser.wait(lambda k=k: browser.get("n_clicks") == k + 1, f"click {k + 1} meets the wall")
+            browser.shot(f"4-landmark-{k + 1}")
+    browser.wait(lambda: browser.get("tool") == "look", "three clicks are enough")
+    browser.rest()
+    browser.shot("4-placed-by-landmarks")
+    assert browser.get("message") == "", browser.get("message")
+    assert browser.get("placement") != before
+    say("three clicks place the valve")
+    browser.press("#undo")
+    browser.rest()
+    assert browser.get("placement") == before
+    browser.press("button[value=move]")
+    browser.drag_picture((0, 60), (15, 0), (15, -10))
+    browser.rest()
+    assert browser.get("placement")[0]["values"] != before[0]["values"]
+    browser.shot("5-moved-by-hand")
+    browser.press("#undo")
+    browser.press("button[value=look]")
+    browser.write("#place-origin-2", "0.05")
+    browser.wait(lambda: browser.get("placement")[0]["values"][2] == "0.05", "a typed number moves the valve")
+    browser.rest()
+    say("a drag in the picture and a typed number move the valve")
+
+
+def play(browser):
+    browser.press("#play")
+    browser.wait(lambda: browser.get("playing") and len(browser.get("curves")) == 3, "it plays, with curves")
+    times, end = [], time.monotonic() + 60
+    while len(set(times)) < 8 and time.monotonic() < end:
+        times.append(browser.get("time"))
+        time.sleep(0.05)
+        if 0.1 < times[-1] < 0.35:
+            browser.shot("6-playing")
+    assert len(set(times)) >= 8, times
+    browser.press("#play")
+    browser.wait(lambda: not browser.get("playing"), "it pauses")
+    browser.rest()
+    browser.shot("6-paused")
+    say("it plays and pauses")
+
+
+def write_and_reopen(browser, folder, program):
+    browser.write("#slider-opening", "0.4")
+    browser.unfold("All parameters")
+    browser.write("#parameter-skirt_length, #slider-skirt_length", "0.1")
+    browser.rest()
+    browser.shot("7-parameters")
+    digest, state = browser.get("digest"), [browser.get(name) for name in ("sliders", "rows", "placement", "legend")]
+    for name in ("case", "command", "python", "openfoam"):
+        browser.press(f"#text-{name}")
+        browser.wait(lambda: browser.get("text_shown"), f"the text of {name}")
+        time.sleep(0.5)
+        browser.shot(f"8-text-{name}")
+        browser.press("#text-write")
+        browser.wait(lambda: "wrote" in browser.get("message"), f"the file of {name}")
+        browser.press("#text-close")
+        time.sleep(0.5)
+    for name, ending in (("view", ".view.json"), ("mesh", ".vtu"), ("picture", ".png"), ("movie", ".mp4")):
+        browser.press(f"#write-{name}")
+        browser.wait(lambda e=ending: f"valve{e}" in browser.get("message"), f"the file of {name}", 300)
+        assert (folder / f"valve{ending}").stat().st_size > 500
+    browser.rest()
+    browser.shot("8-written")
+    in_file = digest_of(pyvista.read(folder / "valve.vtu"))
+    assert in_file == digest, "the saved mesh has other marks than the page"
+    say("the marks in the saved mesh are those of the page, to the last bit")
+    if program:
+        command = (folder / "valve.sh").read_text(encoding="utf-8")
+        words = shlex.split(command.replace("\\\n", " "))
+        words = [program, *words[1:-1], f"--output={folder / 'by_command.vtu'}"]
+        subprocess.run(words, check=True, stdout=subprocess.DEVNULL)
+        assert digest_of(pyvista.read(folder / "by_command.vtu")) == digest, "the copied command gives other marks"
+        say("the copied command gives the same bits")
+    script = (folder / "valve.py").read_text(encoding="utf-8") + "\nimport hashlib\nfor m in marks.values():\n    print(len(m))\n"
+    said = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=folder)
+    assert int(said.stdout.split()[-1]) == browser.get("n_marked")
+    say("the Python lines mark as many nodes")
+    browser.write("#slider-opening", "0.9")
+    browser.wait(lambda: browser.get("digest") != digest, "another opening gives other marks")
+    browser.rest()
+    browser.unfold("Mesh, surface")
+    browser.write("#open-view", "valve.view.json")
+    browser.wait(lambda: "opened" in browser.get("message"), "the saved view opens")
+    browser.rest()
+    browser.shot("9-reopened")
+    assert browser.get("digest") == digest
+    assert [browser.get(name) for name in ("sliders", "rows", "placement", "legend")] == state
+    say("the saved view opens again as it was")
+
+
+def bad_input(browser, folder):
+    browser.rest()
+    digest = browser.get("digest")
+    (folder / "text.vtu").write_text("this is no mesh\n", encoding="utf-8")
+    (folder / "empty.vtk").write_text("", encoding="utf-8")
+    pyvista.Sphere().save(folder / "surface.vtk")
+    pyvista.Sphere().cast_to_unstructured_grid().save(folder / "triangles.vtu")
+    for name, text in (
+        ("no such.vtu", "there is no such file"), ("text.vtu", "is not a mesh"), ("empty.vtk", "is not a mesh"),
+        ("surface.vtk", "is a surface"), ("triangles.vtu", "volume cell"), ("server.log", "riis view reads"),
+    ):  # fmt: skip
+        browser.write("#open-mesh", name)
+        browser.refused(name)
+        browser.refused(text)
+        browser.shot(f"10-refused-{name.split('.')[0].replace(' ', '-')}-{name.split('.')[1]}")
+    for selector, value, text in (
+        ("#slider-opening", "1.5", "opening"), ("#slider-annulus", "-1", "annulus"), ("#place-scale-0", "0", "scale"),
+    ):  # fmt: skip
+        browser.write(selector, value)
+        browser.refused(text)
+        browser.rest()
+        assert browser.find(selector).get_property("value") != value, f"{selector} still shows {value}"
+    browser.shot("10-refused-parameter")
+    assert browser.get("digest") == digest, "a refusal changed the marks"
+    tube(25, 31, 10.0).save(folder / "millimetres.vtu")
+    browser.write("#open-mesh", "millimetres.vtu")
+    browser.wait(lambda: "millimetres" in browser.get("mesh_text"), "the mesh in millimetres opens")
+    browser.rest()
+    browser.shot("11-millimetres")
+    assert browser.light("unit")["level"] != "good" and "millimetres" in browser.light("unit")["advice"]
+    browser.press("#cure-unit")
+    browser.rest()
+    browser.shot("11-millimetres-cured")
+    assert browser.find(".v-app-bar").rect["y"] == 0, "the page has scrolled"
+    assert browser.light("unit")["level"] == "good", browser.light("unit")
+    say("bad files and values give a message; a mesh in millimetres gives a light, and a click cures it")
+
+
+def status_of(server, path, **headers):
+    request = urllib.request.Request(server.root + path, headers={name.replace("_", "-"): text for name, text in headers.items()})
+    try:
+        with urllib.request.urlopen(request, timeout=20) as answer:
+            return answer.status, answer.read()
+    except urllib.error.HTTPError as error:
+        return error.code, error.read()
+
+
+def strangers(server):
+    upgrade = {
+        "Connection": "Upgrade", "Upgrade": "websocket", "Sec_WebSocket_Version": "13",
+        "Sec_WebSocket_Key": "MDEyMzQ1Njc4OWFiY2RlZg==",
+    }  # fmt: skip
+    assert status_of(server, "")[0] == 200 and b"tube" not in status_of(server, "")[1]
+    assert status_of(server, "", Host="evil.example")[0] == 403
+    assert status_of(server, "", Origin="http://evil.example")[0] == 403
+    for path in ("ws", "ws?key=", "ws?key=wslink-secret", f"ws?key={server.key[:-1]}"):
+        assert status_of(server, path, **upgrade)[0] == 403, path
+    assert status_of(server, f"ws?key={server.key}", **upgrade, Origin="http://127.0.0.1:1")[0] == 403
+    words = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+    assert "riis" in words and server.key not in words, "the key is in a command line"
+    say("foreign hosts and origins, and sockets without the key, are refused; the key is in no command line")
+
+
+def two_browsers(browser, server, folder):
+    other = Browser(folder)
+    other.open(server.address)
+    browser.write("#slider-opening", "0.7")
+    other.wait(lambda: other.get("slider_0") == 0.7, "the second browser follows the first")
+    other.rest()
+    other.shot("12-second-browser")
+    other.press("#play")
+    browser.wait(lambda: browser.get("playing"), "it plays in both")
+    other.driver.quit()
+    time.sleep(1)
+    browser.press("#play")
+    browser.wait(lambda: not browser.get("playing"), "the first browser pauses it")
+    say("two browsers show the same")
+
+
+def closed_while_it_plays(server, folder):
+    browser = Browser(folder)
+    browser.open(server.address)
+    browser.press("#play")
+    browser.wait(lambda: browser.get("playing"), "it plays")
+    browser.driver.quit()
+    time.sleep(7)
+    again = Browser(folder)
+    again.open(server.address)
+    assert again.get("playing") is False
+    again.write("#slider-opening", "0.2")
+    again.rest()
+    again.driver.quit()
+    say("a browser that is closed while it plays stops the heartbeat; the server lives on")
+
+
+def measure(browser):
+    script = """
+      const [n, done] = arguments, image = document.getElementById("riis-picture"), times = [], marks = [];
+      function next() {
+        if (times.length === n) return done([times, marks]);
+        const before = Number(image.dataset.number), start = performance.now();
+        const loaded = () => {
+          if (Number(image.dataset.number) <= before) return;
+          image.removeEventListener("load", loaded);
+          times.push(performance.now() - start);
+          marks.push(window.trame.state.get("milliseconds"));
+          setTimeout(next, 20);
+        };
+        image.addEventListener("load", loaded);
+        window.trame.state.set("slider_0", 0.2 + 0.6 * ((times.length * 7) % n) / n);
+      }
+      next();
+    """
+    browser.driver.set_script_timeout(300)
+    times, marks = browser.driver.execute_async_script(script, N_MOVES)
+    print(
+        f"median of {N_MOVES} moves, {browser.get('mesh_text')}: new marks {statistics.median(marks):.1f} ms, from the move to "
+        f"the picture in the browser {statistics.median(times):.0f} ms"
+    )
+
+
+def main(folder, program=None):
+    folder = pathlib.Path(folder).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    tube().save(folder / "tube.vtu")
+    server = Server(folder, folder / "tube.vtu")
+    browser = None
+    try:
+        start = time.monotonic()
+        browser = Browser(folder)
+        browser.open(server.address)
+        say(f"the page is at rest {time.monotonic() - start:.1f} s after the browser's start")
+        strangers(server)
+        load_and_move(browser)
+        measure(browser)
+        place_by_clicks(browser)
+        play(browser)
+        write_and_reopen(browser, folder, program)
+        two_browsers(browser, server, folder)
+        bad_input(browser, folder)
+        complaints = [line["message"] for line in browser.driver.get_log("browser") if line["level"] == "SEVERE"]
+        assert not complaints, json.dumps(complaints, indent=2)
+        browser.driver.quit()
+        closed_while_it_plays(server, folder)
+        server.end()
+        say("Ctrl C ends the server cleanly")
+    finally:
+        if server.process.poll() is None:
+            server.process.kill()
+        if browser is not None:
+            browser.driver.quit()
+    print(f"{len(list(folder.glob('*.png')))} pictures are in {folder}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The server of riis view without a browser: who may see the page, and what it refuses. ./run view --check uses a browser."""
+
+import asyncio
+import importlib.util
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+
+import numpy
+import pytest
+
+import riis
+
+pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+pytest.importorskip("trame", reason="trame is missing; ./run python installs it")
+
+import aiohttp  # noqa: E402
+import msgpack  # noqa: E402
+from wslink import chunking  # noqa: E402
+
+from riis.__main__ import main  # noqa: E402
+from riis.view import guard, reading, scene  # noqa: E402
+from riis.view.model import Model  # noqa: E402
+
+
+def box(n=12):
+    """Returns a box of hexahedra around a valve, of n^3 nodes."""
+    image = pyvista.ImageData(dimensions=(n, n, n), spacing=3 * [4.0 / (n - 1)], origin=(-2.0, -2.0, -1.5))
+    return image.cast_to_unstructured_grid()
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    """Returns riis view as a process, with its address, its port and its key."""
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    folder = tmp_path_factory.mktemp("view")
+    box().save(folder / "box.vtu")
+    words = [sys.executable, "-W", "ignore", "-m", "riis", "view", str(folder / "box.vtu"), "--no-browser"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+        found = re.search(r"http://127\.0\.0\.1:(\d+)/#([0-9a-f]{64})", process.stdout.readline())
+        yield process, int(found[1]), found[2]
+        process.kill()
+
+
+def test_hosts_and_origins():
+    for host in "127.0.0.1:80", "localhost:80", "LOCALHOST:80", "localhost":
+        assert guard.is_own(host, None) and guard.is_own(host, f"http://{host}")
+        for origin in "http://evil.example", f"https://{host}", f"http://{host}.evil.example", "null", "", "http://127.0.0.1:81":
+            assert not guard.is_own(host, origin), (host, origin)
+    for host in "evil.example", "127.0.0.1.evil.example", "", ":80", "10.0.0.1:80", "127.0.0.2:80", "[::1]:80":
+        assert not guard.is_own(host, None) and not guard.is_own(host, f"http://{host}")
+    assert guard.is_key("ab", "ab")
+    assert not any(guard.is_key(given, "ab") for given in (None, "", "a", "abc", "AB", "äb", "wslink-secret"))
+
+
+def test_the_key_opens_the_socket_and_nothing_else_does(server):
+    process, port, key = server
+    root = f"127.0.0.1:{port}"
+
+    async def hello(session, secret):
+        """Says hello by a socket that is open, and asks for the state. Returns both answers."""
+        async with session.ws_connect(f"http://{root}/ws?key={key}") as socket:
+            parts = chunking.UnChunker()
+            parts.set_max_message_size(10**9)
+
+            async def answer(number, method, *values):
+                message = {"wslink": "1.0", "id": number, "method": method, "args": list(values), "kwargs": {}}
+                for chunk in chunking.generate_chunks(msgpack.packb(message), 100_000):
+                    await socket.send_bytes(chunk)
+                while True:
+                    whole = parts.process_chunk((await socket.receive(timeout=30)).data)
+                    whole = msgpack.unpackb(whole) if isinstance(whole, bytes) else whole
+                    if whole is not None and whole.get("id") == number:
+                        return whole
+
+            return await answer("system:c0:0", "wslink.hello", {"secret": secret}), await answer("rpc:c0:1", "trame.state.get")
+
+    async def try_all():
+        async with aiohttp.ClientSession() as session:
+            async def status(path, **headers):
+                async with session.get(f"http://{root}/{path}", headers=headers, allow_redirects=False) as answer:
+                    return answer.status, await answer.text(), answer.headers
+
+            code, text, headers = await status("")
+            assert code == 200 and key not in text and "box" not in text
+            assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+            assert "Access-Control-Allow-Origin" not in headers
+            for path in "index.html", f"index.html?secret={key[:-1]}":  # without the key only the first page is there
+                assert (await status(path))[1] == text
+            assert (await status("", Host="evil.example"))[0] == 403
+            assert (await status("", Origin="http://evil.example"))[0] == 403
+            for query in "", "?key=", "?key=wslink-secret", f"?key={key[:-1]}", f"?secret={key}":
+                with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+                    await session.ws_connect(f"http://{root}/ws{query}")
+                assert refused.value.status == 403
+            with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+                await session.ws_connect(f"http://{root}/ws?key={key}", headers={"Origin": "http://127.0.0.1:1"})
+            assert refused.value.status == 403
+            for secret in "wslink-secret", "", key[:-1]:
+                first, state = await hello(session, secret)
+                assert "error" in first and "error" in state and "result" not in state
+                assert "picture" not in json.dumps(state)
+            first, state = await hello(session, key)
+            assert "clientID" in first["result"] and state["result"]["state"]["trame__title"] == "riis view"
+
+    asyncio.run(try_all())
+    words = [open(f"/proc/{number}/cmdline", "rb").read() for number in os.listdir("/proc") if number == str(process.pid)]
+    assert len(words) == 1 and key.encode() not in words[0]
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(30) == 0
+
+
+def test_missing_graphics_name_their_packages(monkeypatch):
+    monkeypatch.delenv("VTK_DEFAULT_OPENGL_WINDOW", raising=False)
+    monkeypatch.setattr(scene, "_egl_works", lambda: False)
+    monkeypatch.setenv("DISPLAY", ":1")
+    scene.check_of_graphics()  # VTK draws by X
+    monkeypatch.delenv("DISPLAY")
+    with pytest.raises(RuntimeError, match="apt-get install libegl1 libgl1-mesa-dri$"):
+        scene.check_of_graphics()
+
+
+def test_a_widget_for_notebooks():
+    surface = riis.Surface(riis.Valve("mitral"))
+    if importlib.util.find_spec("trame_pyvista") is None:
+        with pytest.raises(ImportError, match=r"pip install 'pyvista\[jupyter\]'"):
+            riis.plot(surface, interactive=True)
+    else:
+        assert "vtk" in riis.plot(surface, interactive=True).value
+
+
+@pytest.mark.skipif(importlib.util.find_spec("trame_pyvista") is None, reason="pyvista[jupyter] is missing")
+def test_the_program_of_the_document_runs(tmp_path, monkeypatch):
+    text = (pathlib.Path(__file__).resolve().parents[2] / "docs/view.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    box(20).save(tmp_path / "mesh.vtu")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(program, names)
+    assert len(names["model"].update().marked) > 0
+
+
+def test_pictures_of_a_scene():
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    grid = box(20)
+    model = Model(**reading.arrays_of(grid))
+    model.add("mitral")
+    drawn = scene.Scene(model, grid, size=(320, 240))
+    drawn.show(model.update())
+    drawn.look("oblique", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), 3.0)
+    drawn.cut_here((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+    drawn.show_cut()
+    closed = drawn.picture()
+    assert closed[:2] == b"\xff\xd8" and drawn.picture() == closed  # a JPEG file, and the same scene gives the same
+    model.set(0, "opening", 0.8)
+    drawn.show(model.update())
+    assert drawn.picture() != closed
+    on_wall = drawn.pick(0.5, 0.5)  # the wall is the box's: one coordinate is that of a side
+    sides = numpy.abs(on_wall[:2]) - 2.0, [on_wall[2] + 1.5, on_wall[2] - 2.5]
+    assert min(numpy.abs(numpy.concatenate(sides))) < 1e-5, on_wall
+    assert drawn.pick(0.001, 0.001) is None
+    for name, call in (("wall", drawn.show_wall), ("cells", drawn.show_cells), ("look", drawn.look)):
+        with pytest.raises(ValueError, match=f"^{name}: is 'oblong'; it must be one of "):
+            call("oblong")
+    drawn.close()
+
+
+def test_wrong_words(tmp_path, capsys):
+    for words, text in (
+        (["view", str(tmp_path / "no.vtu")], "no.vtu: there is no such file"),
+        (["view", "--open", str(tmp_path / "no.json")], "no.json: there is no such file"),
+        (["view", "--folder", str(tmp_path / "no")], "--folder: "),
+        (["view", "--port", "65536"], "--port: is 65536; it must be from 0 to 65535"),
+    ):
+        assert main(words) == 2
+        assert text in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["vew"])
+
+
+def test_files_that_are_no_meshes(tmp_path):
+    (tmp_path / "text.vtu").write_text("this is no mesh\n")
+    (tmp_path / "empty.vtk").write_text("")
+    pyvista.Sphere().save(tmp_path / "surface.vtk")
+    pyvista.UnstructuredGrid().save(tmp_path / "nothing.vtu")
+    for name, text in (
+        ("no.vtu", "there is no such file"), ("text.vtu", "is not a mesh"), ("empty.vtk", "is not a mesh"),
+        ("surface.vtk", "is a surface"), ("nothing.vtu", "has no nodes"),
+    ):  # fmt: skip
+        with pytest.raises(reading.Refusal, match=text) as refused:
+            reading.read_mesh(str(tmp_path / name), {})
+        assert str(tmp_path / name) in str(refused.value)
+    (tmp_path / "mesh.stl").write_text("")
+    with pytest.raises(reading.Refusal, match="riis mark mesh.stl --output mesh.vtu"):
+        reading.read_mesh(str(tmp_path / "mesh.stl"), {})
+    with pytest.raises(reading.Refusal, match="a surface is a file .vtp, .stl or .pvd"):
+        reading.read_surface(str(tmp_path / "text.vtu"))
+    with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):
+        reading.number_of("wide", "scale")
+
+
+@pytest.mark.parametrize("kinds", [["mitral"], ["coapting", "bileaflet"]])
+def test_a_marked_mesh_has_the_marks_of_the_library(tmp_path, kinds):
+    grid = box(30)
+    model = Model(**reading.arrays_of(grid))
+    for k, kind in enumerate(kinds):
+        model.add(kind)
+        model.set(k, "half_thickness", 0.2)
+        model.place(k, (0.1 * k, 0.0, 0.2), (0.3, 0.1, 1.0))
+    reading.write_marked(grid, model, str(tmp_path / "marked.vtu"))
+    saved = reading.read_mesh(str(tmp_path / "marked.vtu"), {})
+    assert saved.points.dtype == numpy.float64 and numpy.array_equal(saved.points, grid.points)
+    mesh = riis.Mesh(numpy.ascontiguousarray(grid.points, numpy.float64))
+    for k, kind in enumerate(kinds):
+        dense = riis.mark(model.surface(k), mesh).dense(leaflet_id=True)
+        prefix = "riis" if len(kinds) == 1 else kind
+        assert 100 < saved.point_data[f"{prefix}_marked"].sum() == numpy.count_nonzero(dense.mark)
+        for name in ("marked", "distance", "leaflet"):
+            expected = getattr(dense, {"marked": "mark", "distance": "distance", "leaflet": "leaflet_id"}[name])
+            assert numpy.array_equal(saved.point_data[f"{prefix}_{name}"], expected), (prefix, name)
+
+
+def test_a_surface_from_a_file(tmp_path):
+    surface = riis.Surface(riis.Valve("mitral", opening=0.5)).to_pyvista()
+    surface.cell_data["riis_leaflet"] = surface.cell_data["leaflet_id"]
+    surface.save(tmp_path / "valve.vtp")
+    read = reading.read_surface(str(tmp_path / "valve.vtp"))
+    assert numpy.array_equal(read["vertices"], surface.points) and read["times"] is None
+    assert numpy.array_equal(read["leaflet_id"], surface.cell_data["riis_leaflet"])
+    model = Model(**reading.arrays_of(box()))
+    assert len(model.update().marked) == 0
+    model.add_surface(**read, path=str(tmp_path / "valve.vtp"))
+    assert len(model.update().marked) > 0
