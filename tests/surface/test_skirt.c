@@ -599,7 +599,8 @@ static int64_t skirt_points(riis_valve *valve, double *points) {
   return n;
 }
 
-/* Moves a warp in n steps from one time to another. Returns the largest step of the skirt's points, and the time where it begins. */
+/* Moves a warp in n_steps steps from one time to another. Returns the largest step of the skirt's points, and the time at which
+ * this step begins. */
 static double largest_step(riis_valve *valve, riis_warp *warp, int n, const double *sources, const double *targets,
                            double from, double to, int n_steps, double *begins) {
   static double points[2][3000];
