@@ -16,11 +16,12 @@ static inline pair_counts crossings_of(const riis_surface *surface, riis_crossin
   CHECK_OK(riis_crossings_get_list(crossings, &list, sizeof list));
   const riis_triangles all = triangles_of(surface);
   pair_counts counts = {0, 0, 0};
+  int32_t largest = 0;
+  for (int64_t t = 0; t < all.n_triangles; ++t)
+    if (all.leaflet_id[t] != RIIS_LEAFLET_SKIRT && all.patch_id[t] > largest) largest = all.patch_id[t];
   for (int64_t k = 0; k < list.n_pairs; ++k) {
     int n_of_skirt = 0;
-    int32_t patch[2] = {0, 0}, largest = 0;
-    for (int64_t t = 0; t < all.n_triangles; ++t)
-      if (all.leaflet_id[t] != RIIS_LEAFLET_SKIRT && all.patch_id[t] > largest) largest = all.patch_id[t];
+    int32_t patch[2] = {0, 0};
     for (int end = 0; end < 2; ++end) {
       /* A fixed triangulation leaves out triangles without area, so an id is no position. */
       int64_t low = 0, high = all.n_triangles - 1;

@@ -18,7 +18,7 @@
 static double between(double low, double high) { return random_between(&rng, low, high); }
 
 enum { n_skirted = 3 };
-static const char *const skirted[n_skirted] = {"trileaflet", "mitral", "aortic"};
+static const char *const skirted[n_skirted + 1] = {"trileaflet", "mitral", "aortic", "coapting"};
 
 static riis_valve *skirted_valve(int kind, double length, double opening) {
   riis_valve *valve = new_valve(skirted[kind]);
@@ -327,11 +327,12 @@ static int leaks(const riis_surface *surface, const test_mesh *nodes) {
   return passage.state == RIIS_PASSAGE_OPEN;
 }
 
-/* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. */
+/* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. The closed
+ * aortic valve is left out: it leaks in such a mesh even if the wall cuts its attachment. */
 static void skirts_seal_gaps(void **state) {
   (void)state;
   static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
-  for (int kind = 0; kind < 2; ++kind)
+  for (int kind = 0; kind < 4; kind += kind == 1 ? 2 : 1)
     for (int i = 0; i < 4; ++i) {
       const int owned_before = n_owned();
       riis_surface_options options = surface_options();
@@ -628,7 +629,7 @@ static double largest_step(riis_valve *valve, riis_warp *warp, int n, const doub
  * 64th of the step. */
 static void skirts_move_continuously_with_a_warp(void **state) {
   (void)state;
-  const int n_trials = is_long_test() ? 60 : 6;
+  const int n_trials = is_long_test() ? 60 : 4;
   int n_turned = 0; /* by more than 45 degrees */
   for (int trial = 0; trial < n_trials; ++trial) {
     const int owned_before = n_owned();
