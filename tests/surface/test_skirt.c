@@ -327,8 +327,8 @@ static int leaks(const riis_surface *surface, const test_mesh *nodes) {
   return passage.state == RIIS_PASSAGE_OPEN;
 }
 
-/* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. The closed
- * aortic valve is left out: it leaks in such a mesh even if the wall cuts its attachment. */
+/* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. The
+ * closed aortic valve is left out: it leaks in such a mesh even if the wall cuts its attachment. */
 static void skirts_seal_gaps(void **state) {
   (void)state;
   static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
