@@ -195,7 +195,7 @@ static void skirts_of_patients_reach_the_wall(void **state) {
   (void)state;
   static const char *const kinds[4] = {"coapting", "trileaflet", "aortic", "mitral"};
   const int n_trials = is_long_test() ? 100 : 4;
-  int n_states = 0, n_with_leaflets = 0, n_folded = 0;
+  int n_states = 0, n_with_leaflets = 0, n_folded = 0, n_crossed = 0;
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
@@ -203,6 +203,7 @@ static void skirts_of_patients_reach_the_wall(void **state) {
   for (int trial = 0; trial < n_trials; ++trial) {
     const int owned_before = n_owned(), kind = trial % 4, is_wide = trial / 4 % 2 == 0;
     const double noise = 0.3;
+    int is_crossed = 0;
     riis_valve *valve = new_valve(kinds[kind]);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     riis_surface_options options = surface_options();
@@ -240,7 +241,10 @@ static void skirts_of_patients_reach_the_wall(void **state) {
         const pair_counts counts = crossings_of(surface, crossings);
         n_with_leaflets += counts.of_leaflets > 0;
         ++n_states;
-        if (counts.of_skirt + counts.of_own > 0)
+        /* The ends of a warped aortic valve's cusps may pass each other side by side. Then the skirts cross (docs/theory.md). */
+        if (kind == 2 && counts.of_skirt > 0)
+          is_crossed = 1;
+        else if (counts.of_skirt + counts.of_own > 0)
           fail_msg("patient %d, %s, opening %g, %s: %d pairs with the skirt cross, and %d without", trial, kinds[kind],
                    0.1 * i, is_fixed ? "fixed" : "adapted", (int)(counts.of_skirt + counts.of_own),
                    (int)counts.of_leaflets);
@@ -267,6 +271,7 @@ static void skirts_of_patients_reach_the_wall(void **state) {
         }
         free_owned_after(owned_in_trial);
       }
+    n_crossed += is_crossed;
     free_owned_after(owned_before);
   }
   printf(
@@ -274,7 +279,8 @@ static void skirts_of_patients_reach_the_wall(void **state) {
       "warp folds\n",
       n_states, n_with_leaflets, n_folded);
   assert_true(n_states > 5 * n_folded);
-  assert_true(worst_reach > 0);
+  printf("skirts of %d aortic patients cross\n", n_crossed);
+  assert_true(n_crossed <= 1 + n_trials / 25 && worst_reach > 0);
 }
 
 static int start(void **state) {
