@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -116,8 +117,10 @@ Vector<AttachmentPart> attachment_of(Valve valve) {
   return parts;
 }
 
-// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts.
-Vec3 nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted, std::int32_t leaflet_id) {
+// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing if the
+// cusp has no attachment, or if no distance is finite.
+std::optional<Vec3> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
+                               std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
   const AttachmentPart *nearest = nullptr;
   for (const AttachmentPart &part : parts) {
@@ -136,6 +139,7 @@ Vec3 nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wa
       from = to;
     }
   }
+  if (!nearest) return std::nullopt;
   return place(nearest->image, nearest->curve.at(at));
 }
 
@@ -162,9 +166,11 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     WarpLandmarks(sources, landmarks.noise, "landmarks").fit(targets, map, quality);
     double moved = 0;
     for (const std::size_t i : along) {
-      const Vec3 found = nearest_on(parts, map, local[i], landmarks.list[i].leaflet_ids[0]);
-      moved = std::max(moved, distance(found, places[i]));
-      places[i] = found;
+      const std::optional<Vec3> found = nearest_on(parts, map, local[i], landmarks.list[i].leaflet_ids[0]);
+      if (!found)
+        fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, i), " has no nearest point on the valve's attachment");
+      moved = std::max(moved, distance(*found, places[i]));
+      places[i] = *found;
     }
     if (moved <= 1e-6 * radius) break;
   }

@@ -121,6 +121,17 @@ struct MappedInside {
   std::array<Vec3, n_material> points;
 };
 
+// An end of the attached side of a patch.
+struct AttachedEnd {
+  std::size_t patch;
+  bool is_last;
+};
+// Two such ends of different leaflets that are neighbours but are not joined. Round the axis of the attachment, one side ends
+// and the next one begins.
+struct NeighbourEnds {
+  AttachedEnd before, after;
+};
+
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;
@@ -135,6 +146,8 @@ struct PatchSet {
   Vector<std::optional<MaterialPoints>> material = {};
   // Only of warped patches: where the map takes points inside a patch. The index is that of the patch.
   Vector<MappedInside> mapped_inside = {};
+  // Only of valves whose skirts lead away from the axis of the attachment. Their patches have one image each.
+  Vector<NeighbourEnds> neighbour_ends = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
 };

@@ -19,8 +19,11 @@ namespace {
 constexpr std::size_t n_even_parts = 8;
 // The ends of two cusps that are not joined are neighbours if they are at most this far apart, times the longest side.
 constexpr double most_between_ends = 0.5;
-// One of two neighbouring ends is farther outwards if the line between them is at most 45 degrees from that direction.
-constexpr double least_cosine_in_line = 0.7;
+// The skirts at two neighbouring ends lead along the line through both ends if the sine of its angle to the outward direction is
+// in this range. A sine is positive if the ends have passed each other. Outside of the range, the sine falls back to 0.
+constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
+// The sine also falls to 0 if the line is nearer to the axis than this sine.
+constexpr double least_sine_to_axis = 0.2;
 // The derivative of a direction that was turned is a difference over two such shares of the length.
 constexpr double direction_step = 1e-4;
 
@@ -210,53 +213,89 @@ Vec3 outwards(const AxisLine &axis, Vec3 point) {
   return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
 }
 
-SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides) {
+Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
   struct Place {
-    std::size_t side, end;
+    AttachedEnd end;
     Vec3 point;
     std::int32_t leaflet_id;
+    bool is_before;
   };
   Vector<Place> places;
+  Vector<std::size_t> first_number;
+  std::size_t n_images = 0;
+  for (const Patch &patch : set.patches) first_number.push_back(n_images), n_images += patch.images.size();
   double size = 0;
+  for (const HeldSide &held : held_sides(set)) {
+    const Curve &curve = set.curve_of(held.side);
+    size = std::max(size, curve.length());
+    const Vector<PatchImage> &images = set.patches[held.patch].images;
+    for (std::size_t i = 0; i < images.size(); ++i)
+      for (const bool is_last : {false, true})
+        // As seen along the axis, the side of a patch that points upstream runs the other way round.
+        places.push_back({{first_number[held.patch] + i, is_last},
+                          place(images[i], is_last != held.side.reversed ? curve.last() : curve.first()),
+                          images[i].leaflet_id,
+                          is_last != points_upstream(images[i])});
+  }
+  Vector<const Place *> free;
+  for (const Place &at : places)
+    if (std::none_of(places.begin(), places.end(), [&](const Place &other) {
+          return &other != &at && distance(other.point, at.point) <= 1e-9 * size;
+        }))
+      free.push_back(&at);
+  const auto nearest_to = [&](const Place &at) {
+    const Place *nearest = nullptr;
+    for (const Place *other : free)
+      if (other->leaflet_id != at.leaflet_id && other->is_before != at.is_before &&
+          (!nearest || distance(other->point, at.point) < distance(nearest->point, at.point)))
+        nearest = other;
+    return nearest;
+  };
+  Vector<NeighbourEnds> made;
+  for (const Place *at : free) {
+    if (!at->is_before) continue;
+    const Place *other = nearest_to(*at);
+    if (other && nearest_to(*other) == at && distance(other->point, at->point) <= most_between_ends * size)
+      made.push_back({at->end, other->end});
+  }
+  return made;
+}
+
+Vec3 direction_between(const AxisLine &axis, Vec3 before, Vec3 after) {
+  const Vec3 between = after - before, across = between - dot(between, axis.direction) * axis.direction;
+  const Vec3 out = outwards(axis, 0.5 * (before + after)), onwards = cross(axis.direction, out);
+  const double apart = length(across);
+  if (!(apart > 0)) return out;
+  // Both skirts are turned towards the end that lies farther outwards.
+  const double along_out = dot(across, out), past = -dot(across, onwards) / apart;
+  double sine = past;
+  if (past > most_past_in_line) sine = most_past_in_line * (1 - past) / (1 - most_past_in_line);
+  if (past < most_apart_in_line) sine = most_apart_in_line * (1 + past) / (1 + most_apart_in_line);
+  sine *= std::min(1.0, apart / (least_sine_to_axis * length(between)));
+  return std::sqrt(1 - sine * sine) * out + (along_out < 0 ? sine : -sine) * onwards;
+}
+
+SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides) {
   for (const HeldSide &held : sides) {
     axes_.push_back(set.patches[held.patch].axis);
     ends_.push_back({End{false, {}}, End{false, {}}});
   }
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const Patch &patch = set.patches[sides[i].patch];
-    // Images of one patch meet in a plane of symmetry, which contains the skirt's ends there.
-    if (patch.images.size() > 1 || !(place(patch.images.front(), {1, 2, 3}) == Vec3{1, 2, 3})) return;
-    const Curve curve = along(set, sides[i].side);
-    size = std::max(size, curve.length());
-    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
-      places.push_back({i, end, end == 0 ? curve.first() : curve.last(), patch.images.front().leaflet_id});
-  }
-  const auto is_joined = [&](const Place &at) {
-    return std::any_of(places.begin(), places.end(), [&](const Place &other) {
-      return other.side != at.side && distance(other.point, at.point) <= 1e-9 * size;
-    });
+  const auto side_of = [&](const AttachedEnd &end) {
+    const auto found =
+        std::find_if(sides.begin(), sides.end(), [&](const HeldSide &held) { return held.patch == end.patch; });
+    return static_cast<std::size_t>(found - sides.begin());
   };
-  Vector<Place> free;
-  for (const Place &at : places)
-    if (!is_joined(at)) free.push_back(at);
-  const auto nearest_to = [&](const Place &at) {
-    const Place *nearest = nullptr;
-    for (const Place &other : free)
-      if (other.leaflet_id != at.leaflet_id &&
-          (!nearest || distance(other.point, at.point) < distance(nearest->point, at.point)))
-        nearest = &other;
-    return nearest;
-  };
-  for (const Place &at : free) {
-    const Place *other = nearest_to(at);
-    if (!other || nearest_to(*other) != &at || distance(other->point, at.point) > most_between_ends * size) continue;
-    const AxisLine &axis = axes_[at.side];
-    const Vec3 between = other->point - at.point, across = between - dot(between, axis.direction) * axis.direction;
-    const Vec3 out = outwards(axis, 0.5 * (at.point + other->point));
-    // If one end is farther outwards, its skirt continues the line through both ends.
-    const double along_out = dot(across, out), apart = length(across);
-    const bool is_in_line = std::abs(along_out) > least_cosine_in_line * apart;
-    ends_[at.side][at.end] = {true, is_in_line ? ((along_out < 0 ? -1 : 1) / apart) * across : out};
+  for (const NeighbourEnds &ends : set.neighbour_ends) {
+    const std::size_t before = side_of(ends.before), after = side_of(ends.after);
+    if (before == sides.size() || after == sides.size()) continue;
+    const auto point = [&](std::size_t side, bool is_last) {
+      const Curve &curve = set.curve_of(sides[side].side);
+      return is_last != sides[side].side.reversed ? curve.last() : curve.first();
+    };
+    const Vec3 direction =
+        direction_between(axes_[before], point(before, ends.before.is_last), point(after, ends.after.is_last));
+    view(ends_[before])[ends.before.is_last ? 1 : 0] =
+        view(ends_[after])[ends.after.is_last ? 1 : 0] = {true, direction};
   }
 }
 

@@ -36,8 +36,15 @@ Vector<HeldSide> held_sides(const PatchSet &set);
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
-// The direction in which a skirt leads away from its attachment: outwards from the axis. Where neighbouring cusps end side by
-// side but are not joined, as those of a warped aortic valve, both skirts end in one plane. So neither goes through the other.
+// Returns the attached ends of different leaflets that are neighbours but are not joined, such as the ends of two aortic cusps
+// at a commissure. Numbers the patches as they are after a warp, where each image is a patch of its own.
+Vector<NeighbourEnds> neighbour_ends(const PatchSet &set);
+
+// Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes along the axis contain these ends
+// of the skirts, and each skirt is on its own side of them. The direction depends continuously on both points.
+Vec3 direction_between(const AxisLine &axis, Vec3 before, Vec3 after);
+
+// The direction in which a skirt leads away from its attachment: outwards from the axis, except near neighbouring ends.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);

@@ -349,9 +349,14 @@ PatchSet Valve::make_patches(FoldCheck check) const {
     if (open_) check_open_values();
   }
   PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
+  // After a warp, the valve's own axis no longer fits. So a skirt then leads away from the axis of the attachment.
+  const SkirtAxis axis = warp_ && kind_->skirt_axis != SkirtAxis::none ? SkirtAxis::boundary : kind_->skirt_axis;
+  // Neighbours are found before the warp, so that a moving warp does not change them.
+  Vector<NeighbourEnds> neighbours;
+  if (axis == SkirtAxis::boundary) neighbours = neighbour_ends(made);
   if (warp_) made = warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
-  // After a warp, the valve's own axis no longer fits. So the skirt then leads away from the axis of the attachment.
-  aim_skirt(made, warp_ && kind_->skirt_axis != SkirtAxis::none ? SkirtAxis::boundary : kind_->skirt_axis);
+  made.neighbour_ends = std::move(neighbours);
+  aim_skirt(made, axis);
   if (has_skirt()) add_skirt(made, state_.values[kind_->skirt_length][0], skirt_lengths_);
   return made;
 }
