@@ -25,9 +25,9 @@ struct Placing {
   Vec3 shift;
   double largest_shift;
 
-  Placing(const Clusters &clusters, const Frame &frame)
-      : ratio(frame.scale / clusters.frame.scale),
-        shift(frame.scale * (clusters.frame.centre - frame.centre)),
+  Placing(const NodeFrame &nodes, const Frame &frame)
+      : ratio(frame.scale / nodes.scale),
+        shift(frame.scale * (nodes.centre - frame.centre)),
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
 };
 
@@ -39,7 +39,7 @@ class ClusterSearch {
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
         clusters_(clusters),
-        placing_(clusters, groups_.frame),
+        placing_(clusters.frame, groups_.frame),
         limit_(std::min(request.distance_limit * groups_.frame.scale, large)),
         kernels_(kernels),
         found_(found),
@@ -480,8 +480,8 @@ void ClusterScratch::prepare(int n_threads) {
   }
 }
 
-bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters) {
-  const Placing placing(clusters, request.surface.scene().groups().frame);
+bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes) {
+  const Placing placing(nodes, request.surface.scene().groups().frame);
   return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large;
 }
 
