@@ -112,8 +112,8 @@ class ClosestPoints {
     // Each thread fills, searches and writes the points of a region while they are in its cache.
     const std::int64_t n = view(items_).size();
     const std::int64_t share = request_.n_threads == 1 ? n : n / (4 * request_.n_threads);
-    const std::int64_t per_part = std::clamp<std::int64_t>(share / nodes_per_cluster * nodes_per_cluster,
-                                                           nodes_per_cluster, points_per_region);
+    const std::int64_t per_part =
+        std::clamp<std::int64_t>(share / nodes_per_cluster * nodes_per_cluster, nodes_per_cluster, points_per_region);
     parallel_for_ranges(n, per_part, request_.n_threads, [&](const Range &part, int thread) {
       OfThread &own = view(threads_)[thread];
       own.clusters.frame = frame_;
@@ -155,18 +155,24 @@ class ClosestPoints {
     std::array<Block, points_per_batch / points_per_block> blocks;
     blocks.fill({0, false, {}});
     parallel_for_ranges(all.end - all.begin, points_per_block, request_.n_threads, [&](const Range &range, int) {
+      // Copies, which stay in registers whatever `visit` writes.
+      const WantedPoints wanted = wanted_;
+      const StridedReals<Real> points = points_;
+      const bool is_checked = is_limited_ || is_spread_;
       Block made{0, false, {}};
       for (std::int64_t k = range.begin; k < range.end; ++k) {
-        const std::int64_t i = wanted_.id(all.begin + k);
-        if (!wanted_.is_wanted(i)) continue;
-        const Vec3 p = points_[i];
-        if (is_limited_ && !scene_.may_be_within(p, request_.limit)) continue;
-        if (is_far(p)) {
-          made.has_far = true;
-          continue;
+        const std::int64_t i = wanted.id(all.begin + k);
+        if (!wanted.is_wanted(i)) continue;
+        const Vec3 p = points[i];
+        if (is_checked) {
+          if (is_limited_ && !scene_.may_be_within(p, request_.limit)) continue;
+          if (is_far(p)) {
+            made.has_far = true;
+            continue;
+          }
+          made.bounds.add(p);
         }
         visit(k, p, range.begin + made.n++);
-        if (is_spread_) made.bounds.add(p);
       }
       view(blocks)[range.begin / points_per_block] = made;
     });
@@ -177,10 +183,10 @@ class ClosestPoints {
   bool gather(const Range &all) {
     const std::int64_t n = all.end - all.begin;
     resize(items_, n);
-    const auto blocks = visit_blocks(all, [this](std::int64_t k, Vec3 p, std::int64_t place) {
-      NodeItem<std::uint32_t> &item = view(items_)[place];
-      frame_(p, item.x);
-      item.node = static_cast<std::uint32_t>(k);
+    NodeItem<std::uint32_t> *const items = items_.data();
+    const auto blocks = visit_blocks(all, [items, frame = frame_](std::int64_t k, Vec3 p, std::int64_t place) {
+      frame.place_inner(p, items[place].x);
+      items[place].node = static_cast<std::uint32_t>(k);
     });
     // Closes the gaps between the blocks.
     std::int64_t n_items = 0;

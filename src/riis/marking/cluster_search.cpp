@@ -153,18 +153,13 @@ class ClusterSearch {
   }
 
   // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
-  static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
-                                std::vector<std::int32_t> &to) {
+  std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
+                         std::vector<std::int32_t> &to) const {
+    constexpr std::size_t whole_register = 16;  // the kernel may write as much beyond the last number
     const std::size_t first = to.size();
-    to.resize(first + n);
-    std::int32_t *next = to.data() + first;
-    // Writes every number, but moves on only after a number that is kept. This avoids a branch that the processor could not
-    // predict.
-    for (std::size_t k = 0; k < n; ++k) {
-      *next = numbers[k];
-      next += bits[k] >> bit & 1;
-    }
-    const auto n_added = static_cast<std::size_t>(next - (to.data() + first));
+    to.resize(first + n + whole_register);
+    const auto n_added = static_cast<std::size_t>(kernels_.select(numbers, bits, static_cast<std::int32_t>(n),
+                                                                  static_cast<std::int32_t>(bit), to.data() + first));
     to.resize(first + n_added);
     return n_added;
   }
@@ -336,17 +331,23 @@ class ClusterSearch {
         filter_leaf(leaves.begin + bit, task_within(bounds->of_box[bit]), own, pairs);
     }
     decide(own, pairs);
+    // Every node with pairs is written, but the place moves on only after a node within the limit.
     std::vector<FoundNode> &found = view(found_.by_thread)[thread];
+    const std::size_t n_before = found.size();
+    found.resize(n_before + nodes_per_cluster);
+    FoundNode *next = found.data() + n_before;
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
+      const Leaf &of_leaf = clusters_.leaves.get()[leaf];
+      const ClosestTriangle *const of_nodes = own.closest.data() + nodes_per_leaf * i;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
-        const ClosestTriangle &closest = view(own.closest)[nodes_per_leaf * i + lane];
-        const double distance = std::sqrt(closest.distance_sq);
-        if (distance <= request_.distance_limit)
-          found.emplace_back(clusters_.leaves.get()[leaf].node[lane], distance, closest.triangle);
+        const double distance = std::sqrt(of_nodes[lane].distance_sq);
+        *next = FoundNode(of_leaf.node[lane], distance, of_nodes[lane].triangle);
+        next += distance <= request_.distance_limit;
       }
     }
+    found.resize(static_cast<std::size_t>(next - found.data()));
     if (pairs.ties) settle_ties(own, pairs);
   }
 

@@ -26,7 +26,8 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
     clusters.frame(node.at, node.x);
     return node;
   };
-  fill_clusters(nodes.n, n_threads, ordered, [&](std::int64_t i) { nodes.prefetch(number_of(i)); }, clusters);
+  fill_clusters(
+      nodes.n, n_threads, ordered, [&](std::int64_t i) { nodes.prefetch(number_of(i)); }, clusters);
 }
 
 Bounds bounds_of(const StridedPoints &nodes) {

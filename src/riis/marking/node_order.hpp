@@ -34,6 +34,11 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
+  // Takes a point that is known to be within the nodes' box.
+  void place_inner(Vec3 p, float *x) const {
+    const Vec3 q = scale * (p - centre);
+    x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
+  }
   void operator()(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     const auto inside = [](double a) { return static_cast<float>(std::min(std::max(-2.0, a), 2.0)); };
@@ -245,7 +250,7 @@ class NodeSorter {
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
     std::sort(side, side + 3);
     const float middle = side[1] / side[2], least = side[0] / side[2];  // not numbers if all nodes are in one place
-    float edge = 1 / n_leaves;  // as a share of the longest side
+    float edge = 1 / n_leaves;                                          // as a share of the longest side
     if (middle > edge) edge = std::sqrt(middle / n_leaves);
     if (least > edge) edge = std::cbrt(middle * least / n_leaves);
     return 1 / edge;
