@@ -61,6 +61,8 @@ constexpr RatioBar distance_bars[] = {
      Wanted::at_most, 1.15},
     {"fine triangles, a prepared mesh: node by node / leaves", "riis, fine triangles, node by node",
      "riis, fine triangles, a prepared mesh", Wanted::at_least, 5.5},
+    {"fine / coarse triangles, a prepared mesh", "riis, fine triangles, a prepared mesh",
+     "riis, every distance of a prepared mesh", Wanted::at_most, 2.9},
     {"all fields: node by node / leaves", "riis, all fields, node by node", "riis, all fields", Wanted::at_least, 5},
     {"leaves larger than the valve: node by node / leaves", "riis, large leaves, node by node", "riis, large leaves",
      Wanted::at_least, 1},

@@ -334,7 +334,9 @@ class ClusterSearch {
     // Every node with pairs is written, but the place moves on only after a node within the limit.
     std::vector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
-    found.resize(n_before + nodes_per_cluster);
+    std::size_t n_paired = 0;
+    for (const std::uint32_t nodes : pairs.nodes) n_paired += static_cast<std::size_t>(__builtin_popcount(nodes));
+    found.resize(n_before + n_paired);
     FoundNode *next = found.data() + n_before;
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
