@@ -299,8 +299,8 @@ template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to) {
   if (request.wanted.n == 0) return;
-  // Makes the pseudonormals before anything is written. If memory runs out here or in the first batch, the arrays are unchanged.
-  // If memory runs out later, the remaining points are queried one by one, which needs no memory.
+  // Makes the pseudonormals before anything is written. If memory runs out before the first result, the arrays are
+  // unchanged. If memory runs out later, the remaining points are queried one by one, which needs no memory.
   if (to.side || (to.normal && request.wanted.n > request.surface.triangles().n_triangles()))
     request.surface.pseudonormals();
   ClosestPoints<Real>(request, points, to).write();
