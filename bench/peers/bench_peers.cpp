@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First it compares
-// their marks with those of a loop over all triangles. Then it times the programs in turns. Fails if the library or CGAL does not
-// mark the same nodes as the loop.
+// their marks with those of a loop over all triangles. Then it times the programs in turns. The bars
+// compare every distance with queries node by node, FCPW and CGAL. Fails if the library or CGAL does not mark the same nodes as
+// the loop, or if leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
@@ -43,9 +44,84 @@ using nlohmann::json;
 
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
+constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
+// The half width of points in leaves that are larger than the valve, in half widths of the cylinder.
+constexpr double wide = 40;
 // Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
 constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Each row named "node by node" has an Embree query for each point, as the library had before it compared leaves with groups.
+constexpr RatioBar distance_bars[] = {
+    {"every distance of a prepared mesh: node by node / leaves", "riis, every distance, node by node",
+     "riis, every distance of a prepared mesh", Wanted::at_least, 8},
+    {"from raw coordinates: node by node / leaves", "riis, every distance, node by node", "riis, every distance",
+     Wanted::at_least, 5},
+    {"raw coordinates / a prepared mesh", "riis, every distance", "riis, every distance of a prepared mesh",
+     Wanted::at_most, 1.15},
+    {"fine triangles, a prepared mesh: node by node / leaves", "riis, fine triangles, node by node",
+     "riis, fine triangles, a prepared mesh", Wanted::at_least, 5.5},
+    {"fine / coarse triangles, a prepared mesh", "riis, fine triangles, a prepared mesh",
+     "riis, every distance of a prepared mesh", Wanted::at_most, 2.9},
+    {"all fields: node by node / leaves", "riis, all fields, node by node", "riis, all fields", Wanted::at_least, 5},
+    {"leaves larger than the valve: node by node / leaves", "riis, large leaves, node by node", "riis, large leaves",
+     Wanted::at_least, 1},
+    {"FCPW, 8 wide / riis, from raw coordinates", "FCPW, 8 wide, every distance", "riis, every distance",
+     Wanted::at_least, 5},
+    {"CGAL's every distance / riis, from raw coordinates", "CGAL, AABB_tree, every distance", "riis, every distance",
+     Wanted::at_least, 15},
+};
+
+// Arrays for every field of closest points.
+struct Fields {
+  std::vector<double> distance, point, barycentric, normal;
+  std::vector<std::int64_t> triangle_id;
+  std::vector<std::int32_t> leaflet_id, side;
+
+  explicit Fields(std::size_t n)
+      : distance(n), point(3 * n), barycentric(3 * n), normal(3 * n), triangle_id(n), leaflet_id(n), side(n) {}
+  bool operator==(const Fields &other) const {
+    return distance == other.distance && point == other.point && barycentric == other.barycentric &&
+           normal == other.normal && triangle_id == other.triangle_id && leaflet_id == other.leaflet_id &&
+           side == other.side;
+  }
+};
+
+// Finds closest points in pieces of so many points, on one thread. The library queries the points of short pieces one by one.
+constexpr std::int64_t in_one_piece = std::numeric_limits<std::int64_t>::max(), node_by_node = 63;
+void find_closest(const riis_surface *surface, const std::vector<double> &xyz, std::int64_t per_piece, Fields &to) {
+  riis_closest_options options;
+  check(riis_closest_options_init(&options, sizeof options));
+  options.n_threads = 1;
+  riis_closest_arrays arrays;
+  check(riis_closest_arrays_init(&arrays, sizeof arrays));
+  const auto n = static_cast<std::int64_t>(to.distance.size());
+  for (std::int64_t begin = 0; begin < n; begin += std::min(per_piece, n)) {
+    const riis_points points = points_of(std::min(per_piece, n - begin), xyz.data() + 3 * begin);
+    arrays.distance = to.distance.data() + begin;
+    arrays.point = to.point.data() + 3 * begin;
+    arrays.barycentric = to.barycentric.data() + 3 * begin;
+    arrays.normal = to.normal.data() + 3 * begin;
+    arrays.triangle_id = to.triangle_id.data() + begin;
+    arrays.leaflet_id = to.leaflet_id.data() + begin;
+    arrays.side = to.side.data() + begin;
+    check(riis_closest_points(surface, &points, &options, &arrays));
+  }
+}
+
+// Adds every field of the given points, over leaves and node by node. Returns whether both give the same bits.
+bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
+                 const std::vector<double> &xyz) {
+  const std::size_t n = xyz.size() / 3;
+  const auto leaves = std::make_shared<Fields>(n), one_by_one = std::make_shared<Fields>(n);
+  find_closest(surface, xyz, in_one_piece, *leaves);
+  find_closest(surface, xyz, node_by_node, *one_by_one);
+  contest.add(name, n_slow_turns, [=, &xyz] { find_closest(surface, xyz, in_one_piece, *leaves); });
+  contest.add(name + ", node by node", n_slow_turns,
+              [=, &xyz] { find_closest(surface, xyz, node_by_node, *one_by_one); });
+  if (!(*leaves == *one_by_one)) std::fprintf(stderr, "%s: other bits than node by node\n", name.c_str());
+  return *leaves == *one_by_one;
+}
 
 // The reference for all peers: distances by a loop over all triangles.
 struct Truth {
@@ -156,14 +232,20 @@ std::vector<double> marked_distances(const riis_marks *result, std::int64_t n_no
   return distance;
 }
 
+// A tolerance of 0 stands for the default.
+Surface made_surface(const char *kind, double tolerance) {
+  const Valve valve = make_valve(kind);
+  if (kind[0] == 'm') check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
+  riis_surface_options options;
+  check(riis_surface_options_init(&options, sizeof options));
+  if (tolerance > 0) options.tolerance = tolerance;
+  return make_surface(valve.get(), &options);
+}
+
 // Returns false if the library or CGAL does not mark the same nodes as the loop.
 bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_nodes, const std::string &folder,
              json &out) {
-  const Surface made = [&] {
-    const Valve valve = make_valve(kind);
-    if (kind[0] == 'm') check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
-    return make_surface(valve.get());
-  }();
+  const Surface made = made_surface(kind, 0);
   const riis_surface *surface = made.get();
   const CylinderNodes nodes(cylinder, about_n_nodes);
   const std::int64_t n = nodes.n_nodes();
@@ -225,6 +307,21 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     get_distances(result.get(), infinity, distance);
     add_right(name, n_slow_turns, mark);
   }
+  const Surface fine_surface = made_surface(kind, fine);
+  for (const auto &[name, search] : {std::pair{"riis, fine triangles, a prepared mesh", RIIS_SEARCH_CLUSTERS},
+                                     std::pair{"riis, fine triangles, node by node", RIIS_SEARCH_EXHAUSTIVE}}) {
+    riis_mark_options options;
+    check(riis_mark_options_init(&options, sizeof options));
+    options.distance_limit = 1e60;
+    options.search = search;
+    options.n_threads = 1;
+    contest.add(name, n_slow_turns,
+                [&, options] { check(riis_mark_nodes(fine_surface.get(), mesh.get(), &options, result.get())); });
+  }
+  std::vector<double> far_apart = nodes.xyz();
+  for (double &coordinate : far_apart) coordinate *= wide;
+  is_right = add_closest(contest, "riis, all fields", surface, nodes.xyz()) && is_right;
+  is_right = add_closest(contest, "riis, large leaves", surface, far_apart) && is_right;
   json making_ms = json::object();
 #if defined(RIIS_WITH_CGAL)
   const auto start = std::chrono::steady_clock::now();
@@ -289,10 +386,15 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
   std::printf("%s valve: %lld triangles, %lld nodes, %lld marked\n", kind, static_cast<long long>(triangles.n()),
               static_cast<long long>(n), static_cast<long long>(n_marked));
   contest.print();
-  std::printf("%s\n\n", marks.dump(2).c_str());
+  Bars bars;
+  for (const RatioBar &bar : distance_bars) bars.add(contest, bar);
+  std::printf("\n");
+  bars.print();
+  std::printf("\n%s\n\n", marks.dump(2).c_str());
   out[kind] = {
-      {"nodes", n},     {"triangles", triangles.n()}, {"marked", n_marked},      {"half_thickness", half_thickness},
-      {"marks", marks}, {"made", making_ms},          {"times", contest.json()}, {"left_out", contest.left_out()}};
+      {"nodes", n},         {"triangles", triangles.n()}, {"marked", n_marked},      {"half_thickness", half_thickness},
+      {"marks", marks},     {"made", making_ms},          {"times", contest.json()}, {"left_out", contest.left_out()},
+      {"bars", bars.json()}};
   return is_right;
 }
 
@@ -314,6 +416,6 @@ int main(int argc, char **argv) {
     std::fprintf(stderr, "%s: cannot be written\n", argv[1]);
     return 1;
   }
-  if (!is_right) std::fprintf(stderr, "%s: riis or CGAL marks other nodes than the loop\n", argv[0]);
+  if (!is_right) std::fprintf(stderr, "%s: riis or CGAL gives other results than the loop or the queries\n", argv[0]);
   return is_right ? 0 : 1;
 }

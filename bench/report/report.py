@@ -290,6 +290,19 @@ def query_ns(data):
     return 1e6 * least / data.marking["counts"]["asked_by_paper"]
 
 
+def bars_table(bars):
+    rows = [
+        [
+            bar["name"],
+            f"{bar['value']:.2f}",
+            f"{'<=' if bar['kind'] == 'at most' else '>='} {bar['bar']:g}",
+            "met" if bar["met"] else "NOT met",
+        ]
+        for bar in bars
+    ]
+    return table(["bar", "value", "wanted", ""], rows)
+
+
 def stage_shares(case):
     """Returns each stage's fraction of the sum of all stages of a step."""
     spent = {stage: case["nanoseconds"][stage] for stage, _, _ in STEP_STAGES}
@@ -346,15 +359,6 @@ def marking_values(data):
         [name, f"{t['least_ms']:.3f}", f"{t['median_ms']:.3f}", str(t["turns"])]
         for name, t in sorted(data.marking["times"].items())
     ]
-    bars = [
-        [
-            bar["name"],
-            f"{bar['value']:.2f}",
-            f"{'<=' if bar['kind'] == 'at most' else '>='} {bar['bar']:g}",
-            "met" if bar["met"] else "NOT met",
-        ]
-        for bar in data.marking["bars"]
-    ]
     missed = [bar for bar in data.marking["bars"] if not bar["met"]]
     return {
         "run": data.run_values("marking"),
@@ -367,7 +371,7 @@ def marking_values(data):
         "few_processors": few_processors(data),
         "are_a_million": counts["nodes"] > 9e5,
         "times_table": table(["what", "least, ms", "median, ms", "turns"], rows),
-        "bars_table": table(["bar", "value", "wanted", ""], bars),
+        "bars_table": bars_table(data.marking["bars"]),
         "left_out": [{"text": text} for text in data.marking.get("left_out", [])],
         "has_missed": bool(missed),
         "query_ns": f"{query_ns(data):.0f}",
@@ -460,7 +464,9 @@ def peers_table(data, valve):
         if not peers:
             continue
         for name, t in sorted(peers["times"].items(), key=lambda item: item[1]["least_ms"]):
-            marks = peers["marks"][name]
+            marks = peers["marks"].get(name)
+            if not marks:  # timed for a bar only
+                continue
             reasons = ", ".join(f"{n} {reason}" for reason, n in sorted(marks["reasons"].items()))
             is_bounded = name.startswith(BOUNDED) or name in ("riis, clusters", "riis, exhaustive search")
             is_bounded = is_bounded and "every distance" not in name
@@ -498,6 +504,7 @@ def peers_values(data, plots):
                 "Valve": valve.capitalize(),
                 "triangles": grouped(data.peers[valve]["triangles"]),
                 "peers_table": peers_table(data, valve),
+                "peers_bars_table": bars_table(data.peers[valve]["bars"]),
             }
             for valve in VALVES
         ],
@@ -567,7 +574,11 @@ def plot_peers(data, path):
     panels = []
     for valve in VALVES:
         bars = {
-            name: t["least_ms"] for part in (data.peers, data.python_peers) if part for name, t in part[valve]["times"].items()
+            name: t["least_ms"]
+            for part in (data.peers, data.python_peers)
+            if part
+            for name, t in part[valve]["times"].items()
+            if name in part[valve]["marks"]
         }
         panels.append((f"{valve} valve", sorted(bars.items(), key=lambda item: -item[1])))
     return bool(data.peers) and figure.bars(panels, "milliseconds", path)

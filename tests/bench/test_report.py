@@ -93,9 +93,11 @@ FILES = {
                 name: {"least_ms": ms}
                 for name, ms in (
                     ("riis, clusters", 2), ("riis, every distance", 8), ("CGAL", 30), ("CGAL, every distance", 80),
+                    ("riis, for a bar only", 5),
                 )
             },
             "made": {"CGAL": 1.25},
+            "bars": [{"name": "CGAL / riis", "value": 10, "bar": 15, "kind": "at least", "met": False}],
         }
         for valve in ("aortic", "mitral")
     },
@@ -241,6 +243,8 @@ class Page(unittest.TestCase):
         self.assertIn("| CGAL, every distance | no | 4 | 3 (2 float, 1 radius) | 1e-07 | 3e-06 |  | 80.0 | 40.0 | 10.0 |", text)
         self.assertIn("| riis, every distance | no | 4 | 3 (2 float, 1 radius) | 1e-07 |  |  | 8.00 | 4.00 | 1.00 |", text)
         self.assertIn("Left out: VTK (built without VTK).", text)
+        self.assertEqual(text.count("| CGAL / riis | 10.00 | >= 15 | NOT met |"), 2)
+        self.assertNotIn("for a bar only", text)
 
     def test_the_whole_templates_have_values(self):
         """If every part was measured, no placeholder is left in the templates."""

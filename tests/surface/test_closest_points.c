@@ -264,6 +264,37 @@ static void many_points_equal_single_queries(void **state) {
   }
 }
 
+/* Points in a plane, in a line, in one place, most of them in a small part of their box, or near the valve except one. They are
+ * sorted into leaves without gaps and give the results of single queries. */
+static void crowded_points_equal_single_queries(void **state) {
+  (void)state;
+  enum { n = 3000 };
+  static double xyz[3 * n];
+  riis_surface *surface = surface_of_kind(random_bits(&rng) % 2 ? "trileaflet" : "bileaflet", NULL);
+  const results got = results_of(n);
+  for (int shape = 0; shape < 6; ++shape) {
+    for (int i = 0; i < n; ++i) {
+      /* a box, a plane, a line, one place, a crowd in a wide box, one point far away */
+      const int n_free = shape < 4 ? 3 - shape : 3;
+      const double reach = shape == 4 && i % 50 ? 1e-3 : shape == 5 && i == n / 2 ? 30 : 2;
+      for (int c = 0; c < 3; ++c) xyz[3 * i + c] = c < n_free ? random_between(&rng, -reach, reach) : 0.1 * c;
+    }
+    riis_closest_options options;
+    riis_closest_arrays arrays;
+    CHECK_OK(riis_closest_options_init(&options, sizeof options));
+    CHECK_OK(riis_closest_arrays_init(&arrays, sizeof arrays));
+    options.n_threads = 1 + shape % 3;
+    arrays.distance = got.distance, arrays.point = got.point, arrays.barycentric = got.barycentric;
+    arrays.normal = got.normal, arrays.triangle_id = got.triangle_id, arrays.leaflet_id = got.leaflet_id;
+    arrays.side = got.side;
+    CHECK_OK(closest_points_of(surface, n, xyz, xyz + 1, xyz + 2, 3, &options, &arrays));
+    for (int i = 0; i < n; ++i) {
+      const riis_closest one = closest_to(surface, xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+      check_equal(&got, i, &one);
+    }
+  }
+}
+
 /* The results of a single query are consistent: the point is on the triangle and at the distance, the normal is the
  * triangle's, and the side is the sign of the height. */
 static void closest_is_consistent(void **state) {
@@ -300,10 +331,10 @@ static void closest_is_consistent(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(aortic_valve_equals_the_oracle), cmocka_unit_test(random_soups_equal_the_oracle),
-      cmocka_unit_test(far_points_equal_the_oracle),    cmocka_unit_test(ties_go_to_the_lowest_id),
-      cmocka_unit_test(batches_equal_single_queries),   cmocka_unit_test(many_points_equal_single_queries),
-      cmocka_unit_test(closest_is_consistent),
+      cmocka_unit_test(aortic_valve_equals_the_oracle),      cmocka_unit_test(random_soups_equal_the_oracle),
+      cmocka_unit_test(far_points_equal_the_oracle),         cmocka_unit_test(ties_go_to_the_lowest_id),
+      cmocka_unit_test(batches_equal_single_queries),        cmocka_unit_test(many_points_equal_single_queries),
+      cmocka_unit_test(crowded_points_equal_single_queries), cmocka_unit_test(closest_is_consistent),
   };
   rng = random_start("test_closest_points");
   return cmocka_run_group_tests(tests, NULL, NULL);

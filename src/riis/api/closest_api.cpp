@@ -65,8 +65,9 @@ riis::WantedPoints checked_points(const riis_closest_options &options, const Poi
     if (options.n_point_ids != 0)
       riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", options.n_point_ids,
                  ", but options.point_ids is NULL");
-    if (points.n > 0) riis::check_points(points, "point", RIIS_INVALID_ARGUMENT, "points.");
-    return {points.n, options.point_mask, nullptr};
+    riis::WantedPoints all{points.n, options.point_mask};
+    if (points.n > 0) all.bounds = riis::check_points(points, "point", RIIS_INVALID_ARGUMENT, "points.");
+    return all;
   }
   if (options.point_mask) riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids and options.point_mask are both given");
   const std::int64_t n = options.n_point_ids;
@@ -74,6 +75,7 @@ riis::WantedPoints checked_points(const riis_closest_options &options, const Poi
     riis::fail(RIIS_INVALID_ARGUMENT, "options.n_point_ids is ", n, "; it must be from 0 to points.n_points, ",
                points.n);
   if (n > 0) riis::check_pointers(points, "point", "points.");
+  riis::WantedPoints listed{n, nullptr, ids};
   std::int64_t last = -1;
   for (std::int64_t k = 0; k < n; ++k) {
     const std::int64_t id = ids[k];
@@ -81,9 +83,10 @@ riis::WantedPoints checked_points(const riis_closest_options &options, const Poi
       riis::fail(RIIS_INVALID_ARGUMENT, "options.point_ids: entry ", k, " is ", id,
                  "; it must be above the entry before, ", last, ", and below points.n_points, ", points.n);
     riis::check_point(points, id, "point", RIIS_INVALID_ARGUMENT);
+    listed.bounds.add(points[id]);
     last = id;
   }
-  return {n, nullptr, ids};
+  return listed;
 }
 
 // Writes the wanted entries of the arrays, with closest points on the patches.

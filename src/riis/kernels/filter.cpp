@@ -96,6 +96,22 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
+int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
+  int32_t n_selected = 0, k = 0;
+  for (; k + 16 <= n; k += 16) {
+    const uint32_t lanes = lanes_with_bit(marks + k, bit);
+    compress(lanes, numbers + k, to + n_selected);
+    n_selected += __builtin_popcount(lanes);
+  }
+  // Writes every number, but moves on only after a number that is kept. This avoids a branch that the processor could not
+  // predict.
+  for (; k < n; ++k) {
+    to[n_selected] = numbers[k];
+    n_selected += marks[k] >> bit & 1;
+  }
+  return n_selected;
+}
+
 void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                     int32_t *nearest) {
   Floats middle[3];
@@ -326,7 +342,7 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
 
 }  // namespace
 
-const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes,  nearest_groups,  competing_groups,
-                                                    filter_leaf, group_distances, rank};
+const FilterKernels RIIS_KERNELS(filter_kernels) = {
+    near_boxes, select, nearest_groups, competing_groups, filter_leaf, group_distances, rank};
 
 }  // namespace riis

@@ -270,6 +270,21 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
+// Takes 16 integers, and returns one bit for each. It is set if the integer has the given bit.
+RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
+#if defined(RIIS_SSE2)
+  // The bit becomes the sign, which survives the packing to bytes.
+  const __m128i shift = _mm_cvtsi32_si128(15 - bit);
+  const __m128i first = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from)), shift);
+  const __m128i last = _mm_sll_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i *>(from + 8)), shift);
+  return static_cast<uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(first, last)));
+#else
+  uint32_t r = 0;
+  for (int i = 0; i < 16; ++i) r |= static_cast<uint32_t>(from[i] >> bit & 1) << i;
+  return r;
+#endif
+}
+
 // Takes 16 integers, and copies the integers whose bits are set, without gaps. It may write to all 16 places, even if it copies
 // fewer.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
@@ -283,12 +298,7 @@ RIIS_INLINE void fill(int32_t x, int32_t *to) {
   for (int i = 0; i < 16; ++i) to[i] = x;
 }
 
-RIIS_INLINE bool any(Doubles::Mask mask) {
-  int64_t r = 0;
-  for (int i = 0; i < Doubles::n_registers; ++i)
-    for (int j = 0; j < Doubles::per_register; ++j) r |= mask.part[i][j];
-  return r != 0;
-}
+RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 
 // For each of four Floats, writes the least of its lanes.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {

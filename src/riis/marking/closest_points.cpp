@@ -3,33 +3,28 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <vector>
 
-#include "base/unfilled.hpp"
 #include "common/array_view.hpp"
 #include "geometry/point_triangle.hpp"
 #include "marking/cluster_search.hpp"
 #include "marking/eight_points.hpp"
+#include "marking/fill_clusters.hpp"
+#include "marking/node_order.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
 
-// So many points are sorted together. They take about 8 MB.
+// So many points are sorted together. They take 2 MB.
 constexpr std::int64_t points_per_batch = 1 << 16;
 
 constexpr std::int64_t points_per_block = 2048;
 
-// Those points of a batch that may be within the limit.
-struct Batch {
-  UnfilledVector<double> xyz;
-  UnfilledVector<std::int64_t> ids;
-  std::int64_t n = 0;
-  bool has_far = false;  // whether the batch also has points that are too far for single precision
-  Bounds bounds;
-};
+constexpr std::int64_t points_per_region = Clusters::clusters_per_region * nodes_per_cluster;
 
 template <class Real>
 class ClosestPoints {
@@ -41,6 +36,8 @@ class ClosestPoints {
         scene_(surface_.scene()),
         points_(points),
         is_limited_(std::isfinite(request.limit)),
+        may_be_far_(is_any_beyond(far)),
+        is_spread_(is_any_beyond(wide)),
         to_(to) {}
 
   void write() {
@@ -53,20 +50,25 @@ class ClosestPoints {
       try {
         if (search(range)) continue;
       } catch (const std::bad_alloc &) {
-        if (begin == 0) throw;
+        if (!has_written_) throw;
       }
       write_one_by_one(range, [](Vec3) { return true; });
     }
   }
 
  private:
-  // Returns whether single precision does not separate the triangles near p. One such point would make the batch's frame useless
-  // for all other points.
-  bool is_far(Vec3 p) const {
-    constexpr double far = 0x1p10;  // about as many half extents of the surface
+  // In half extents of the surface. Single precision does not separate the triangles near a point that is far. One such point
+  // would make the batch's frame useless for all other points. Points that are not wide have the frame of all points.
+  static constexpr double far = 0x1p10, wide = 0x1p4;
+
+  double reach_of(Vec3 p) const {
     const Vec3 q = scene_.groups().frame(p);
-    return !(std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)}) <= far);
+    return std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
+  bool is_any_beyond(double reach) const {
+    return !(std::max(reach_of(wanted_.bounds.lower), reach_of(wanted_.bounds.upper)) <= reach);
+  }
+  bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
   // Queries and writes those points of a range for which is_asked(point) is true. This needs no memory.
   template <class IsAsked>
@@ -88,105 +90,147 @@ class ClosestPoints {
   }
 
   // Searches the points of a range over clusters, and writes them. Returns false before it writes anything if clusters cannot be
-  // used. Also writes nothing if memory runs out.
+  // used. If memory runs out, some points may be written.
   bool search(const Range &range) {
-    gather(range);
-    if (batch_.n > 0) {
-      const double *const xyz = batch_.xyz.data();
-      sort_into_clusters({batch_.n, xyz, xyz + 1, xyz + 2, 3}, batch_.bounds, request_.n_threads, clusters_);
-      const NodeSearch search{surface_, request_.limit, nullptr, request_.n_threads, best_instruction_set()};
-      if (!separates_in_single_precision(search, clusters_)) return false;
-      search_clusters(search, clusters_, kernels(search.instructions), scratch_, found_);
-    } else {
-      found_.prepare(request_.n_threads);
+    Bounds bounds = wanted_.bounds;
+    if (is_spread_) {
+      bounds = {};
+      for (const Block &block : visit_blocks(range, [](std::int64_t, Vec3, std::int64_t) {})) bounds.add(block.bounds);
     }
-    if (is_limited_)
+    frame_ = frame_around(bounds);
+    const bool has_far = gather(range);
+    if (!items_.empty() && !separates_in_single_precision(node_search(), frame_)) return false;
+    NodeSorter<std::uint32_t>(items_, buffer_, Cuts::by_leaves, request_.n_threads).sort();
+    resize(threads_, request_.n_threads);
+    if (is_limited_) {
+      has_written_ = true;
       parallel_for_ranges(range.end - range.begin, points_per_block, request_.n_threads, [&](const Range &block, int) {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
           if (const std::int64_t i = wanted_.id(k); wanted_.is_wanted(i)) write_far(i, request_.far_distance, to_);
       });
-    for (const std::vector<FoundNode> &list : found_.by_thread)
-      parallel_for_ranges(view(list).size(), points_per_block, request_.n_threads,
-                          [&](const Range &block, int) { write_found(list, block); });
-    if (batch_.has_far) write_one_by_one(range, [&](Vec3 p) { return is_far(p); });
+    }
+    // Each thread fills, searches and writes the points of a region while they are in its cache.
+    const std::int64_t n = view(items_).size();
+    const std::int64_t share = request_.n_threads == 1 ? n : n / (4 * request_.n_threads);
+    const std::int64_t per_part =
+        std::clamp<std::int64_t>(share / nodes_per_cluster * nodes_per_cluster, nodes_per_cluster, points_per_region);
+    parallel_for_ranges(n, per_part, request_.n_threads, [&](const Range &part, int thread) {
+      OfThread &own = view(threads_)[thread];
+      own.clusters.frame = frame_;
+      const auto id_of = [&](std::int64_t at) { return wanted_.id(range.begin + at); };
+      const auto item_at = [&](std::int64_t at) -> const auto & { return view(items_)[part.begin + at]; };
+      fill_clusters(
+          part.end - part.begin, 1,
+          [&](std::int64_t at) {
+            const NodeItem<std::uint32_t> &item = item_at(at);
+            return OrderedNode{item.node, points_[id_of(item.node)], {item.x[0], item.x[1], item.x[2]}};
+          },
+          [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, own.clusters);
+      const NodeSearch search = node_search();
+      search_clusters(search, own.clusters, kernels(search.instructions), own.scratch, own.found);
+      has_written_ = true;
+      write_found(view(own.found.by_thread)[0], id_of);
+    });
+    if (has_far) {
+      has_written_ = true;
+      write_one_by_one(range, [&](Vec3 p) { return is_far(p); });
+    }
     return true;
   }
 
-  // Copies the wanted points of a range that may be within the limit, except far ones.
-  void gather(const Range &all) {
-    const std::int64_t n = all.end - all.begin;
-    resize(batch_.xyz, 3 * n);
-    resize(batch_.ids, n);
-    struct Block {
-      std::int64_t n;
-      bool has_far;
-      Bounds bounds;
-    };
+  // A search of one thread.
+  NodeSearch node_search() const { return {surface_, request_.limit, nullptr, 1, best_instruction_set()}; }
+
+  // The points of a block that are searched over clusters.
+  struct Block {
+    std::int64_t n;
+    bool has_far;  // whether the block also has points that are too far for single precision
+    Bounds bounds;
+  };
+
+  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. k counts from
+  // the range's begin. `place` counts from it, too, but leaves out the points of the same block that were not visited.
+  template <class Visit>
+  std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, const Visit &visit) const {
     std::array<Block, points_per_batch / points_per_block> blocks;
-    parallel_for_ranges(n, points_per_block, request_.n_threads, [&](const Range &range, int) {
+    blocks.fill({0, false, {}});
+    parallel_for_ranges(all.end - all.begin, points_per_block, request_.n_threads, [&](const Range &range, int) {
+      // Copies, which stay in registers whatever `visit` writes.
+      const WantedPoints wanted = wanted_;
+      const StridedReals<Real> points = points_;
+      const bool is_checked = is_limited_ || is_spread_;
       Block made{0, false, {}};
       for (std::int64_t k = range.begin; k < range.end; ++k) {
-        const std::int64_t i = wanted_.id(all.begin + k);
-        if (!wanted_.is_wanted(i)) continue;
-        const Vec3 p = points_[i];
-        if (is_limited_ && !scene_.may_be_within(p, request_.limit)) continue;
-        if (is_far(p)) {
-          made.has_far = true;
-          continue;
+        const std::int64_t i = wanted.id(all.begin + k);
+        if (!wanted.is_wanted(i)) continue;
+        const Vec3 p = points[i];
+        if (is_checked) {
+          if (is_limited_ && !scene_.may_be_within(p, request_.limit)) continue;
+          if (is_far(p)) {
+            made.has_far = true;
+            continue;
+          }
+          made.bounds.add(p);
         }
-        put_vector(batch_.xyz.data(), range.begin + made.n, p);
-        view(batch_.ids)[range.begin + made.n++] = i;
-        made.bounds.add(p);
+        visit(k, p, range.begin + made.n++);
       }
       view(blocks)[range.begin / points_per_block] = made;
     });
-    // Closes the gaps between the blocks.
-    batch_.n = 0;
-    batch_.has_far = false;
-    batch_.bounds = {};
-    for (std::int64_t begin = 0; begin < n; begin += points_per_block) {
-      const Block &block = view(blocks)[begin / points_per_block];
-      if (batch_.n < begin) {
-        std::copy_n(batch_.xyz.data() + 3 * begin, 3 * block.n, batch_.xyz.data() + 3 * batch_.n);
-        std::copy_n(batch_.ids.data() + begin, block.n, batch_.ids.data() + batch_.n);
-      }
-      batch_.n += block.n;
-      batch_.has_far = batch_.has_far || block.has_far;
-      batch_.bounds.add(block.bounds);
-    }
+    return blocks;
   }
 
-  void write_found(const std::vector<FoundNode> &list, const Range &range) const {
+  // Makes items of those points of a range that are searched over clusters. Returns whether there are also far points.
+  bool gather(const Range &all) {
+    const std::int64_t n = all.end - all.begin;
+    resize(items_, n);
+    NodeItem<std::uint32_t> *const items = items_.data();
+    const auto blocks = visit_blocks(all, [items, frame = frame_](std::int64_t k, Vec3 p, std::int64_t place) {
+      frame.place_inner(p, items[place].x);
+      items[place].node = static_cast<std::uint32_t>(k);
+    });
+    // Closes the gaps between the blocks.
+    std::int64_t n_items = 0;
+    bool has_far = false;
+    for (std::int64_t begin = 0; begin < n; begin += points_per_block) {
+      const Block &block = view(blocks)[begin / points_per_block];
+      if (n_items < begin) std::copy_n(items_.data() + begin, block.n, items_.data() + n_items);
+      n_items += block.n;
+      has_far = has_far || block.has_far;
+    }
+    resize(items_, n_items);
+    return has_far;
+  }
+
+  // Writes the points that were found. id_of(node) is the point's id.
+  template <class IdOf>
+  void write_found(const std::vector<FoundNode> &list, const IdOf &id_of) const {
     const TriangleSet &set = surface_.triangles();
+    for (const FoundNode &found : list) {
+      const std::int64_t i = id_of(static_cast<std::int64_t>(found.node));
+      if (to_.distance) to_.distance[i] = found.distance;
+      if (to_.triangle_id) to_.triangle_id[i] = view(set.triangle_id)[found.triangle];
+      if (to_.leaflet_id) to_.leaflet_id[i] = view(set.leaflet_id)[found.triangle];
+    }
+    if (!to_.normal && !to_.point && !to_.barycentric && !to_.side) return;
     const double *const corners = scene_.groups().corners.data();
     const Kernels &simd = kernels(best_instruction_set());
     const bool is_located = to_.point || to_.barycentric || to_.side;
     // With fewer triangles than points, making a normal for each triangle is cheaper than making one for each point.
     const bool has_normals = to_.side || (to_.normal && wanted_.n > set.n_triangles());
     const Pseudonormals *const normals = has_normals ? &surface_.pseudonormals() : nullptr;
-    for (std::int64_t first = range.begin; first < range.end; first += pairs_at_once) {
-      const std::int64_t n = std::min<std::int64_t>(pairs_at_once, range.end - first);
+    for (std::int64_t first = 0; first < view(list).size(); first += pairs_at_once) {
+      const std::int64_t n = std::min<std::int64_t>(pairs_at_once, view(list).size() - first);
       EightPoints eight;
       std::int64_t id[pairs_at_once];
       for (std::int64_t lane = 0; lane < pairs_at_once; ++lane) {
         const FoundNode &found = view(list)[first + std::min(lane, n - 1)];
-        const auto at = static_cast<std::int64_t>(found.node);
-        id[lane] = view(batch_.ids)[at];
-        eight.set(lane, {batch_.xyz.data()[3 * at], batch_.xyz.data()[3 * at + 1], batch_.xyz.data()[3 * at + 2]},
-                  found.triangle, corners);
+        id[lane] = id_of(static_cast<std::int64_t>(found.node));
+        eight.set(lane, points_[id[lane]], found.triangle, corners);
       }
       if (is_located) simd.locate(eight.pairs, eight.on);
       const auto for_each_lane = [&](const auto *array, const auto &write) {
         for (std::int64_t lane = 0; array && lane < n; ++lane) write(id[lane], lane);
       };
-      for_each_lane(to_.distance,
-                    [&](std::int64_t i, std::int64_t lane) { to_.distance[i] = view(list)[first + lane].distance; });
-      for_each_lane(to_.triangle_id, [&](std::int64_t i, std::int64_t lane) {
-        to_.triangle_id[i] = view(set.triangle_id)[eight.triangle[lane]];
-      });
-      for_each_lane(to_.leaflet_id, [&](std::int64_t i, std::int64_t lane) {
-        to_.leaflet_id[i] = view(set.leaflet_id)[eight.triangle[lane]];
-      });
       for_each_lane(to_.point, [&](std::int64_t i, std::int64_t lane) {
         EightPoints::put_lane(eight.on.point, lane, to_.point + 3 * i);
       });
@@ -209,12 +253,18 @@ class ClosestPoints {
   const Surface &surface_;
   const TriangleScene &scene_;
   const StridedReals<Real> &points_;
-  const bool is_limited_;
+  const bool is_limited_, may_be_far_, is_spread_;
   const riis_closest_arrays &to_;
-  Batch batch_;
-  Clusters clusters_;
-  ClusterScratch scratch_;
-  FoundNodes found_;
+  std::atomic<bool> has_written_{false};
+  // A batch: its points that are searched over clusters, and their frame. A point's number counts from the batch's begin.
+  NodeItems<std::uint32_t> items_, buffer_;
+  NodeFrame frame_;
+  struct alignas(64) OfThread {
+    Clusters clusters;
+    ClusterScratch scratch;
+    FoundNodes found;
+  };
+  std::vector<OfThread> threads_;
 };
 
 }  // namespace
@@ -249,8 +299,8 @@ template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to) {
   if (request.wanted.n == 0) return;
-  // Makes the pseudonormals before anything is written. If memory runs out here or in the first batch, the arrays are unchanged.
-  // If memory runs out later, the remaining points are queried one by one, which needs no memory.
+  // Makes the pseudonormals before anything is written. If memory runs out before the first result, the arrays are
+  // unchanged. If memory runs out later, the remaining points are queried one by one, which needs no memory.
   if (to.side || (to.normal && request.wanted.n > request.surface.triangles().n_triangles()))
     request.surface.pseudonormals();
   ClosestPoints<Real>(request, points, to).write();

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "distance/surface.hpp"
+#include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
 #include "parallel/threads.hpp"
 
@@ -18,6 +19,7 @@ struct WantedPoints {
   std::int64_t n;  // of the list, or of all points
   const std::uint8_t *mask = nullptr;
   const std::int64_t *ids = nullptr;  // ascending
+  Bounds bounds = {};                 // of all points, or of the list's points
 
   // Returns the id of the k-th wanted point.
   std::int64_t id(std::int64_t k) const { return ids ? ids[k] : k; }

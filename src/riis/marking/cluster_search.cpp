@@ -25,9 +25,9 @@ struct Placing {
   Vec3 shift;
   double largest_shift;
 
-  Placing(const Clusters &clusters, const Frame &frame)
-      : ratio(frame.scale / clusters.frame.scale),
-        shift(frame.scale * (clusters.frame.centre - frame.centre)),
+  Placing(const NodeFrame &nodes, const Frame &frame)
+      : ratio(frame.scale / nodes.scale),
+        shift(frame.scale * (nodes.centre - frame.centre)),
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
 };
 
@@ -39,7 +39,7 @@ class ClusterSearch {
         scene_(request.surface.scene()),
         groups_(scene_.groups()),
         clusters_(clusters),
-        placing_(clusters, groups_.frame),
+        placing_(clusters.frame, groups_.frame),
         limit_(std::min(request.distance_limit * groups_.frame.scale, large)),
         kernels_(kernels),
         found_(found),
@@ -153,18 +153,13 @@ class ClusterSearch {
   }
 
   // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
-  static std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
-                                std::vector<std::int32_t> &to) {
+  std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
+                         std::vector<std::int32_t> &to) const {
+    constexpr std::size_t whole_register = 16;  // the kernel may write as much beyond the last number
     const std::size_t first = to.size();
-    to.resize(first + n);
-    std::int32_t *next = to.data() + first;
-    // Writes every number, but moves on only after a number that is kept. This avoids a branch that the processor could not
-    // predict.
-    for (std::size_t k = 0; k < n; ++k) {
-      *next = numbers[k];
-      next += bits[k] >> bit & 1;
-    }
-    const auto n_added = static_cast<std::size_t>(next - (to.data() + first));
+    to.resize(first + n + whole_register);
+    const auto n_added = static_cast<std::size_t>(kernels_.select(numbers, bits, static_cast<std::int32_t>(n),
+                                                                  static_cast<std::int32_t>(bit), to.data() + first));
     to.resize(first + n_added);
     return n_added;
   }
@@ -336,17 +331,25 @@ class ClusterSearch {
         filter_leaf(leaves.begin + bit, task_within(bounds->of_box[bit]), own, pairs);
     }
     decide(own, pairs);
+    // Every node with pairs is written, but the place moves on only after a node within the limit.
     std::vector<FoundNode> &found = view(found_.by_thread)[thread];
+    const std::size_t n_before = found.size();
+    std::size_t n_paired = 0;
+    for (const std::uint32_t nodes : pairs.nodes) n_paired += static_cast<std::size_t>(__builtin_popcount(nodes));
+    found.resize(n_before + n_paired);
+    FoundNode *next = found.data() + n_before;
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
+      const Leaf &of_leaf = clusters_.leaves.get()[leaf];
+      const ClosestTriangle *const of_nodes = own.closest.data() + nodes_per_leaf * i;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
-        const ClosestTriangle &closest = view(own.closest)[nodes_per_leaf * i + lane];
-        const double distance = std::sqrt(closest.distance_sq);
-        if (distance <= request_.distance_limit)
-          found.emplace_back(clusters_.leaves.get()[leaf].node[lane], distance, closest.triangle);
+        const double distance = std::sqrt(of_nodes[lane].distance_sq);
+        *next = FoundNode(of_leaf.node[lane], distance, of_nodes[lane].triangle);
+        next += distance <= request_.distance_limit;
       }
     }
+    found.resize(static_cast<std::size_t>(next - found.data()));
     if (pairs.ties) settle_ties(own, pairs);
   }
 
@@ -480,8 +483,8 @@ void ClusterScratch::prepare(int n_threads) {
   }
 }
 
-bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters) {
-  const Placing placing(clusters, request.surface.scene().groups().frame);
+bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes) {
+  const Placing placing(nodes, request.surface.scene().groups().frame);
   return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large;
 }
 

@@ -56,7 +56,7 @@ struct ClusterScratch {
 
 // Returns false if single precision cannot separate near from far. This happens if the mesh or its distance from the surface is
 // about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
-bool separates_in_single_precision(const NodeSearch &request, const Clusters &clusters);
+bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
 // Returns whether clusters pay off for the distances of so many nodes, if the limit leaves out few or none. For fewer nodes,
 // comparing all groups with the first clusters takes longer than a query of each node.

@@ -27,7 +27,7 @@ struct Clusters {
 
   std::int64_t n_nodes = 0;
   NodeFrame frame;  // the frame of the coordinates in leaves and boxes
-  std::int64_t n_leaves = 0;
+  std::int64_t n_leaves = 0, room_for_leaves = 0;
   std::unique_ptr<Leaf[]> leaves;
   std::unique_ptr<LeafPoints[]> points;  // one per leaf
   std::vector<Boxes> clusters;           // for each cluster, the boxes of its leaves

@@ -46,7 +46,7 @@ struct SearchRun {
 SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
   if (request.mesh.nodes().n <= max_clustered_nodes) {
     const Clusters &clusters = request.mesh.clusters(request.n_threads);
-    if (separates_in_single_precision(request, clusters))
+    if (separates_in_single_precision(request, clusters.frame))
       return {RIIS_SEARCH_CLUSTERS,
               search_clusters(request, clusters, kernels(request.instructions), marks.cluster_scratch, marks.found)};
   }

@@ -52,8 +52,8 @@ Range NodeBalls::balls_of(std::int64_t large_ball) const {
 }
 
 void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls) {
-  NodeSorter<std::int64_t> sorter(items_of<std::int64_t>(nodes, frame_around(bounds), n_threads), n_threads);
-  const NodeItems<std::int64_t> &sorted = sorter.sort();
+  NodeItems<std::int64_t> sorted = items_of<std::int64_t>(nodes, frame_around(bounds), n_threads), buffer;
+  NodeSorter<std::int64_t>(sorted, buffer, Cuts::by_clusters, n_threads).sort();
   balls.order.resize(sorted.size());
   for_each(nodes.n, n_threads, [&](std::int64_t i) { view(balls.order)[i] = view(sorted)[i].node; });
 }

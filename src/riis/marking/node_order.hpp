@@ -34,6 +34,11 @@ struct NodeFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
+  // Takes a point that is known to be within the nodes' box.
+  void place_inner(Vec3 p, float *x) const {
+    const Vec3 q = scale * (p - centre);
+    x[0] = static_cast<float>(q.x), x[1] = static_cast<float>(q.y), x[2] = static_cast<float>(q.z);
+  }
   void operator()(Vec3 p, float *x) const {
     const Vec3 q = scale * (p - centre);
     const auto inside = [](double a) { return static_cast<float>(std::min(std::max(-2.0, a), 2.0)); };
@@ -82,41 +87,49 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
+// Where parts are cut. by_clusters: into up to four, early between clusters and later between leaves, so clusters are compact.
+// by_leaves: between leaves only, into as many parts as make a leaf as wide as it is long. There are half as many passes, and
+// clusters are long.
+enum class Cuts { by_clusters, by_leaves };
+
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box. Then it cuts the part, in early passes between clusters and in later passes between leaves. The items move from one array
-// to the other and back.
+// box, and cuts the part there. The items move from one array to the other and back.
 template <class Node>
 class NodeSorter {
  public:
   typedef NodeItem<Node> Item;
 
-  NodeSorter(NodeItems<Node> items, int n_threads)
-      : items_(std::move(items)), buffer_(items_.size()), n_threads_(n_threads) {}
+  // The buffer's content does not matter.
+  NodeSorter(NodeItems<Node> &items, NodeItems<Node> &buffer, Cuts cuts, int n_threads)
+      : items_(items),
+        buffer_(buffer),
+        cuts_(cuts),
+        per_block_(cuts == Cuts::by_clusters ? nodes_per_sorting_block : nodes_per_sorting_block / 8),
+        n_threads_(n_threads) {}
 
-  const NodeItems<Node> &sort() {
+  void sort() {
+    resize(buffer_, view(items_).size());
     // While there are fewer parts than the threads need, all threads share each part. Afterwards each thread takes whole parts.
     Item *at = items_.data(), *other = buffer_.data();
     std::vector<Part> parts{{0, view(items_).size()}}, next;
     const std::int64_t enough = n_threads_ == 1 ? 1 : 4 * n_threads_;
-    while (view(parts).size() < enough && parts.front().size() > 8 * nodes_per_sorting_block) {
+    while (view(parts).size() < enough && parts.front().size() > 8 * per_block_) {
       next.clear();
       for (const Part &part : parts) {
-        ManyBlocks blocks(part, n_threads_);
-        sort_once(part, at, other, blocks);
-        for_each_cut(part, [&](const Part &cut) { next.push_back(cut); });
+        ManyBlocks blocks(part, per_block_, n_threads_);
+        for_each_cut(part, sort_once(part, at, other, blocks), [&](const Part &cut) { next.push_back(cut); });
       }
       std::swap(parts, next);
       std::swap(at, other);
     }
     parallel_for(view(parts).size(), n_threads_, [&](std::int64_t i, int) { sort_alone(view(parts)[i], at, other); });
-    return items_;
   }
 
  private:
-  static constexpr int n_bins = 256, most_parts = 4;
+  static constexpr int n_bins = 256, most_parts = 16;
   // Smaller parts have fewer bins, because clearing and summing many bins would take longer than counting their nodes.
   static constexpr std::int64_t small_size = 1024;
-  static constexpr int n_small_bins = 64;
+  static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
   // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often in the same bin
   // and stream, and an update of a count has to wait for the previous update of the same count. So each quarter has its own
@@ -137,8 +150,10 @@ class NodeSorter {
     int n, axis;
     float from, per_unit;
 
-    Bins(const NodeBox &box, std::int64_t size)
-        : n(size <= small_size ? n_small_bins : n_bins), axis(box.longest_axis()), from(box.lower[axis]) {
+    Bins(const NodeBox &box, std::int64_t size, std::int64_t n_parts)
+        : n(size <= small_size ? std::max(n_small_bins, static_cast<int>(n_parts) * n_small_bins_per_part) : n_bins),
+          axis(box.longest_axis()),
+          from(box.lower[axis]) {
       per_unit = per_unit_of(static_cast<float>(n), box.upper[axis] - from);
     }
     int operator()(const Item &item) const {
@@ -180,21 +195,22 @@ class NodeSorter {
   // OneBlock is such a part for one thread and one block.
   struct ManyBlocks {
     const Part &part;
+    std::int64_t per_block;
     int n_threads;
     std::vector<NodeBox> boxes;
     std::vector<QuarterCounts> counts;
     std::vector<std::array<OfQuarters, Streams::most>> at;
 
-    ManyBlocks(const Part &of, int threads) : part(of), n_threads(threads) {
-      const std::int64_t n_blocks = (of.size() + nodes_per_sorting_block - 1) / nodes_per_sorting_block;
+    ManyBlocks(const Part &of, std::int64_t size, int threads) : part(of), per_block(size), n_threads(threads) {
+      const std::int64_t n_blocks = (of.size() + per_block - 1) / per_block;
       resize(boxes, n_blocks);
       resize(counts, n_blocks);
       resize(at, n_blocks);
     }
     template <class Visit>
     void for_each(const Visit &visit) const {
-      parallel_for_ranges(part.size(), nodes_per_sorting_block, n_threads, [&](const Range &range, int) {
-        visit(range.begin / nodes_per_sorting_block, Part{part.begin + range.begin, part.begin + range.end});
+      parallel_for_ranges(part.size(), per_block, n_threads, [&](const Range &range, int) {
+        visit(range.begin / per_block, Part{part.begin + range.begin, part.begin + range.end});
       });
     }
   };
@@ -211,15 +227,41 @@ class NodeSorter {
     }
   };
 
-  // Cuts a part into two or four. Every cut is at the border of a cluster, or of a leaf within a cluster.
+  static std::int64_t n_units(const Part &part, std::int64_t unit) { return (part.size() + unit - 1) / unit; }
+
+  // The cuts of a part are between units of so many items, and make so many parts.
+  struct Cutting {
+    std::int64_t unit, n_parts;
+  };
+  Cutting cutting(const Part &part, const NodeBox &box) const {
+    if (cuts_ == Cuts::by_clusters) {
+      const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
+      return {unit, n_units(part, unit) >= 8 ? 4 : 2};
+    }
+    const std::int64_t n_leaves = n_units(part, nodes_per_leaf), most = std::min<std::int64_t>(most_parts, n_leaves);
+    const float along = leaves_along(box, static_cast<float>(n_leaves));
+    return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
+  }
+
+  // Returns how many leaves follow each other along the longest side of a box, if each leaf is as wide as it is long. A leaf
+  // fills the width of a box that is narrower than that.
+  static float leaves_along(const NodeBox &box, float n_leaves) {
+    float side[3];
+    for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
+    std::sort(side, side + 3);
+    const float middle = side[1] / side[2], least = side[0] / side[2];  // not numbers if all nodes are in one place
+    float edge = 1 / n_leaves;                                          // as a share of the longest side
+    if (middle > edge) edge = std::sqrt(middle / n_leaves);
+    if (least > edge) edge = std::cbrt(middle * least / n_leaves);
+    return 1 / edge;
+  }
+
   template <class Visit>
-  static void for_each_cut(const Part &part, const Visit &visit) {
-    const std::int64_t unit = part.size() > nodes_per_cluster ? nodes_per_cluster : nodes_per_leaf;
-    const std::int64_t n_units = (part.size() + unit - 1) / unit;
-    const std::int64_t n_parts = n_units >= 8 ? 4 : 2;
+  static void for_each_cut(const Part &part, const Cutting &cutting, const Visit &visit) {
+    const std::int64_t n = n_units(part, cutting.unit);
     std::int64_t begin = part.begin;
-    for (std::int64_t i = 1; i <= n_parts; ++i) {
-      const std::int64_t end = std::min(part.begin + n_units * i / n_parts * unit, part.end);
+    for (std::int64_t i = 1; i <= cutting.n_parts; ++i) {
+      const std::int64_t end = std::min(part.begin + n * i / cutting.n_parts * cutting.unit, part.end);
       visit(Part{begin, end});
       begin = end;
     }
@@ -233,13 +275,18 @@ class NodeSorter {
     // Two separate boxes are faster, because each comparison has to wait for the previous comparison of the same bounds.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
-    for (std::int64_t i = part.begin; i < part.end; i += 2)
-      for (std::int64_t k = 0; k < 2; ++k) {
-        Four x;
-        std::memcpy(&x, items + std::min(i + k, part.end - 1), sizeof x);
-        lower[k] = x < lower[k] ? x : lower[k];
-        upper[k] = x > upper[k] ? x : upper[k];
-      }
+    const auto add = [&](const Item *item, int k) {
+      Four x;
+      std::memcpy(&x, item, sizeof x);
+      lower[k] = x < lower[k] ? x : lower[k];
+      upper[k] = x > upper[k] ? x : upper[k];
+    };
+    const Item *item = items + part.begin;
+    for (const Item *const end = items + part.end - 1; item < end; item += 2) {
+      add(item, 0);
+      add(item + 1, 1);
+    }
+    add(items + part.end - 1, 0);
     NodeBox box;
     for (int axis = 0; axis < 3; ++axis) {
       box.lower[axis] = std::min(lower[0][axis], lower[1][axis]);
@@ -270,14 +317,15 @@ class NodeSorter {
   }
 
   // Moves items so that the items of each new part are together. Within a stream they keep their order, for any number of
-  // blocks.
+  // blocks. Returns where the part was cut.
   template <class Blocks>
-  static void sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) {
+  Cutting sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) const {
     blocks.for_each(
         [&](std::int64_t block, const Part &of_block) { view(blocks.boxes)[block] = box_of(from, of_block); });
     NodeBox box;
     for (const NodeBox &of_block : blocks.boxes) box.add(of_block);
-    const Bins bins(box, part.size());
+    Cutting cut = cutting(part, box);
+    const Bins bins(box, part.size(), cut.n_parts);
     blocks.for_each(
         [&](std::int64_t block, const Part &of_block) { count(from, of_block, bins, view(blocks.counts)[block]); });
     Counts sums;
@@ -286,9 +334,15 @@ class NodeSorter {
       for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
       view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
     }
+    // If most items are in few bins, the next pass needs their smaller box to separate them.
+    constexpr std::int64_t few_parts = 4;
+    if (cut.n_parts > few_parts) {
+      const auto most = static_cast<std::int64_t>(*std::max_element(sums.begin(), sums.begin() + bins.n));
+      if (most > part.size() / cut.n_parts) cut.n_parts = few_parts;
+    }
     std::array<std::int64_t, most_parts> ends;
     int n_parts = 0;
-    for_each_cut(part, [&](const Part &cut) { view(ends)[n_parts++] = cut.end - part.begin; });
+    for_each_cut(part, cut, [&](const Part &made) { view(ends)[n_parts++] = made.end - part.begin; });
     const Streams streams(sums, bins.n, ends, n_parts);
     for (std::int64_t block = 0; block < view(blocks.counts).size(); ++block) {
       auto &at = view(blocks.at)[block];
@@ -313,6 +367,7 @@ class NodeSorter {
         *view(view(next)[view(streams.of_bin)[bins(item)]])[quarter]++ = item;
       });
     });
+    return cut;
   }
 
   // Sorts a short part completely along its longest axis. For so few items, counting in bins would take longer.
@@ -339,17 +394,20 @@ class NodeSorter {
       if (at != items_.data()) std::copy(at + part.begin, at + part.end, items_.data() + part.begin);
       return;
     }
+    Cutting cut{nodes_per_leaf, 2};
     if (part.size() <= keys_at_once)
       sort_whole(part, at, other);
     else {
       OneBlock block(part);
-      sort_once(part, at, other, block);
+      cut = sort_once(part, at, other, block);
     }
-    for_each_cut(part, [&](const Part &cut) { sort_alone(cut, other, at); });
+    for_each_cut(part, cut, [&](const Part &made) { sort_alone(made, other, at); });
   }
 
-  NodeItems<Node> items_, buffer_;
-  int n_threads_;
+  NodeItems<Node> &items_, &buffer_;
+  const Cuts cuts_;
+  const std::int64_t per_block_;
+  const int n_threads_;
 };
 
 template <class Node>
