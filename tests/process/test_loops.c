@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run on a team for a while, which
- * does not wait for a thread that does not come. The calling thread calls a team late if teams were waited for. In a process whose user binds OpenMP's threads to places (OMP_PROC_BIND), and
- * inside a caller's parallel region, the threads are always OpenMP's. */
+ * does not wait for a thread that does not come. The calling thread calls a team late if teams were waited for. In a process
+ * whose user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a caller's parallel region, the threads are always
+ * OpenMP's. */
 #include "loops.h"
 #include "test_support.h"
 

@@ -45,8 +45,8 @@ struct Derivatives {
   Vec3 third;
 };
 
-// Returns the tangent from B'' and B''', the derivatives of a Bézier piece by its own parameter t. The size of B' is between `least`
-// and `largest`. Parts across T are marked by _. With dt/du = speed / |B'|, the derivatives of T by u are
+// Returns the tangent from B'' and B''', the derivatives of a Bézier piece by its own parameter t. The size of B' is between
+// `least` and `largest`. Parts across T are marked by _. With dt/du = speed / |B'|, the derivatives of T by u are
 //   T' = speed / |B'|^2 B''_  and  T'' = speed^2 / |B'|^3 (B'''_ - 3 (T.B'') / |B'| B''_ - |B''_|^2 / |B'| T).
 Along along(const Ball &tangent, double least, double largest, const Ball &second, Vec3 third, double speed) {
   const Span inverse_size = inverse(least, largest);

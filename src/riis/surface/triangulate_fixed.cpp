@@ -154,8 +154,8 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
-// Halves those columns of patches of arcs that then have fewer triangles, because their quads need fewer halvings. Returns whether
-// there are any. The levels of the plan must be found anew afterwards.
+// Halves those columns of patches of arcs that then have fewer triangles, because their quads need fewer halvings. Returns
+// whether there are any. The levels of the plan must be found anew afterwards.
 bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   bool are_any = false;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
