@@ -61,7 +61,8 @@ inline Ball across(const Ball &a, const Ball &unit) {
 }
 
 // Returns the unit vectors of vectors whose least length is positive. No vector of the ball turns away from the middle by an
-// angle whose sine exceeds radius / length. The distance between two unit vectors is less than the tangent of the angle between them.
+// angle whose sine exceeds radius / length. The distance between two unit vectors is less than the tangent of the angle between
+// them.
 inline Ball unit(const Ball &a) {
   const double size = length(a.middle);
   return {(1 / size) * a.middle, a.radius / std::sqrt((size - a.radius) * (size + a.radius))};
