@@ -2,6 +2,8 @@
 // ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. The same
 // steps are also measured while the two processes are stopped, and after a loop of the caller's own OpenMP threads. It prints
 // times and bars.
+// Beside busy processes the mean counts, and a few waits of milliseconds decide about it. So blocks of calls with 1 and with 2
+// threads take turns for a long time, and the table gives the standard error of the ratio of the means.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 #include <sched.h>
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -30,7 +33,9 @@ namespace {
 using namespace bench;
 
 constexpr int most_turns = 400;
-constexpr std::chrono::seconds longest{5};  // for all turns of a subject
+constexpr std::chrono::seconds longest{5};       // for all turns of a subject
+constexpr std::chrono::seconds beside_busy{24};  // for all blocks of a subject beside busy processes
+constexpr double block_milliseconds = 40;  // of calls with 1 thread; the system's slices take a tenth of this time
 
 [[noreturn]] void fail(const char *what) {
   std::perror(what);
@@ -89,6 +94,10 @@ struct Subject {
   std::array<std::function<void()>, 2> calls;
 };
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Measures both calls in turns. before() is not timed.
 std::array<Times, 2> measure(const Subject &subject, const std::function<void()> &before) {
   std::array<std::vector<double>, 2> times;
@@ -98,7 +107,7 @@ std::array<Times, 2> measure(const Subject &subject, const std::function<void()>
       before();
       const auto start = std::chrono::steady_clock::now();
       subject.calls[i]();
-      times[i].push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      times[i].push_back(milliseconds_since(start));
     }
   std::array<Times, 2> made{};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -107,6 +116,41 @@ std::array<Times, 2> measure(const Subject &subject, const std::function<void()>
     made[i] = {*std::min_element(times[i].begin(), times[i].end()), sum / static_cast<double>(times[i].size())};
   }
   return made;
+}
+
+// The mean times of a call in milliseconds, with 1 and with 2 threads. The error is the standard error of their ratio.
+struct Means {
+  std::array<double, 2> mean;
+  double error;
+  double ratio() const { return mean[1] / mean[0]; }
+};
+
+// Measures blocks of equally many calls with 1 and with 2 threads. Every second pair begins with 2 threads.
+Means measure_in_blocks(const Subject &subject, double estimate) {
+  const int n_calls = std::max(1, static_cast<int>(block_milliseconds / estimate));
+  const auto block = [&](std::size_t i) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int k = 0; k < n_calls; ++k) subject.calls[i]();
+    return milliseconds_since(start);
+  };
+  std::vector<std::array<double, 2>> pairs;
+  const auto first_start = std::chrono::steady_clock::now();
+  while (pairs.size() < 10 || std::chrono::steady_clock::now() - first_start < beside_busy) {
+    std::array<double, 2> times{};
+    const std::size_t first = pairs.size() % 2;
+    times[first] = block(first);
+    times[1 - first] = block(1 - first);
+    pairs.push_back(times);
+  }
+  std::array<double, 2> sum{};
+  for (const auto &pair : pairs) sum[0] += pair[0], sum[1] += pair[1];
+  double squares = 0;
+  for (const auto &pair : pairs) {
+    const double off = pair[1] - sum[1] / sum[0] * pair[0];
+    squares += off * off;
+  }
+  const auto n = static_cast<double>(pairs.size());
+  return {{sum[0] / (n * n_calls), sum[1] / (n * n_calls)}, std::sqrt(squares * n / (n - 1)) / sum[0]};
 }
 
 // A caller's loop of about 0.2 ms on two threads of OpenMP.
@@ -169,14 +213,13 @@ int main(int argc, char **argv) {
     measure(subject, nothing);
     const std::array<Times, 2> idle = measure(subject, nothing), after_loop = measure(subject, openmp_loop);
     busy.send(SIGCONT);
-    const std::array<Times, 2> beside = measure(subject, nothing);
+    const Means beside = measure_in_blocks(subject, idle[0].least);
     busy.send(SIGSTOP);
-    const double ratio = beside[1].mean / beside[0].mean;
-    std::printf("| %s | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f |\n", subject.name.c_str(),
+    std::printf("| %s | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f ± %.2f |\n", subject.name.c_str(),
                 idle[0].least, idle[1].least, after_loop[0].least, after_loop[1].least, after_loop[0].mean,
-                after_loop[1].mean, beside[0].mean, beside[1].mean, ratio);
+                after_loop[1].mean, beside.mean[0], beside.mean[1], beside.ratio(), beside.error);
     std::fflush(stdout);
-    bars.add(subject.name + ", busy: 2 threads / 1", ratio, Wanted::at_most, 2);
+    bars.add(subject.name + ", busy: 2 threads / 1", beside.ratio(), Wanted::at_most, 2);
   }
   std::printf("\n");
   bars.print();

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run on a team for a while, which
- * does not wait for a thread that does not come. In a process whose user binds OpenMP's threads to places (OMP_PROC_BIND), and
- * inside a caller's parallel region, the threads are always OpenMP's. */
+ * does not wait for a thread that does not come. The calling thread calls a team late if teams were waited for. In a process
+ * whose user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a caller's parallel region, the threads are always
+ * OpenMP's. */
 #include "loops.h"
 #include "test_support.h"
 
@@ -88,6 +89,40 @@ static void the_choice_lasts_for_a_while(void **state) {
   assert_false(takes_team_at(32401, 8, waits, ends));
 }
 
+/* Times are in milliseconds here. */
+static double alone_at(double now, int n_loops, const double *lost, const double *ended) {
+  int64_t times[2][64] = {{0}};
+  for (int i = 0; i < n_loops; ++i) {
+    times[0][i] = (int64_t)(1e6 * lost[i]);
+    times[1][i] = (int64_t)(1e6 * ended[i]);
+  }
+  return 1e-6 * (double)time_alone_after(n_loops, times[0], times[1], (int64_t)(1e6 * now));
+}
+
+static void a_loop_is_alone_for_the_mean_loss(void **state) {
+  (void)state;
+  double lost[64] = {4}, ended[64] = {0};
+  for (int i = 0; i < 64; ++i) ended[i] = 100;
+  assert_true(alone_at(1, 0, NULL, NULL) == 0);
+  /* A sixteenth of a loss counts, and half of it after each second. */
+  CHECK_NEAR(alone_at(100, 1, lost, ended), 4.0 / 16, 1e-5);
+  CHECK_NEAR(alone_at(1100, 1, lost, ended), 4.0 / 32, 1e-5);
+  CHECK_NEAR(alone_at(3100, 1, lost, ended), 4.0 / 128, 1e-5);
+  assert_true(alone_at(7000, 1, lost, ended) == 0);
+  /* Loops without a loss reduce the mean, and gains count as no loss. */
+  lost[1] = -3;
+  CHECK_NEAR(alone_at(100, 2, lost, ended), 4.0 / 16 * 15 / 16, 1e-5);
+  assert_true(alone_at(100, 64, lost, ended) < 5e-3);
+  for (int i = 0; i < 64; ++i) lost[i] = 4;
+  CHECK_NEAR(alone_at(100, 64, lost, ended), 4 * (1 - pow(15.0 / 16, 64)), 1e-5);
+}
+
+static void the_caller_calls_a_team_late(void **state) {
+  (void)state;
+  assert_true(caller_begins_alone());
+  assert_true(caller_calls_a_team_later());
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(loops_end_while_a_thread_is_held),
@@ -97,6 +132,8 @@ int main(void) {
       cmocka_unit_test(the_threads_leave_signals_to_the_caller),
       cmocka_unit_test(a_long_wait_chooses_a_team),
       cmocka_unit_test(the_choice_lasts_for_a_while),
+      cmocka_unit_test(a_loop_is_alone_for_the_mean_loss),
+      cmocka_unit_test(the_caller_calls_a_team_late),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

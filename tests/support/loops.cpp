@@ -23,7 +23,8 @@ struct Seen {
   std::int64_t n_of_caller = 0;  // number of blocks that the calling thread ran
 };
 
-Seen run_loop(std::int64_t n_blocks, int n_threads, bool by_team = false) {
+// With `choice`, the loop runs on a team.
+Seen run_loop(std::int64_t n_blocks, int n_threads, LoopChoice *choice = nullptr) {
   struct Thread {
     std::int64_t last = -1;
     std::atomic<int> n_inside{0};
@@ -47,7 +48,7 @@ Seen run_loop(std::int64_t n_blocks, int n_threads, bool by_team = false) {
     if (is_caller) n_of_caller.fetch_add(1, std::memory_order_relaxed);
     thread.n_inside.fetch_sub(1);
   };
-  seen.n_ran = by_team ? team_for(n_blocks, n_threads, body) : parallel_for(n_blocks, n_threads, body);
+  seen.n_ran = choice ? team_for(n_blocks, n_threads, body, *choice) : parallel_for(n_blocks, n_threads, body);
   for (const std::atomic<int> &n : n_runs)
     if (n.load(std::memory_order_relaxed) != 1) is_right = false;
   seen.is_right = is_right && seen.n_ran >= 1 && seen.n_ran <= n_threads;
@@ -58,16 +59,23 @@ Seen run_loop(std::int64_t n_blocks, int n_threads, bool by_team = false) {
 void wait_for(const std::atomic<int> &number, int value) {
   while (number.load() < value) std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
+void wait_a_second_for(const std::atomic<int> &number, int value) {
+  for (int i = 0; i < 10'000 && number.load() < value; ++i) std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
 
 // Runs a loop of two blocks on a team. Each of two threads has to run one block. Calls look() on the second thread.
 template <class Look>
 void run_on_both_threads(const Look &look) {
   std::atomic<int> n_come{0};
-  team_for(2, 2, [&](std::int64_t, int thread) {
-    n_come.fetch_add(1);
-    wait_for(n_come, 2);
-    if (thread == 1) look();
-  });
+  LoopChoice choice;
+  team_for(
+      2, 2,
+      [&](std::int64_t, int thread) {
+        n_come.fetch_add(1);
+        wait_for(n_come, 2);
+        if (thread == 1) look();
+      },
+      choice);
 }
 
 std::atomic<int> is_held{0}, is_released{0};
@@ -88,7 +96,8 @@ int loop_once(int64_t n_blocks, int n_threads) {
 }
 
 int team_loop_once(int64_t n_blocks, int n_threads) {
-  const Seen seen = run_loop(n_blocks, n_threads, true);
+  LoopChoice choice;
+  const Seen seen = run_loop(n_blocks, n_threads, &choice);
   return seen.is_right ? seen.n_ran : -1;
 }
 
@@ -96,6 +105,40 @@ int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64
   LoopChoice choice;
   for (int i = 0; i < n_loops; ++i) choice.record(waited[i], ended[i]);
   return choice.takes_team(now);
+}
+
+int64_t time_alone_after(int n_loops, const int64_t *lost, const int64_t *ended, int64_t now) {
+  LoopChoice choice;
+  for (int i = 0; i < n_loops; ++i) choice.record_team(lost[i], ended[i]);
+  return choice.time_alone(now);
+}
+
+int caller_begins_alone() {
+  LoopChoice choice;
+  choice.record_team(std::int64_t{16} * 3600 * 1'000'000'000, nanoseconds());  // an hour alone
+  const Seen seen = run_loop(1000, 4, &choice);
+  return seen.is_right && seen.n_ran == 4 && seen.n_of_caller == 1000;
+}
+
+int caller_calls_a_team_later() {
+  LoopChoice choice;
+  choice.record_team(std::int64_t{16} * 20'000'000, nanoseconds());  // 20 ms alone
+  std::atomic<int> n_come{0}, n_alone{0};
+  team_for(
+      1'000'000, 2,
+      [&](std::int64_t, int thread) {
+        if (n_come >= 2) return;
+        // The calling thread is alone until another thread comes. Then both wait for each other.
+        if (thread == 1 || n_alone.load() >= 10) {
+          n_come.fetch_add(1);
+          wait_for(n_come, 2);
+        } else {
+          n_alone.fetch_add(1);
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+      },
+      choice);
+  return n_come >= 2 && n_alone > 0;
 }
 
 int next_loop_is_on_a_team() {
@@ -107,12 +150,12 @@ int next_loop_is_on_a_team() {
 }
 
 int wait_long_for_a_thread() {
-  // On a busy machine an earlier wait may have chosen a team, for 8 seconds at most.
+  // On a busy machine an earlier wait may have chosen a team, for 8 seconds at most. Its calling thread may run both blocks.
   for (bool are_openmps = false; !are_openmps;) {
     std::atomic<int> n_come{0};
     parallel_for(2, 2, [&](std::int64_t, int thread) {
       n_come.fetch_add(1);
-      wait_for(n_come, 2);
+      wait_a_second_for(n_come, 2);
       if (thread == 0) are_openmps = omp_in_parallel() != 0;
       if (thread == 1) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     });
@@ -122,11 +165,13 @@ int wait_long_for_a_thread() {
 
 int loops_at_once(int n_callers, int n_loops) {
   std::atomic<bool> are_right{true};
+  LoopChoice choice;
   std::vector<std::thread> callers;
   for (int caller = 0; caller < n_callers; ++caller)
     callers.emplace_back([&, caller] {
       for (int i = 0; i < n_loops; ++i)
-        if (!run_loop(1 + (7 * i + caller) % 50, 1 + (i + caller) % 4, i % 4 != 0).is_right) are_right = false;
+        if (!run_loop(1 + (7 * i + caller) % 50, 1 + (i + caller) % 4, i % 4 != 0 ? &choice : nullptr).is_right)
+          are_right = false;
     });
   for (std::thread &caller : callers) caller.join();
   return are_right;
@@ -163,7 +208,8 @@ int loops_while_a_thread_is_held(int n_loops) {
   wait_for(is_held, 1);
   bool are_right = true;
   for (int i = 0; i < n_loops; ++i) {
-    const Seen seen = run_loop(100, 2, true);
+    LoopChoice choice;
+    const Seen seen = run_loop(100, 2, &choice);
     are_right = are_right && seen.is_right && seen.n_ran == 2 && seen.n_of_caller == 100;
   }
   is_released = 1;

@@ -16,6 +16,13 @@ int loop_once(int64_t n_blocks, int n_threads);
 int team_loop_once(int64_t n_blocks, int n_threads);
 /* Records loops of OpenMP, times in nanoseconds, and returns whether a loop that begins now takes a team. */
 int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);
+/* Records losses of loops on teams, times in nanoseconds, and returns how long a loop that begins now runs on the calling thread
+ * alone. */
+int64_t time_alone_after(int n_loops, const int64_t *lost, const int64_t *ended, int64_t now);
+/* Returns whether the calling thread runs all blocks of a loop on a team that is shorter than the recorded losses. */
+int caller_begins_alone(void);
+/* Returns whether a second thread takes part in a longer loop, after the calling thread has run some blocks alone. */
+int caller_calls_a_team_later(void);
 /* Runs a loop and returns whether it ran on a team. */
 int next_loop_is_on_a_team(void);
 /* Runs a loop of OpenMP in which the calling thread waits 100 ms for the other thread. Returns whether the next loop runs on a

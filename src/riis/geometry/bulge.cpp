@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
-#include "geometry/interval.hpp"
+#include "geometry/ball.hpp"
 
 namespace riis {
 
@@ -25,32 +25,11 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Returns the hull of control points of a Bézier curve's derivative. The derivative stays inside it.
-IntervalVector hull_of(const Vec3 *control, std::size_t n) {
-  IntervalVector all = IntervalVector::of(control[0]);
-  for (std::size_t i = 1; i < n; ++i) all = hull(all, IntervalVector::of(control[i]));
-  return all;
-}
-
 // A curve's unit tangent on a range of u, with its derivatives by u, and the speed |d curve / du| there.
 struct Along {
-  JetVector tangent;
+  Ball tangent, first, second;
   double speed;
 };
-
-// Returns the tangent with its derivatives by u, from derivatives of a Bézier piece by its own parameter t. The chain rule uses
-// dt/du = speed / |B'(t)|.
-JetVector tangent_jet(const IntervalVector &d1, const IntervalVector &d2, const IntervalVector &d3, double speed) {
-  const JetVector along = JetVector::of(d1, d2, d3);
-  const Jet size = root(dot_self(along)), inverse_size = inverse(size);
-  const JetVector by_t = inverse_size * along;
-  const Interval t_u = speed * inverse_size.value, t_u_sq = square(t_u);
-  const Interval t_uu = -(speed * speed) * (size.first * inverse_size.value * square(inverse_size.value));
-  const auto by_u = [&](const Jet &a) {
-    return Jet{intersection(a.value, {-1, 1}), a.first * t_u, a.second * t_u_sq + a.first * t_uu};
-  };
-  return {by_u(by_t.x), by_u(by_t.y), by_u(by_t.z)};
-}
 
 struct Derivatives {
   explicit Derivatives(const Bezier &piece) : n(static_cast<std::size_t>(piece.degree)) {
@@ -66,74 +45,102 @@ struct Derivatives {
   Vec3 third;
 };
 
-// Bounds the distance of a function from the line between its ends, on a range of length du. `second` holds its second
-// derivative.
-double deviation(const Interval &second, double du) { return 0.125 * du * du * second.magnitude(); }
-
-void narrow(Jet &a, double start, double end, double du) {
-  a.value = intersection(a.value, widened(hull(Interval::of(start), Interval::of(end)), deviation(a.second, du)));
-}
-
-Vec3 unit(Vec3 a) {
-  const double size = length(a);
-  return size > 0 ? (1 / size) * a : a;
-}
-
-// Returns the tangent over a whole piece. The piece spans at most du.
-Along along_piece(const Bezier &piece, double speed, double du) {
-  if (!(speed > 0)) return {JetVector{}, 0};
-  const Derivatives d(piece);
-  JetVector tangent =
-      tangent_jet(hull_of(d.first.data(), d.n), hull_of(d.second.data(), d.n - 1), IntervalVector::of(d.third), speed);
-  const Vec3 start = unit(d.first[0]), end = unit(d.first[d.n - 1]);
-  narrow(tangent.x, start.x, end.x, du);
-  narrow(tangent.y, start.y, end.y, du);
-  narrow(tangent.z, start.z, end.z, du);
-  return {tangent, speed};
-}
-
-// Returns the tangent at the start or the end of a piece.
-Along along_end(const Bezier &piece, double speed, bool at_end) {
-  if (!(speed > 0)) return {JetVector{}, 0};
-  const Derivatives d(piece);
-  return {tangent_jet(IntervalVector::of(d.first[at_end ? d.n - 1 : 0]),
-                      IntervalVector::of(d.second[at_end ? d.n - 2 : 0]), IntervalVector::of(d.third), speed),
+// Returns the tangent from B'' and B''', the derivatives of a Bézier piece by its own parameter t. The size of B' is between
+// `least` and `largest`. Parts across T are marked by _. With dt/du = speed / |B'|, the derivatives of T by u are
+//   T' = speed / |B'|^2 B''_  and  T'' = speed^2 / |B'|^3 (B'''_ - 3 (T.B'') / |B'| B''_ - |B''_|^2 / |B'| T).
+Along along(const Ball &tangent, double least, double largest, const Ball &second, Vec3 third, double speed) {
+  const Span inverse_size = inverse(least, largest);
+  const Span inverse_size_sq = Span::between(1 / (largest * largest), 1 / (least * least));
+  const Ball bend = across(second, tangent);
+  const Ball of_third = across({third, 0}, tangent) - (3 * inverse_size * dot(tangent, second)) * bend -
+                        (inverse_size * square(bend)) * tangent;
+  return {tangent, speed * (inverse_size_sq * bend), (speed * speed) * (inverse_size * inverse_size_sq * of_third),
           speed};
 }
 
-double norm(const IntervalVector &a) {
-  const double bound = length(a.magnitudes());
-  return bound >= 0 ? bound : infinity;  // the length is NaN if infinite bounds cancelled
+// Returns the tangent over a whole piece, or nothing if the piece may stand still inside. The speed is 0 if the curve is a point.
+std::optional<Along> along_piece(const Bezier &piece, double speed) {
+  if (!(speed > 0)) return Along{};
+  const Derivatives d(piece);
+  const bool is_cubic = d.n == 3;
+  // In the middle, B' is this vector. B'' leads away from it for half of the range of t, to either side.
+  const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
+  const double size = length(middle);
+  if (!(size > 0)) return std::nullopt;
+  const Vec3 direction = (1 / size) * middle;
+  double ahead = 0, sideways = 0;
+  for (std::size_t i = 0; i + 1 < d.n; ++i) {
+    const double by = dot(d.second[i], direction);
+    ahead = std::max(ahead, 0.5 * std::abs(by));
+    sideways = std::max(sideways, 0.5 * length(d.second[i] - by * direction));
+  }
+  const double least = size - ahead, largest = std::hypot(size + ahead, sideways);
+  if (!(least > 0)) return std::nullopt;
+  const Ball second = is_cubic ? Ball{0.5 * (d.second[0] + d.second[1]), 0.5 * length(d.third)} : Ball{d.second[0], 0};
+  return along({direction, sideways / least}, least, largest, second, d.third, speed);
 }
 
-// O as the product of a factor and a vector, as jets.
-struct OffsetJets {
-  Jet factor;
-  JetVector across;
+// Returns the tangent at the start or the end of a piece, or nothing if the piece stands still there.
+std::optional<Along> along_end(const Bezier &piece, double speed, bool at_end) {
+  if (!(speed > 0)) return Along{};
+  const Derivatives d(piece);
+  const Vec3 first = d.first[at_end ? d.n - 1 : 0];
+  const double size = length(first);
+  if (!(size > 0)) return std::nullopt;
+  return along({(1 / size) * first, 0}, size, size, {d.second[at_end ? d.n - 2 : 0], 0}, d.third, speed);
+}
 
-  IntervalVector first() const {
-    const auto of = [&](const Jet &a) { return factor.first * a.value + factor.value * a.first; };
-    return {of(across.x), of(across.y), of(across.z)};
+// The derivatives of O (bulge.hpp) by u, from W and from both tangents.
+class OffsetDerivatives {
+ public:
+  OffsetDerivatives(const Ball &w, const Along &base, const Along &edge, double factor)
+      : w_(w), base_(base), edge_(edge), factor_(factor) {
+    // With W' = l E - a T, where E is the edge's tangent and l and a are the speeds, M = W x T has the derivative
+    // M' = l E x T + W x T'. The product T x T vanishes, and is left out here because a ball of it would not vanish.
+    m_ = cross(w, base.tangent);
+    if (!(m_.least_length() > 0)) return;
+    has_direction_ = true;
+    const Ball to_edge = edge.speed * edge.tangent;
+    m1_ = cross(to_edge, base.tangent) + cross(w, base.first);
+    w1_ = to_edge - base.speed * base.tangent;
+    normal_ = unit(m_);
+    along_ = unit(w);
+    m_inverse_ = inverse(m_.least_length(), m_.largest_length());
+    w_size_ = Span::between(std::max(w.least_length(), m_.least_length()), w.largest_length());
+    size1_ = dot(along_, w1_);
+    across1_ = across(m1_, normal_);
   }
-  IntervalVector second() const {
-    const auto of = [&](const Jet &a) {
-      return factor.second * a.value + 2 * (factor.first * a.first) + factor.value * a.second;
-    };
-    return {of(across.x), of(across.y), of(across.z)};
+
+  // Whether O has a direction: W is nowhere parallel to T.
+  bool has_direction() const { return has_direction_; }
+
+  // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
+  Ball first() const { return factor_ * (size1_ * normal_ + (w_size_ * m_inverse_) * across1_); }
+
+  // Bounds |O''|. The part along N and the part across N are bounded separately:
+  //   O'' / factor = (|W|'' - |W| |N'|^2) N + (2 (|W|' - |W| (N.M') / |M|) M'_across + |W| M''_across) / |M|.
+  double largest_second() const {
+    const Ball w2 = edge_.speed * edge_.first - base_.speed * base_.first;
+    const Ball m2 = edge_.speed * (cross(edge_.first, base_.tangent) + 2 * cross(edge_.tangent, base_.first)) -
+                    base_.speed * cross(base_.tangent, base_.first) + cross(w_, base_.second);
+    const Span w_inverse = inverse(w_size_.middle - w_size_.radius, w_size_.middle + w_size_.radius);
+    const Span size2 = w_inverse * square(across(w1_, along_)) + dot(along_, w2);
+    const Span turn = m_inverse_ * m_inverse_ * square(across1_);
+    const Span along_normal = size2 - w_size_ * turn;
+    const Span rate = size1_ - w_size_ * m_inverse_ * dot(normal_, m1_);
+    const Ball across_normal = m_inverse_ * (2 * rate * across1_ + w_size_ * across(m2, normal_));
+    const double bound = std::abs(factor_) * std::hypot(along_normal.magnitude(), across_normal.largest_length());
+    return bound >= 0 ? bound : infinity;  // the bound is NaN if numbers beyond the range of doubles cancelled
   }
+
+ private:
+  Ball w_;
+  const Along &base_, &edge_;
+  double factor_;
+  bool has_direction_ = false;
+  Ball m_, m1_, w1_, normal_, along_, across1_;
+  Span m_inverse_, w_size_, size1_;
 };
-
-// Returns the offset O (bulge.hpp) from W and the base's tangent. The derivative of W is the edge's derivative minus the base's.
-// Returns nothing if W may be parallel to the base, because O may have no direction there.
-std::optional<OffsetJets> offset_jets(const IntervalVector &w, const Along &base, const Along &edge, double factor) {
-  const JetVector width = JetVector::of(w, edge.speed * edge.tangent.value() - base.speed * base.tangent.value(),
-                                        edge.speed * edge.tangent.first() - base.speed * base.tangent.first());
-  const JetVector across = cross(width, base.tangent);
-  const Jet across_sq = dot_self(across);
-  if (!(across_sq.value.low > 0)) return std::nullopt;
-  // O is factor |W| M / |M| with M = W x T.
-  return OffsetJets{factor * root(dot_self(width) * inverse(across_sq)), across};
-}
 
 // Returns O at points at the same share of the length of both curves.
 Vec3 offset_at(const Curve &base, const PointOnPiece &on_base, const Curve &edge, const PointOnPiece &on_edge,
@@ -155,42 +162,50 @@ Bulge::Place Bulge::place(double u) const {
 }
 
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
-  const double du = range.du;
-  // W stays near the line between its two end values. The largest bend over all pairs of pieces bounds the distance from this
-  // line.
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
+  // No point moves along a curve by more than the curve's length. So W stays as near to one of its two end values.
+  const double w_ends = std::max(length(start), length(end));
+  const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
+  const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};
+
   Vector<Along> along_base, along_edge;
-  along_base.reserve(range.base.size());
-  along_edge.reserve(range.edge.size());
-  for (const Bezier &piece : range.base) along_base.push_back(along_piece(piece, range.base_length, du));
-  for (const Bezier &piece : range.edge) along_edge.push_back(along_piece(piece, range.edge_length, du));
-  Vec3 bend{0, 0, 0};
-  for (const Along &b : along_base)
-    for (const Along &e : along_edge) {
-      const Vec3 of_pair = (e.speed * e.tangent.first() - b.speed * b.tangent.first()).magnitudes();
-      bend = {std::max(bend.x, of_pair.x), std::max(bend.y, of_pair.y), std::max(bend.z, of_pair.z)};
+  const auto add = [](const Vector<Bezier> &pieces, double speed, Vector<Along> &to) {
+    to.reserve(pieces.size());
+    for (const Bezier &piece : pieces) {
+      const std::optional<Along> made = along_piece(piece, speed);
+      if (!made) return false;
+      to.push_back(*made);
     }
-  IntervalVector w = hull(IntervalVector::of(start), IntervalVector::of(end));
-  const double eighth = 0.125 * du * du;
-  w = {widened(w.x, eighth * bend.x), widened(w.y, eighth * bend.y), widened(w.z, eighth * bend.z)};
+    return true;
+  };
+  if (!add(range.base, range.base_length, along_base) || !add(range.edge, range.edge_length, along_edge))
+    return unknown;
+
+  // W stays near the line between its two end values. The largest bend over all pairs of pieces bounds the distance from this
+  // line.
+  double bend = 0;
+  for (const Along &b : along_base)
+    for (const Along &e : along_edge) bend = std::max(bend, (e.speed * e.first - b.speed * b.first).largest_length());
+  const double off_line = 0.125 * range.du * range.du * bend;
+  const Ball w{0.5 * (start + end), 0.5 * distance(start, end) + off_line};
 
   double second = 0;
   for (const Along &b : along_base)
     for (const Along &e : along_edge) {
-      const std::optional<OffsetJets> offset = offset_jets(w, b, e, factor);
-      second = std::max(second, offset ? norm(offset->second()) : infinity);
+      const OffsetDerivatives offset(w, b, e, factor);
+      second = std::max(second, offset.has_direction() ? offset.largest_second() : infinity);
     }
   // Neither |O| nor the length of its linear interpolation exceeds |factor| |W|.
-  return {second, 2 * std::abs(factor) * norm(w)};
+  return {second, 2 * std::abs(factor) * std::min(w_ends + off_line, w_far)};
 }
 
 double Bulge::linear_error(const Place &from, const Place &to, double enough) const {
   const Vector<Bezier> base = base_.pieces_between(from.on_base, to.on_base);
   const Vector<Bezier> edge = edge_.length() > 0 ? edge_.pieces_between(from.on_edge, to.on_edge) : edge_.pieces();
   const OffsetBounds bounds = bound_offset({base, edge, base_.length(), edge_.length(), to.u - from.u}, factor_);
-  // Intervals overestimate |O''| several times over. So O is evaluated at a few points, and the bound on |O''| is used only
-  // between neighbouring points. With eight parts, this bound contributes 64 times less.
+  // If the bound on |O''| is not enough, O is evaluated at a few points, and the bound is used only between neighbouring points.
+  // With eight parts, this bound contributes 64 times less.
   double error = error_between(from.u, to.u, 1, bounds.second);
   if (!(error <= enough)) error = sampled_error(from, to) + error_between(from.u, to.u, 8, bounds.second);
   return error <= bounds.largest ? error : bounds.largest;  // a NaN error also gives way to this bound
@@ -224,15 +239,18 @@ double Bulge::error_between(double u0, double u1, int n, double second) const {
 
 // Bounds the size of the jump of O' at u, which is the difference between its values on both sides.
 double Bulge::jump(double u) const {
-  const IntervalVector w = IntervalVector::of(edge_.at(u) - base_.at(u));
-  const auto beside = [&](bool after) {
-    const auto along = [&](const Curve &curve) {
-      return along_end(curve.piece_beside(u, after), curve.length(), !after);
-    };
-    return offset_jets(w, along(base_), along(edge_), factor_);
-  };
-  const std::optional<OffsetJets> before = beside(false), after = beside(true);
-  return before && after ? norm(after->first() - before->first()) : infinity;
+  const Ball w{edge_.at(u) - base_.at(u), 0};
+  Ball first[2];
+  for (const bool after : {false, true}) {
+    const std::optional<Along> base = along_end(base_.piece_beside(u, after), base_.length(), !after);
+    const std::optional<Along> edge = along_end(edge_.piece_beside(u, after), edge_.length(), !after);
+    if (!base || !edge) return infinity;
+    const OffsetDerivatives offset(w, *base, *edge, factor_);
+    if (!offset.has_direction()) return infinity;
+    first[after ? 1 : 0] = offset.first();
+  }
+  const double size = (first[1] - first[0]).largest_length();
+  return size >= 0 ? size : infinity;
 }
 
 }  // namespace riis

@@ -1,9 +1,11 @@
-// SPDX-License-Identifier: Apache-2.0 Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops
+// SPDX-License-Identifier: Apache-2.0
+// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops
 // of a time step run on OpenMP's threads or, after a long wait for one of them, on a team. No other file uses OpenMP.
 #pragma once
 
 #include <omp.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -44,12 +46,17 @@ class Blocks {
  public:
   Blocks(std::int64_t n_blocks, const Body &body) : n_blocks_(n_blocks), body_(body), first_to_fail_(n_blocks) {}
 
-  // Runs blocks until none is left. Each thread of the loop calls this once.
-  void run(int thread) {
+  // Runs blocks until none is left, or until has_to_stop() before a block. Returns how many blocks it ran. Each thread of the
+  // loop calls this once, and the calling thread may also call it before the other threads begin.
+  template <class HasToStop>
+  std::int64_t run(int thread, const HasToStop &has_to_stop) {
     const FloatEnvironment environment;
-    std::int64_t block = 0;
+    std::int64_t block = 0, n_ran = 0;
     try {
-      while ((block = next_block_.fetch_add(1, std::memory_order_relaxed)) < n_blocks_) body_(block, thread);
+      while (!has_to_stop() && (block = next_block_.fetch_add(1, std::memory_order_relaxed)) < n_blocks_) {
+        body_(block, thread);
+        ++n_ran;
+      }
     } catch (...) {
       next_block_.store(n_blocks_, std::memory_order_relaxed);
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -58,6 +65,10 @@ class Blocks {
         first_exception_ = std::current_exception();
       }
     }
+    return n_ran;
+  }
+  std::int64_t run(int thread) {
+    return run(thread, [] { return false; });
   }
   void rethrow() const {
     if (first_exception_) std::rethrow_exception(first_exception_);
@@ -104,20 +115,41 @@ int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   return openmp_for(n_blocks, n_threads, body, [] {});
 }
 
-// Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up.
-template <class Body>
-int team_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
-  Blocks<Body> blocks(n_blocks, body);
-  const int n_ran = run_by_team(
-      n_threads, [](void *context, int thread) { static_cast<Blocks<Body> *>(context)->run(thread); }, &blocks);
-  blocks.rethrow();
-  return n_ran;
-}
-
 inline std::int64_t nanoseconds() noexcept {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+// Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up. The calling thread first
+// works alone for as long as `choice` says. The result also counts the other threads if the loop has ended before that time.
+template <class Body>
+int team_for(std::int64_t n_blocks, int n_threads, const Body &body, LoopChoice &choice) {
+  if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
+  struct Loop {
+    Blocks<Body> blocks;
+    std::int64_t n_of_caller,
+        has_worked;  // in the team: number of blocks that the calling thread ran, and when it had run them
+  } loop{{n_blocks, body}, 0, 0};
+  std::int64_t n_alone = 0, begin = nanoseconds();
+  if (const std::int64_t time_alone = choice.time_alone(begin); time_alone > 0) {
+    const std::int64_t until = begin + time_alone;
+    n_alone = loop.blocks.run(0, [&begin, until] { return (begin = nanoseconds()) >= until; });
+    loop.blocks.rethrow();
+    if (n_alone == n_blocks) return n_threads;
+  }
+  const auto work = [](void *context, int thread) {
+    Loop &of_team = *static_cast<Loop *>(context);
+    const std::int64_t n = of_team.blocks.run(thread);
+    if (thread == 0) of_team.n_of_caller = n, of_team.has_worked = nanoseconds();
+  };
+  const int n_ran = run_by_team(n_threads, work, &loop);
+  loop.blocks.rethrow();
+  const std::int64_t end = nanoseconds(), n_of_others = n_blocks - n_alone - loop.n_of_caller;
+  const double per_block =
+      static_cast<double>(loop.has_worked - begin) / static_cast<double>(std::max<std::int64_t>(loop.n_of_caller, 1));
+  choice.record_team(end - loop.has_worked - static_cast<std::int64_t>(static_cast<double>(n_of_others) * per_block),
+                     end);
+  return n_ran;
 }
 
 // Does the same on threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's parallel
@@ -127,10 +159,11 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
   if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
 #if defined(RIIS_STD_THREADS)
-  return team_for(n_blocks, n_threads, body);  // the thread sanitizer then sees the loops of a time step on a team
+  return team_for(n_blocks, n_threads, body,
+                  loop_choice);  // the thread sanitizer then sees the loops of a time step on a team
 #else
   const std::int64_t begin = nanoseconds();
-  if (loop_choice.takes_team(begin)) return team_for(n_blocks, n_threads, body);
+  if (loop_choice.takes_team(begin)) return team_for(n_blocks, n_threads, body, loop_choice);
   std::int64_t has_worked = begin;
   const int n_ran = openmp_for(n_blocks, n_threads, body, [&has_worked] { has_worked = nanoseconds(); });
   const std::int64_t end = nanoseconds();

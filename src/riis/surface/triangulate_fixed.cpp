@@ -154,6 +154,36 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
+// Halves those columns of patches of arcs that then have fewer triangles, because their quads need fewer halvings. Returns
+// whether there are any. The levels of the plan must be found anew afterwards.
+bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
+  bool are_any = false;
+  for (std::size_t i = 0; i < set.patches.size(); ++i) {
+    PatchPlan &of_patch = plan.grids.patches[i];
+    if (!of_patch.has_arcs || set.patches[i].skirt_of_arcs != no_patch) continue;
+    const std::size_t n = of_patch.u.size() - 1, n_rows = plan.grids.n_rows;
+    PatchPlan halved = of_patch;
+    halved.u.clear(), halved.n_parts.clear();
+    for (std::size_t k = 0; k < n; ++k) {
+      double n_quads = 0;
+      for (std::size_t j = 0; j < n_rows; ++j) n_quads += std::ldexp(1.0, 2 * plan.levels[i][j * n + k]);
+      halved.u.push_back(of_patch.u[k]);
+      halved.n_parts.push_back(of_patch.n_parts[k]);
+      if (!(n_quads > 2 * static_cast<double>(n_rows))) continue;
+      halved.n_parts.back() = (of_patch.n_parts[k] + 1) / 2;
+      halved.u.push_back(0.5 * (of_patch.u[k] + of_patch.u[k + 1]));
+      halved.n_parts.push_back(halved.n_parts.back());
+    }
+    halved.u.push_back(1);
+    if (halved.u.size() == of_patch.u.size()) continue;
+    are_any = true;
+    // A skirt has the lines of its patch.
+    for (std::size_t k = 0; k < set.patches.size(); ++k)
+      if (k == i || set.patches[k].skirt_of_arcs == i) plan.grids.patches[k] = halved;
+  }
+  return are_any;
+}
+
 // Returns the patches that miss triangles at one of the openings.
 Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Triangulation &how,
                                       const TriangulationPlan &plan, TriangleSet &triangles) {
@@ -228,8 +258,12 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   TriangleSet triangles;
   with_finer_curves(middle, " at an opening", [&](const Vector<double> &tightness) {
     plan.grids = plan_grids(states, planned_error, planned_curve_share, tightness);
-    plan.levels.clear();
-    for (const PatchSet &state : states) raise_levels(state, planned_error, plan);
+    constexpr int most_rounds = 3;
+    for (int round = 0;; ++round) {
+      plan.levels.clear();
+      for (const PatchSet &state : states) raise_levels(state, planned_error, plan);
+      if (round == most_rounds || !halve_columns(states.front(), plan)) break;
+    }
     return vanished_anywhere(states, how, plan, triangles);
   });
   plan.connectivity = make_connectivity(middle, how, plan, std::move(triangles));
