@@ -946,7 +946,7 @@ static double normal(double deviation) {
  * patients of each sort. */
 static void warps_of_patients_do_not_fold(void **state) {
   (void)state;
-  const int n_patients = is_long_test() ? 100 : 5, n_openings = 50;
+  const int n_patients = is_long_test() ? 100 : 25, n_openings = 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};
   int n_refused = 0;
   for (int trial = 0; trial < 3 * n_patients; ++trial) {
