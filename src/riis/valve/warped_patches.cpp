@@ -25,7 +25,7 @@ constexpr std::size_t n_fold_cells = 3;
 // The sine of the angle between the diagonals of a cell that has no side, because it is hardly wider than a line. Half opened,
 // leaflets of the coapting kind have such cells beside the attachment. There the chords of a curve are no guide to the surface.
 // In random patients, as in test_warp, cells with a sine up to 0.035 turned over although no triangle did. Warps that turned
-// triangles over also turned over cells with a sine above 0.042.
+// triangles over also turned over cells with a sine of 0.042 or more.
 constexpr double sliver_sine = 0.04;
 
 bool is_in_place(const PatchImage &image) {
