@@ -512,13 +512,13 @@ def place(
 
 
 def _warped(valve: Valve, placement: dict[str, Any], places: Reals, points: Reals, noise: float, read: _Landmarks) -> Warp:
-    """Warps the valve to the landmarks, and returns the warp. Refuses a warp that folds at whatever opening it does."""
+    """Warps the valve to the landmarks, and returns the warp. Refuses a warp that folds at one of five openings."""
     try:
         warp = Warp(places, noise=noise, placement=placement)
         warp.set_targets(points)
         valve.set_warp(warp)
         trial = valve.copy()
-        for opening in (0.0, 0.5, 1.0):
+        for opening in (0.0, 0.25, 0.5, 0.75, 1.0):
             trial["opening"] = opening
             Surface(trial, half_thickness=0.1 * placement["scale"], **placement).close()
     except Error as error:

@@ -157,7 +157,8 @@ riis_points points_of(const std::vector<double> &xyz) {
   return points;
 }
 
-// Warps the valve to the landmarks. A warp that folds is refused, at whatever opening it does.
+// Warps the valve to the landmarks. A warp that folds at one of five openings is refused. Other commands check each opening that
+// they take.
 void warp_to_landmarks(const PlaceOptions &options, Placed &made) {
   if (options.warp_choice == no_warp) return;
   const LandmarkFile &landmarks = made.landmarks;
@@ -180,7 +181,7 @@ void warp_to_landmarks(const PlaceOptions &options, Placed &made) {
     made.still_off.push_back(std::hypot(mapped[i] - landmarks.xyz[i], mapped[i + 1] - landmarks.xyz[i + 1],
                                         mapped[i + 2] - landmarks.xyz[i + 2]));
   const Valve trial = copy_of(made.valve.get());
-  for (const double opening : {0.0, 0.5, 1.0}) {
+  for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     check(riis_valve_set_scalar(trial.get(), "opening", opening));
     riis_surface *surface = nullptr;
     const riis_status status = riis_surface_create(trial.get(), &made.where, &surface);
