@@ -25,6 +25,7 @@ import signal
 import socket
 import sys
 import tempfile
+import threading
 import webbrowser
 from pathlib import Path
 from typing import Any
@@ -43,11 +44,13 @@ _HEADERS = {
 }
 
 # The first page takes the key from the address, and hands it to trame's page. A page that was reloaded has it in the storage.
+# The server answers a wrong key by the first page again, which then forgets this key: it may be that of an earlier server.
 _FIRST_PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>riis view</title></head>
 <body><p id="text">riis view needs the whole address that it printed in its terminal, with the part behind #.</p>
 <script>
 "use strict";
+if (new URLSearchParams(location.search).has("secret")) sessionStorage.removeItem("riis-key");
 const given = location.hash.slice(1);
 if (/^[0-9a-f]{64}$/.test(given)) sessionStorage.setItem("riis-key", given);
 const key = sessionStorage.getItem("riis-key");
@@ -72,6 +75,11 @@ def is_own(host: str, origin: str | None) -> bool:
 
 def is_key(given: str | None, key: str) -> bool:
     return given is not None and hmac.compare_digest(given.encode(), key.encode())
+
+
+def has_desktop() -> bool:
+    """Returns whether a browser can show the page. Without a desktop, Python would start a browser of text in the terminal."""
+    return not sys.platform.startswith("linux") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))
 
 
 class Guard:
@@ -161,6 +169,7 @@ class Guard:
         opener = self._write("open.html", _OPENER.format(address=address))
         print(f"riis view: open {address}", flush=True)
         print("The address is a key to your mesh: do not pass it on. Ctrl C ends riis view.", flush=True)
-        if browser:
-            # A browser shows its words to every user of the machine, so it gets the path of a file.
-            webbrowser.open(opener.as_uri())
+        if browser and has_desktop():
+            # A command line is visible to every user of the machine, so the browser gets the path of a file. Some browsers keep
+            # their caller waiting, so a thread calls them.
+            threading.Thread(target=webbrowser.open, args=(opener.as_uri(),), daemon=True).start()
