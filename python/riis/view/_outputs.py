@@ -308,6 +308,8 @@ def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
     if root.get("version") != _VERSION:
         raise refuse(f"path: {path!r} has the version {root.get('version')!r}; this release reads {_VERSION}")
     try:
+        if root["mesh"] is not None and not isinstance(root["mesh"], str):
+            raise ValueError(f"mesh is {root['mesh']!r}")
         if root["unit"] is not None and root["unit"] not in UNITS:
             raise ValueError(f"unit is {root['unit']!r}")
         root["time"], root["n_nodes"] = float(root["time"]), int(root["n_nodes"])

@@ -594,7 +594,7 @@ class Model(Valves):
             raise refuse(f"mesh: is None; pass the arrays of {root['mesh'] or 'the mesh'}, or a function that reads them")
         made = cls(**{"path": root["mesh"], "unit": root["unit"], "_near": arrays.pop("near", False), **arrays})
         made.restore(path)
-        made._undo.clear()
+        made.forget_steps()
         return made
 
 
