@@ -26,7 +26,8 @@ def _parser() -> argparse.ArgumentParser:
 def _say_missing(error: ImportError) -> int:
     """Says which package is missing, or why a package that is there cannot be loaded."""
     is_missing = isinstance(error, ModuleNotFoundError) and error.name
-    print(f"riis view: {error.name} is missing: pip install 'riis[view]'" if is_missing else f"riis view: {error}", file=sys.stderr)
+    text = f"{error.name} is missing: pip install 'riis[view]'" if is_missing else str(error)
+    print(f"riis view: {text}", file=sys.stderr)
     return 1
 
 
