@@ -194,6 +194,10 @@ def test_a_page_loses_nothing(tmp_path):
         assert page.model.valves == before and page.scene.size == (640, 490)
         assert (tmp_path / "valve.mp4").read_bytes()[4:8] == b"ftyp" and not list(tmp_path.glob(".*"))
 
+        page.model.set_cycle(None)  # a surface that moves also gives a case of many times
+        page.model.add_surface([numpy.eye(3), 2 * numpy.eye(3)], [[0, 1, 2]], times=[0.0, 0.5], path="leaflet.pvd")
+        assert len(json.loads(page._text("case"))["times"]) == 51
+
     asyncio.run(use())
 
 

@@ -347,7 +347,7 @@ class Page(saving.Files):
         return float(numpy.linalg.norm(points - numpy.asarray(self._valve().origin), axis=1).max())
 
     def _touch(self) -> None:
-        """Asks for a new picture."""
+        """Makes the picture stale, so that a new one is drawn."""
         self._stale = True
         with self.state as state:
             state.fresh = False

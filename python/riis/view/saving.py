@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files that the page of riis view writes: what is seen, for the program, for solvers and for reports."""
+"""The files that the page of riis view writes, for the program, for solvers and for reports."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class Files:
     def _text(self, name: str) -> str:
         if name not in TEXTS:
             raise reading.Refusal(f"text: '{name}' is not one of {', '.join(TEXTS)}")
-        if name == "case" and any(valve.cycle is not None for valve in self.model.valves):
+        if name == "case" and any(self.model.period(k) > 0.0 for k in range(len(self.model.valves))):
             return str(self.model.case(numpy.linspace(0.0, float(self.state.period), 51)))
         if name == "command":
             base = str(self.folder / self._name())
