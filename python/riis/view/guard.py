@@ -19,6 +19,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import os
+import re
 import secrets
 import shutil
 import signal
@@ -29,8 +30,6 @@ import threading
 import webbrowser
 from pathlib import Path
 from typing import Any
-
-_HOSTS = ("127.0.0.1", "localhost")
 
 # Vue compiles the page's template in the browser, which needs 'unsafe-eval'. Nothing is loaded from another origin.
 _HEADERS = {
@@ -69,8 +68,8 @@ _OPENER = """<!DOCTYPE html>
 
 def is_own(host: str, origin: str | None) -> bool:
     """Returns whether a request has an address of this machine as its host, and comes from a page of the same address."""
-    name = host.rsplit(":", 1)[0] if ":" in host else host
-    return name.lower() in _HOSTS and (origin is None or origin.lower() == f"http://{host.lower()}")
+    is_own_host = re.fullmatch(r"(127\.0\.0\.1|localhost)(:[0-9]+)?", host, re.IGNORECASE)
+    return is_own_host is not None and (origin is None or origin.lower() == f"http://{host.lower()}")
 
 
 def is_key(given: str | None, key: str) -> bool:
