@@ -58,7 +58,10 @@ def test_hosts_and_origins():
         assert guard.is_own(host, None) and guard.is_own(host, f"http://{host}")
         for origin in "http://evil.example", f"https://{host}", f"http://{host}.evil.example", "null", "", "http://127.0.0.1:81":
             assert not guard.is_own(host, origin), (host, origin)
-    for host in "evil.example", "127.0.0.1.evil.example", "", ":80", "10.0.0.1:80", "127.0.0.2:80", "[::1]:80", "localhost:80 x", "127x0.0.1":
+    for host in (
+        "evil.example", "127.0.0.1.evil.example", "", ":80", "10.0.0.1:80", "127.0.0.2:80", "[::1]:80",
+        "localhost:80 x", "127x0.0.1",
+    ):  # fmt: skip
         assert not guard.is_own(host, None) and not guard.is_own(host, f"http://{host}")
     assert guard.is_key("ab", "ab")
     assert not any(guard.is_key(given, "ab") for given in (None, "", "a", "abc", "AB", "äb", "wslink-secret"))
