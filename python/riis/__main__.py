@@ -15,12 +15,20 @@ def _parser() -> argparse.ArgumentParser:
         "view", help="show a valve in a mesh, in a browser", description="Shows a valve in a mesh, in a browser on this machine."
     )
     view.add_argument("mesh", nargs="?", metavar="MESH", help="a mesh: .vtu, .vtk, .pvtu, .msh, .xdmf; or the page opens one")
-    view.add_argument("--open", metavar="FILE", dest="saved", help="a saved view, which names its mesh")
+    view.add_argument("--open", metavar="FILE", dest="saved", help="a saved view; it names its mesh, unless MESH is given")
     view.add_argument("--unit", choices=("mm", "cm", "m"), help="the unit of the mesh; not known unless given")
     view.add_argument("--folder", default=".", help="where the page writes files; the current folder unless given")
     view.add_argument("--port", type=int, default=0, help="the port on 127.0.0.1; a free one unless given")
     view.add_argument("--no-browser", action="store_true", help="print the address, and open no browser")
     return parser
+
+
+def _say_missing(error: ImportError) -> int:
+    """Says which package is missing, or why a package that is there cannot be loaded."""
+    is_missing = isinstance(error, ModuleNotFoundError) and error.name
+    text = f"{error.name} is missing: pip install 'riis[view]'" if is_missing else str(error)
+    print(f"riis view: {text}", file=sys.stderr)
+    return 1
 
 
 def main(words: list[str] | None = None) -> int:
@@ -38,9 +46,8 @@ def main(words: list[str] | None = None) -> int:
         return 2
     try:
         from riis.view.page import Page
-    except ImportError as missing:
-        print(f"riis view: {missing.name or missing} is missing: pip install 'riis[view]'", file=sys.stderr)
-        return 1
+    except ImportError as error:
+        return _say_missing(error)
     try:
         path = None if options.mesh is None else os.path.abspath(options.mesh)
         saved = None if options.saved is None else os.path.abspath(options.saved)
@@ -48,9 +55,8 @@ def main(words: list[str] | None = None) -> int:
     except (RuntimeError, OSError) as error:
         print(f"riis view: {error}", file=sys.stderr)
         return 1
-    except ImportError as missing:
-        print(f"riis view: {missing.name or missing} is missing: pip install 'riis[view]'", file=sys.stderr)
-        return 1
+    except ImportError as error:
+        return _say_missing(error)
     return 0
 
 

@@ -746,6 +746,10 @@ def test_a_session_opens_as_it_was(tmp_path, small, random):
 # ---- Refusals ----
 
 
+NAN, INF = float("nan"), float("inf")
+LAW = {"times": [0.0, 1.0], "openings": [0.0, 1.0], "interpolation": "linear"}
+
+
 def damaged(tmp_path, small, change):
     model = view.Model(*small)
     model.add("coapting")
@@ -769,6 +773,12 @@ def test_refused_sessions(tmp_path, small):
         (lambda root: root["valves"][0].update(half_thickness=-1.0), "is damaged: half_thickness: is -1.0"),
         (lambda root: root["valves"][0].update(scale=0), "is damaged: scale: is 0"),
         (lambda root: root["valves"][0].update(origin=[0, 0]), "is damaged: ValueError"),
+        (lambda root: root["valves"][0].update(time=NAN), "is damaged: time: is nan; it must be a finite number"),
+        (lambda root: root["valves"][0].update(cycle={"source": 1, "period": 1.0, "law": {}}), "source of the cycle is 1"),
+        (lambda root: root["valves"][0].update(cycle={"source": "", "period": -1.0, "law": LAW}), "period: is -1.0; it must be"),
+        (lambda root: root["valves"].append(root["valves"][0]), "the names of the valves are coapting, coapting"),
+        (lambda root: root.update(time=INF), "is damaged: time: is inf; it must be a finite number"),
+        (lambda root: root.update(mesh=7), "is damaged: ValueError mesh is 7"),
         (lambda root: root["valves"][0]["parameters"].update(gap=1e99), "parameter 'gap' is 1e\\+99"),
     ]:
         with pytest.raises(riis.Error, match=message):
@@ -779,9 +789,6 @@ def test_refused_sessions(tmp_path, small):
     view.Model(*small, path="m.vtu").save(tmp_path / "s.json")
     with pytest.raises(riis.InvalidArgumentError, match="mesh: is None; pass the arrays of m.vtu, or a function that reads them"):
         view.Model.load(tmp_path / "s.json")
-
-
-NAN, INF = float("nan"), float("inf")
 
 
 @pytest.mark.parametrize("change, error, message", [

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,6 +27,7 @@ from wslink import chunking  # noqa: E402
 from riis.__main__ import main  # noqa: E402
 from riis.view import guard, reading, scene  # noqa: E402
 from riis.view.model import Model  # noqa: E402
+from riis.view.page import Page  # noqa: E402
 
 
 def box(n=12):
@@ -44,9 +46,10 @@ def server(tmp_path_factory):
     folder = tmp_path_factory.mktemp("view")
     box().save(folder / "box.vtu")
     words = [sys.executable, "-W", "ignore", "-m", "riis", "view", str(folder / "box.vtu"), "--no-browser"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as process:
+    environment = os.environ | {"XDG_RUNTIME_DIR": str(folder)}
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment) as process:
         found = re.search(r"http://127\.0\.0\.1:(\d+)/#([0-9a-f]{64})", process.stdout.readline())
-        yield process, int(found[1]), found[2]
+        yield process, int(found[1]), found[2], folder
         process.kill()
 
 
@@ -55,14 +58,17 @@ def test_hosts_and_origins():
         assert guard.is_own(host, None) and guard.is_own(host, f"http://{host}")
         for origin in "http://evil.example", f"https://{host}", f"http://{host}.evil.example", "null", "", "http://127.0.0.1:81":
             assert not guard.is_own(host, origin), (host, origin)
-    for host in "evil.example", "127.0.0.1.evil.example", "", ":80", "10.0.0.1:80", "127.0.0.2:80", "[::1]:80":
+    for host in (
+        "evil.example", "127.0.0.1.evil.example", "", ":80", "10.0.0.1:80", "127.0.0.2:80", "[::1]:80",
+        "localhost:80 x", "127x0.0.1",
+    ):  # fmt: skip
         assert not guard.is_own(host, None) and not guard.is_own(host, f"http://{host}")
     assert guard.is_key("ab", "ab")
     assert not any(guard.is_key(given, "ab") for given in (None, "", "a", "abc", "AB", "äb", "wslink-secret"))
 
 
 def test_the_key_opens_the_socket_and_nothing_else_does(server):
-    process, port, key = server
+    process, port, key, folder = server
     root = f"127.0.0.1:{port}"
 
     async def hello(session, secret):
@@ -114,8 +120,88 @@ def test_the_key_opens_the_socket_and_nothing_else_does(server):
     asyncio.run(try_all())
     words = [open(f"/proc/{number}/cmdline", "rb").read() for number in os.listdir("/proc") if number == str(process.pid)]
     assert len(words) == 1 and key.encode() not in words[0]
+    (keys,) = folder.glob("riis-view-*")
+    assert keys.stat().st_mode & 0o777 == 0o700
+    assert sorted(path.name for path in keys.iterdir()) == ["key", "open.html"]
+    assert all(path.stat().st_mode & 0o777 == 0o600 and key in path.read_text() for path in keys.iterdir())
     process.send_signal(signal.SIGTERM)
     assert process.wait(30) == 0
+    assert not keys.exists()
+
+
+def test_a_browser_needs_a_desktop(monkeypatch):
+    monkeypatch.setattr(sys, "platform", "linux")
+    for name in "DISPLAY", "WAYLAND_DISPLAY", "BROWSER":
+        monkeypatch.delenv(name, raising=False)
+    assert not guard.has_desktop()
+    monkeypatch.setenv("WAYLAND_DISPLAY", "wayland-0")
+    assert guard.has_desktop()
+
+
+def test_a_page_loses_nothing(tmp_path):
+    """Undo, refusals, and changes while a movie is being written leave the page as it was."""
+    pytest.importorskip("imageio_ffmpeg", reason="imageio-ffmpeg is missing; ./run python installs it")
+    try:
+        scene.check_of_graphics()
+    except RuntimeError as missing:
+        pytest.skip(str(missing))
+    box().save(tmp_path / "box.vtu")
+    box(10).save(tmp_path / "other.vtu")
+
+    async def use():
+        page = Page(None, folder=str(tmp_path))
+
+        def tell(function, *values):
+            page._told(function)(*values)
+            return page.state.message
+
+        async def tell_task(work):
+            page._begin_task(work)
+            while page._tasks:
+                await asyncio.wait(page._tasks)
+            return page.state.message
+
+        assert await tell_task(page._read(str(tmp_path / "box.vtu"))) == ""
+        assert tell(page._on_undo) == "" and len(page.model.valves) == 1  # the page's own first valve is no step
+        assert "the last valve stays" in tell(page._on_remove) and len(page.model.valves) == 1
+
+        page.state.message = ""
+        page.model.save(tmp_path / "valve.view.json")
+        root = json.loads((tmp_path / "valve.view.json").read_text())
+        (tmp_path / "wrong.view.json").write_text(json.dumps(root | {"mesh": str(tmp_path / "other.vtu")}))
+        (tmp_path / "empty.view.json").write_text(json.dumps(root | {"valves": []}))
+        model = page.model
+        for name, text in (("wrong", "is of a mesh with 1728 nodes; this one has 1000"), ("empty", "has no valves")):
+            assert text in await tell_task(page._reopen(str(tmp_path / f"{name}.view.json")))
+            assert page.model is model and page.state.path.endswith("box.vtu")
+        page.model.set(0, "half_thickness", 0.2)
+        assert "opened" in await tell_task(page._reopen(str(tmp_path / "valve.view.json")))
+        assert page.model is model and page.model.valves[0].half_thickness == root["valves"][0]["half_thickness"]
+        shutil.copy(tmp_path / "box.vtu", tmp_path / "moved.vtu")
+        assert "opened" in await tell_task(page._reopen(str(tmp_path / "valve.view.json"), str(tmp_path / "moved.vtu")))
+        assert page.state.path.endswith("moved.vtu") and not page.model.can_undo
+
+        page._need_cycle()
+        before = page.model.valves
+        (tmp_path / "valve.mp4").write_text("an older movie")
+        work = asyncio.ensure_future(page._movie(tmp_path / "valve.mp4", n_frames=3))
+        await asyncio.sleep(0)
+        for call, values in ((page._on_set, ("half_thickness", "0.3")), (page._on_undo, ()), (page._on_write, ("movie",))):
+            page.state.message = ""
+            assert tell(call, *values) == "a movie is being written; wait until this is done"
+        page._on_size(640, 490)
+        with pytest.raises(reading.Refusal, match="a movie is being written"):
+            await page._read(str(tmp_path / "other.vtu"))
+        assert not work.done() and page.scene.size == (896, 688)
+        await work
+        assert page.model.valves == before and page.scene.size == (640, 490)
+        assert (tmp_path / "valve.mp4").read_bytes()[4:8] == b"ftyp" and not list(tmp_path.glob(".*"))
+
+        page.model.set_cycle(None)  # a surface that moves also gives a case of many times
+        page.model.add_surface([numpy.eye(3), 2 * numpy.eye(3)], [[0, 1, 2]], times=[0.0, 0.5], path="leaflet.pvd")
+        assert len(json.loads(page._text("case"))["times"]) == 51
+
+    asyncio.run(use())
 
 
 def test_missing_graphics_name_their_packages(monkeypatch):

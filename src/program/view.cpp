@@ -19,7 +19,7 @@ extern char **environ;
 namespace riis::program {
 namespace {
 
-// Runs the words as a program that is looked for in PATH, without output. Returns its exit status, or -1 if it cannot be run.
+// Runs the words as a program that is looked for in PATH, without messages. Returns its exit status, or -1 if it cannot be run.
 int status_of(const std::vector<const char *> &words) {
   posix_spawn_file_actions_t files;
   if (posix_spawn_file_actions_init(&files) != 0) return -1;

@@ -88,7 +88,7 @@ def _anterior(ends: Reals, leaflet: Any) -> Reals:
 
 
 def checked_clicks(points3: Any) -> Reals:
-    """Returns three points, or refuses what is no three points of a circle."""
+    """Returns three points, or refuses values that show no circle."""
     try:
         clicks = numpy.array(points3, numpy.float64)
     except (TypeError, ValueError):

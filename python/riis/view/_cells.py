@@ -94,7 +94,7 @@ def blocks_of(cells: Any, n_nodes: int, offsets: Any = None, types: Any = None) 
         starts = _array_of_ids(offsets, "offsets").ravel()
         nodes = nodes.ravel()
         n_cells = len(starts) - 1
-        if n_cells < 0 or (n_cells >= 0 and (starts[0] != 0 or starts[-1] != len(nodes) or (numpy.diff(starts) < 0).any())):
+        if n_cells < 0 or starts[0] != 0 or starts[-1] != len(nodes) or (numpy.diff(starts) < 0).any():
             raise InvalidArgumentError(
                 f"offsets: must ascend from 0 to {len(nodes)}, the length of cells; they go from "
                 f"{starts[0] if len(starts) else 'nothing'} to {starts[-1] if len(starts) else 'nothing'}"
@@ -151,7 +151,7 @@ def _alone(quads: Ids) -> Ids:
     """Returns the rows of the faces that only one cell has. A face of three nodes has its last node twice."""
     key = numpy.sort(quads, axis=1)
     is_triangle = quads[:, 2] == quads[:, 3]
-    # The three least nodes tell a face. Of a triangle these are its nodes, without the one that is there twice.
+    # The three least nodes tell a face. For a triangle these are its nodes, each once.
     second = numpy.where(is_triangle & (key[:, 0] == key[:, 1]), key[:, 2], key[:, 1])
     third = numpy.where(is_triangle, key[:, 3], key[:, 2])
     order = numpy.lexsort((third, second, key[:, 0]))

@@ -104,6 +104,11 @@ class Valves:
         finally:
             self._is_dragging, self._drag = False, None
 
+    def forget_steps(self) -> None:
+        """Makes the present valves the first ones: there is nothing to undo or to make again."""
+        self._undo.clear()
+        self._redo.clear()
+
     @property
     def can_undo(self) -> bool:
         return bool(self._undo)

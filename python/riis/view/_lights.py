@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The lights of the view: what is wrong with a valve in a mesh, where, and what cures it.
+"""The lights of the view name the faults of a valve in a mesh, their places and their cures.
 
 The limits of sizes are those of the warnings of the program (riis help warnings).
 """

@@ -22,7 +22,7 @@ from riis._errors import Error, InvalidArgumentError
 from riis.laws import OpeningTable, OpeningTimes
 from riis.view._valves import (
     KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
-    refuse, share,
+    number, refuse, share,
 )
 
 _FORMAT, _VERSION = "riis view", 1
@@ -34,9 +34,9 @@ def has_unit(states: Iterable[ValveState], unit: str | None) -> bool:
 
 
 def _check_paths(states: Iterable[ValveState]) -> None:
-    for number, state in enumerate(states):
+    for k, state in enumerate(states):
         if state.surface is not None and state.surface.path is None:
-            raise refuse(f"valve {number}: its surface has no file, so no other program can read it; add it with a path")
+            raise refuse(f"valve {k}: its surface has no file, so no other program can read it; add it with a path")
 
 
 def _nested(parameters: Mapping[str, Value]) -> dict[str, Any]:
@@ -202,9 +202,9 @@ def openfoam_of(states: tuple[ValveState, ...], unit: str | None, density: float
         raise refuse(f"density: is {density!r}; it must be above 0")
     metres = _METRES[unit] if unit is not None else 1.0
     lines = ["FoamFile { version 2.0; format ascii; class dictionary; object fvOptions; }", ""]
-    for number, state in enumerate(states):
+    for k, state in enumerate(states):
         if state.surface is not None:
-            raise refuse(f"valve {number}: is a surface from a file; OpenFOAM's plug-in takes only the kinds {', '.join(KINDS)}")
+            raise refuse(f"valve {k}: is a surface from a file; OpenFOAM's plug-in takes only the kinds {', '.join(KINDS)}")
         lines += [state.name, "{", "    type riisValve;", '    libs ("libriisFvOption.so");', "",
                   f"    rho {density!r};                  // [kg/m3]",
                   f"    resistance {state.resistance!r};  // [kg/(m s)]",
@@ -271,10 +271,12 @@ def _law_from(values: Mapping[str, Any]) -> OpeningTable | OpeningTimes:
 def _state_from(value: Mapping[str, Any]) -> ValveState:
     parameters: dict[str, Value] = {}
     for name, inner in value["parameters"].items():
-        for part, number in (inner.items() if isinstance(inner, dict) else (("", inner),)):
+        for part, size in (inner.items() if isinstance(inner, dict) else (("", inner),)):
             full = f"{name}.{part}" if part else name
-            parameters[full] = tuple(float(x) for x in number) if isinstance(number, list) else float(number)
+            parameters[full] = tuple(float(x) for x in size) if isinstance(size, list) else float(size)
     cycle, surface = value.get("cycle"), value.get("surface")
+    if cycle is not None and not isinstance(cycle["source"], str):
+        raise ValueError(f"source of the cycle is {cycle['source']!r}")
     if value["kind"] not in (*KINDS, SURFACE) or (value["kind"] == SURFACE) != (surface is not None):
         raise ValueError(f"kind is {value['kind']!r}")
     if value["triangulation"] not in TRIANGULATIONS:
@@ -286,8 +288,8 @@ def _state_from(value: Mapping[str, Any]) -> ValveState:
         half_thickness=above_zero(value["half_thickness"], "half_thickness"),
         resistance=at_least_zero(value["resistance"], "resistance"), scale=above_zero(value["scale"], "scale"),
         rotation=(axis_x, axis_y, axis_z, angle), origin=(x, y, z), parameters=MappingProxyType(parameters),
-        triangulation=value["triangulation"], time=float(value["time"]),
-        cycle=None if cycle is None else Cycle(cycle["source"], _law_from(cycle["law"]), float(cycle["period"])),
+        triangulation=value["triangulation"], time=number(value["time"], "time"),
+        cycle=None if cycle is None else Cycle(cycle["source"], _law_from(cycle["law"]), above_zero(cycle["period"], "period")),
         surface=None if surface is None else SurfaceSource(
             _unpacked(surface["vertices"]), _unpacked(surface["faces"]),
             None if surface["leaflet_id"] is None else _unpacked(surface["leaflet_id"]),
@@ -308,10 +310,15 @@ def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
     if root.get("version") != _VERSION:
         raise refuse(f"path: {path!r} has the version {root.get('version')!r}; this release reads {_VERSION}")
     try:
+        if root["mesh"] is not None and not isinstance(root["mesh"], str):
+            raise ValueError(f"mesh is {root['mesh']!r}")
         if root["unit"] is not None and root["unit"] not in UNITS:
             raise ValueError(f"unit is {root['unit']!r}")
-        root["time"], root["n_nodes"] = float(root["time"]), int(root["n_nodes"])
+        root["time"], root["n_nodes"] = number(root["time"], "time"), int(root["n_nodes"])
         states = tuple(_state_from(value) for value in root["valves"])
+        names = [state.name for state in states]
+        if len(set(names)) < len(names):
+            raise ValueError(f"the names of the valves are {', '.join(names)}; they must differ")
     except Error as error:
         raise type(error)(f"path: {path!r} is damaged: {error}") from None
     except (AttributeError, KeyError, TypeError, ValueError, zlib.error) as error:

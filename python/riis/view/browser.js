@@ -3,7 +3,7 @@
 // server answers, so that a slow server skips pictures and never lags behind the hand.
 "use strict";
 (() => {
-  let image = null, busy = false, gesture = null, start = null;
+  let image = null, busy = false, gesture = null, ended = false, start = null;
 
   const send = (name, ...values) => window.trame.trigger(name, values);
 
@@ -11,14 +11,27 @@
     if (busy) return;
     busy = true;
     try {
-      while (gesture) {
-        const { kind, dx, dy, shift } = gesture;
-        gesture = null;
-        await send("riis_gesture", kind, dx, dy, shift);
+      while (gesture || ended) {
+        if (gesture) {
+          const { kind, dx, dy, shift } = gesture;
+          gesture = null;
+          await send("riis_gesture", kind, dx, dy, shift);
+        } else {  // after the last gesture, which may have waited for an answer
+          ended = false;
+          await send("riis_gesture_ends");
+        }
       }
     } finally {
       busy = false;
     }
+  }
+
+  function end() {
+    if (start && start.moved) {
+      ended = true;
+      sendGesture();
+    }
+    start = null;
   }
 
   // dx and dy are parts of the picture's height, upwards and to the right.
@@ -63,9 +76,9 @@
         const { left, top, width, height } = shape();
         send("riis_click", (event.offsetX - left) / width, 1 - (event.offsetY - top) / height);
       }
-      if (start && start.moved) send("riis_gesture_ends");
-      start = null;
+      end();
     });
+    image.addEventListener("pointercancel", end);
     image.addEventListener("wheel", (event) => {
       add("zoom", 0, -event.deltaY / 1000, false);
       event.preventDefault();
@@ -77,8 +90,9 @@
 
   window.addEventListener("keydown", (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.target.matches("input, textarea")) return;
-    if (event.key === "z") send(event.shiftKey ? "riis_redo" : "riis_undo");
-    else if (event.key === "y") send("riis_redo");
+    const key = event.key.toLowerCase();  // with Shift it is "Z"
+    if (key === "z") send(event.shiftKey ? "riis_redo" : "riis_undo");
+    else if (key === "y") send("riis_redo");
     else return;
     event.preventDefault();
   });

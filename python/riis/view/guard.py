@@ -19,17 +19,17 @@ from __future__ import annotations
 import asyncio
 import hmac
 import os
+import re
 import secrets
 import shutil
 import signal
 import socket
 import sys
 import tempfile
+import threading
 import webbrowser
 from pathlib import Path
 from typing import Any
-
-_HOSTS = ("127.0.0.1", "localhost")
 
 # Vue compiles the page's template in the browser, which needs 'unsafe-eval'. Nothing is loaded from another origin.
 _HEADERS = {
@@ -43,11 +43,13 @@ _HEADERS = {
 }
 
 # The first page takes the key from the address, and hands it to trame's page. A page that was reloaded has it in the storage.
+# The server answers a wrong key by the first page again, which then forgets this key: it may be that of an earlier server.
 _FIRST_PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>riis view</title></head>
 <body><p id="text">riis view needs the whole address that it printed in its terminal, with the part behind #.</p>
 <script>
 "use strict";
+if (new URLSearchParams(location.search).has("secret")) sessionStorage.removeItem("riis-key");
 const given = location.hash.slice(1);
 if (/^[0-9a-f]{64}$/.test(given)) sessionStorage.setItem("riis-key", given);
 const key = sessionStorage.getItem("riis-key");
@@ -66,12 +68,17 @@ _OPENER = """<!DOCTYPE html>
 
 def is_own(host: str, origin: str | None) -> bool:
     """Returns whether a request has an address of this machine as its host, and comes from a page of the same address."""
-    name = host.rsplit(":", 1)[0] if ":" in host else host
-    return name.lower() in _HOSTS and (origin is None or origin.lower() == f"http://{host.lower()}")
+    is_own_host = re.fullmatch(r"(127\.0\.0\.1|localhost)(:[0-9]+)?", host, re.IGNORECASE)
+    return is_own_host is not None and (origin is None or origin.lower() == f"http://{host.lower()}")
 
 
 def is_key(given: str | None, key: str) -> bool:
     return given is not None and hmac.compare_digest(given.encode(), key.encode())
+
+
+def has_desktop() -> bool:
+    """Returns whether a browser can show the page. Without a desktop, Python would start a browser of text in the terminal."""
+    return not sys.platform.startswith("linux") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))
 
 
 class Guard:
@@ -161,6 +168,7 @@ class Guard:
         opener = self._write("open.html", _OPENER.format(address=address))
         print(f"riis view: open {address}", flush=True)
         print("The address is a key to your mesh: do not pass it on. Ctrl C ends riis view.", flush=True)
-        if browser:
-            # A browser shows its words to every user of the machine, so it gets the path of a file.
-            webbrowser.open(opener.as_uri())
+        if browser and has_desktop():
+            # A command line is visible to every user of the machine, so the browser gets the path of a file. Some browsers keep
+            # their caller waiting, so a thread calls them.
+            threading.Thread(target=webbrowser.open, args=(opener.as_uri(),), daemon=True).start()

@@ -60,7 +60,7 @@ class ShownSurface(NamedTuple):
 
 
 class Shown(NamedTuple):
-    """What is seen: the valves, and the nodes and cells that they mark. Ids are the caller's, ascending."""
+    """The contents of a picture: the valves, and the nodes and cells that they mark. Ids are the caller's, ascending."""
 
     surfaces: tuple[ShownSurface, ...]
     marked: Ids  #: (n,)
@@ -140,11 +140,11 @@ class Model(Valves):
         return self._mesh.lower, self._mesh.upper
 
     def parameters(self, kind: str) -> list[Parameter]:
-        """Returns the sizes of a kind, those that matter first at the front."""
+        """Returns the sizes of a kind. The sizes that matter first are at the front."""
         return list(parameters_of(kind))
 
     def values(self, i: int) -> dict[str, Value]:
-        """Returns the present values of all parameters of a valve, also of those that were not set."""
+        """Returns the present values of all parameters of a valve, also of unset ones."""
         return values_of(self._at(i).state)
 
     def surface(self, i: int) -> Surface:
@@ -275,7 +275,7 @@ class Model(Valves):
     def place(
         self, i: int, origin: Any = None, axis: Any = None, reference: Any = None, scale: float | None = None
     ) -> None:
-        """Places a valve. What is None stays.
+        """Places a valve. Arguments that are None leave its placement as it is.
 
         origin     the place of the valve's own origin, mesh units
         axis       the direction of the valve's z axis, of any length. Without a reference the valve takes the smallest turn
@@ -303,8 +303,8 @@ class Model(Valves):
         """Places a valve and sizes it by three points of the annulus, so that its annulus goes through them.
 
         The first point tells how the valve is turned. With cusps the points are the nadirs, the lowest points of the attachment,
-        and the first is that of cusp 0, the right one of an aortic valve. Of a mitral valve the first is the middle of the
-        anterior leaflet, and the others are anywhere on the annulus. Of a bileaflet valve the first is at an end of its hinges.
+        and the first is that of cusp 0, the right one of an aortic valve. For a mitral valve the first is the middle of the
+        anterior leaflet, and the others are anywhere on the annulus. For a bileaflet valve the first is at an end of its hinges.
         The valve's axis stays on the side to which it points; ``flip`` turns it over. Lengths of the valve grow in proportion.
         """
         state = self._at(i).state
@@ -389,7 +389,7 @@ class Model(Valves):
     # ---- Lights ----
 
     def lights(self) -> list[Light]:
-        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. Of several valves the worst light counts.
+        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. Among several valves the worst counts.
 
         This takes longer than the marks: about half a second for 100,000 nodes, so a page calls it when the hand rests.
         """
@@ -544,16 +544,16 @@ class Model(Valves):
     # ---- Files ----
 
     def case(self, times: Any = None) -> str:
-        """Returns a case file of the program (riis help cases): what is seen, or with times the motion by the cycles."""
+        """Returns a case file of the program (riis help cases) of the present valves, or with times of their motion."""
         moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
         return _outputs.case_of(self.valves, self._unit, self._path, moments)
 
     def command(self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis") -> str:
-        """Returns the command that marks what is seen. Several valves need the file of ``case()``, under the name case."""
+        """Returns the command that gives the present marks. Several valves need the file of ``case()``, under the name case."""
         return _outputs.command_of(self.valves, self._unit, self._path, case, output, program)
 
     def python(self) -> str:
-        """Returns a script that marks what is seen: marks[NAME] for each valve, and K. Without a path it needs points."""
+        """Returns a script that gives the present marks: marks[NAME] for each valve, and K. Without a path it needs points."""
         return _outputs.python_of(self.valves, self._path)
 
     def openfoam(self, density: float = 1060.0) -> str:
@@ -594,7 +594,7 @@ class Model(Valves):
             raise refuse(f"mesh: is None; pass the arrays of {root['mesh'] or 'the mesh'}, or a function that reads them")
         made = cls(**{"path": root["mesh"], "unit": root["unit"], "_near": arrays.pop("near", False), **arrays})
         made.restore(path)
-        made._undo.clear()
+        made.forget_steps()
         return made
 
 

@@ -15,8 +15,8 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +60,7 @@ class Page(saving.Files):
         self._moved = asyncio.Event()
         self._unsettled, self._stale = False, True
         self._seen = asyncio.Event()
-        self._seen_number, self._seen_at, self._number = 0, time.monotonic(), 0
+        self._seen_at, self._number = time.monotonic(), 0
         self._drag: tuple[Any, float] | None = None
         self._drag_stack = ExitStack()
         self._held = False
@@ -69,7 +69,9 @@ class Page(saving.Files):
         self._text_name = "case"
         self._orifice_at = 0.0
         self._playing: asyncio.Task[None] | None = None
-        self._tasks: list[asyncio.Task[None]] = []
+        self._tasks: set[asyncio.Task[None]] = set()  # asyncio itself does not keep them
+        self._busy = ""  # what takes a while now, as a sentence
+        self._wanted_size: tuple[int, int] | None = None  # that a browser asked for during a movie
         self._shown: Any = None
         self._build()
 
@@ -115,7 +117,6 @@ class Page(saving.Files):
         for name in ("kind", "current", "wall", "cells", "tool", "time"):
             self.state.change(name)(self._told(getattr(self, f"_changed_{name}")))
         self.server.controller.on_server_ready.add(self._ready)
-        self.server.controller.on_client_exited.add(lambda **_: None)
 
     def _told(self, function: Callable[..., Any]) -> Callable[..., Any]:
         """Returns the function with its errors told in the page."""
@@ -129,14 +130,47 @@ class Page(saving.Files):
                 with self.state as state:
                     state.refusals += 1  # makes the fields anew, with the values that hold
                 self._show_numbers()
-            except Exception as error:  # a fault of the page itself; the server lives on
-                traceback.print_exc()
-                self._say(f"{type(error).__name__}: {error} (this is a fault of riis view; its terminal has the details)")
+            except Exception as error:
+                self._tell_fault(error)
             return None
 
         if not hasattr(told, "__name__"):
             told.__name__ = "told"
         return told
+
+    def _tell_fault(self, error: Exception) -> None:
+        """Tells a fault of the page itself. The server lives on."""
+        traceback.print_exc()
+        self._say(f"{type(error).__name__}: {error} (this is a fault of riis view; its terminal has the details)")
+
+    def _begin_task(self, work: Coroutine[Any, Any, None]) -> None:
+        """Begins a task, with its errors told in the page."""
+
+        async def told() -> None:
+            try:
+                await work
+            except saving.REFUSALS as error:
+                self._say(saving.text_of(error))
+            except Exception as error:
+                self._tell_fault(error)
+
+        task = asyncio.ensure_future(told())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def _need_idle(self) -> None:
+        if self._busy:
+            raise reading.Refusal(f"{self._busy}; wait until this is done")
+
+    @contextmanager
+    def _alone(self, what: str) -> Iterator[None]:
+        """While this lasts, no mesh is read and no movie is written besides."""
+        self._need_idle()
+        self._busy = what
+        try:
+            yield
+        finally:
+            self._busy = ""
 
     def _say(self, text: str, kind: str = "error") -> None:
         with self.state:
@@ -145,15 +179,11 @@ class Page(saving.Files):
             print(f"riis view: {text}", file=sys.stderr)
 
     def _ready(self, **_: Any) -> None:
-        self._tasks.append(asyncio.ensure_future(self._pictures()))
-        if self._begin_saved is not None or self._begin_path is not None:
-            self._tasks.append(asyncio.ensure_future(self._begin()))
-
-    async def _begin(self) -> None:
-        if self._begin_path is not None:
-            await self._read(self._begin_path)
+        self._begin_task(self._pictures())
         if self._begin_saved is not None:
-            await self._reopen(self._begin_saved)
+            self._begin_task(self._reopen(self._begin_saved, self._begin_path))
+        elif self._begin_path is not None:
+            self._begin_task(self._read(self._begin_path))
 
     # the mesh
 
@@ -163,9 +193,9 @@ class Page(saving.Files):
             return
         path = str(self.folder / os.path.expanduser(value))
         if name == "mesh":
-            self._tasks.append(asyncio.ensure_future(self._read(path)))
+            self._begin_task(self._read(path))
         elif name == "view":
-            self._tasks.append(asyncio.ensure_future(self._reopen(path)))
+            self._begin_task(self._reopen(path))
         elif name == "surface":
             self._need_model()
             self._end_drag()
@@ -173,31 +203,24 @@ class Page(saving.Files):
             self.state.current = len(self.model.valves) - 1
             self._renew_all()
 
-    async def _read(self, path: str) -> bool:
-        """Reads a mesh on a thread, and shows the progress. A mesh that cannot be read changes nothing."""
+    async def _read(self, path: str, saved: str | None = None) -> None:
+        """Reads a mesh, and a saved view of it, on a thread, and shows the progress. If one is refused, nothing changes."""
         parts = {"part": -1.0}
-        work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, parts)
-        try:
-            while not work.done():
-                with self.state as state:
-                    state.progress = round(100 * parts["part"]) if parts["part"] >= 0 else -1
-                    state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {os.path.basename(path)}"
-                await asyncio.wait([work], timeout=0.2)
-            grid, wall, model = work.result()
-        except saving.REFUSALS as error:
-            self._say(saving.text_of(error))
-            return False
-        except Exception as error:
-            traceback.print_exc()
-            self._say(f"{path}: {type(error).__name__}: {error}")
-            return False
-        finally:
-            with self.state:
-                self.state.progress = None
-        self._take(grid, wall, model, path)
-        return True
+        with self._alone(f"{os.path.basename(path)} is being read"):
+            work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, saved, parts)
+            try:
+                while not work.done():
+                    with self.state as state:
+                        state.progress = round(100 * parts["part"]) if parts["part"] >= 0 else -1
+                        state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {os.path.basename(path)}"
+                    await asyncio.wait([work], timeout=0.2)
+                grid, wall, model = work.result()
+            finally:
+                with self.state:
+                    self.state.progress = None
+            self._take(grid, wall, model, path)
 
-    def _make_model(self, path: str, parts: dict[str, float]) -> tuple[Any, Any, Any]:
+    def _make_model(self, path: str, saved: str | None, parts: dict[str, float]) -> tuple[Any, Any, Any]:
         grid = reading.read_mesh(path, parts)
         parts["part"] = -1.0
         make = Model.near if grid.n_points > MANY_NODES else Model
@@ -205,52 +228,54 @@ class Page(saving.Files):
             model = make(**reading.arrays_of(grid), unit=self._unit, path=path)
         except riis.Error as error:
             raise reading.Refusal(f"{path}: {error}") from error
+        if saved is not None:
+            model.restore(saved)
         return grid, boundary_of(grid), model
 
     def _take(self, grid: Any, wall: Any, model: Any, path: str) -> None:
+        if not model.valves:
+            model.add(self.state.kind)
+        model.forget_steps()  # the page always has a valve, so undo must not take the first one away
+        scene = Scene(model, grid, wall=wall, size=self.scene.size if self.scene is not None else (900, 700))
         self._pause()
-        size = self.scene.size if self.scene is not None else (900, 700)
+        self._end_drag()
         if self.scene is not None:
             self.scene.close()
-        self.model, self._grid = model, grid
-        self.scene = Scene(model, grid, wall=wall, size=size)
+        self.model, self.scene, self._grid, self._shown, self._clicks = model, scene, grid, None, []
         self.scene.show_wall(self.state.wall)
         self.scene.show_cells(self.state.cells)
         with self.state:
             self.state.path, self.state.loaded = path, True
             self.state.current, self.state.message = 0, ""
-            self.state.time, self.state.cycle, self.state.curves = 0.0, "", []
-        if not model.valves:
-            model.add(self.state.kind)
+            self.state.tool, self.state.n_clicks = "look", 0
+            self.state.time, self.state.cycle, self.state.curves = float(model.time), "", []
         self._refresh()
         self._look("oblique")
         self._renew_all()
 
-    async def _reopen(self, path: str) -> None:
-        try:
-            mesh = reading.mesh_of_saved(path)
-            if mesh is None:
-                self._need_model()
-            elif self.model is None or os.path.abspath(mesh) != os.path.abspath(self.state.path):
-                if not await self._read(mesh):
-                    return
-            self._pause()
+    async def _reopen(self, path: str, mesh: str | None = None) -> None:
+        """Opens a saved view, with its mesh, or with this mesh instead."""
+        mesh = mesh if mesh is not None else reading.mesh_of_saved(path)
+        if mesh is not None and (self.model is None or os.path.abspath(mesh) != os.path.abspath(self.state.path)):
+            await self._read(mesh, path)
+        else:
+            self._need_model()
             self._end_drag()
             self.model.restore(path)
-        except saving.REFUSALS as error:
-            self._say(saving.text_of(error))
-            return
-        self.state.current = 0
-        with self.state as state:
-            state.time = float(self.model.time)
-        self._renew_all()
-        self._look("oblique")
+            self._pause()
+            with self.state as state:
+                state.current, state.time = 0, float(self.model.time)
+            self._refresh()
+            self._look("oblique")
+            self._renew_all()
         self._say(f"opened {path}", "success")
 
-    def _need_model(self) -> Any:
+    def _need_model(self) -> None:
+        """Refuses if there is no mesh, or if a movie is being written, whose frames a change would spoil."""
         if self.model is None:
             raise reading.Refusal("open a mesh first")
-        return self.model
+        if self._busy == saving.FILMING:
+            self._need_idle()
 
     # what the page shows of the model
 
@@ -322,7 +347,7 @@ class Page(saving.Files):
         return float(numpy.linalg.norm(points - numpy.asarray(self._valve().origin), axis=1).max())
 
     def _touch(self) -> None:
-        """Asks for a new picture."""
+        """Makes the picture stale, so that a new one is drawn."""
         self._stale = True
         with self.state as state:
             state.fresh = False
@@ -379,8 +404,11 @@ class Page(saving.Files):
             try:
                 await asyncio.wait_for(self._moved.wait(), REST if self._unsettled else None)
             except asyncio.TimeoutError:
-                if self.scene is not None:
+                if self.scene is not None and self._busy != saving.FILMING:
                     self._told(self._settle)()
+                continue
+            if self._busy == saving.FILMING:  # a picture between two frames would change the size of the next
+                await asyncio.sleep(0.1)
                 continue
             self._moved.clear()
             if self.scene is None:
@@ -412,7 +440,9 @@ class Page(saving.Files):
             self._seen.set()
 
     def _on_size(self, width: float, height: float) -> None:
-        if self.scene is not None and width > 0 and height > 0:
+        if self._busy == saving.FILMING:
+            self._wanted_size = int(width), int(height)
+        elif self.scene is not None and width > 0 and height > 0:
             self.scene.resize(int(width), int(height))
             self._moved.set()
 
@@ -429,6 +459,7 @@ class Page(saving.Files):
 
     def _move(self, change: Callable[[], Any], what: Any) -> None:
         """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo."""
+        self._need_model()
         now = time.monotonic()
         if self._drag is None or self._drag[0] != what or (not self._held and now - self._drag[1] > 0.7):
             self._end_drag()
@@ -459,6 +490,7 @@ class Page(saving.Files):
     def _changed_kind(self) -> None:
         if self.model is None or self.state.is_surface or self.state.kind == self._valve().kind:
             return
+        self._need_model()
         self._end_drag()
         self.model.change_kind(self.state.current, self.state.kind)
         self._renew_all()
@@ -477,6 +509,8 @@ class Page(saving.Files):
 
     def _on_remove(self) -> None:
         self._need_model()
+        if len(self.model.valves) < 2:
+            raise reading.Refusal("the last valve stays; choose another kind of valve instead")
         self._end_drag()
         self.model.remove(self.state.current)
         self._renew_all()
@@ -535,6 +569,7 @@ class Page(saving.Files):
     def _on_click(self, x: float, y: float) -> None:
         if self.scene is None or self.state.tool != "click":
             return
+        self._need_model()
         point = self.scene.pick(x, y)
         if point is None:
             raise reading.Refusal("the click met no wall of the mesh; click on the wall where the annulus is")
@@ -561,7 +596,7 @@ class Page(saving.Files):
             self._moved.set()
 
     def _on_gesture(self, kind: str, dx: float, dy: float, shift: bool) -> None:
-        if self.scene is None:
+        if self.scene is None or self._busy == saving.FILMING:
             return
         tool = self.state.tool if kind == "tool" else kind
         if tool == "zoom":
@@ -656,8 +691,12 @@ class Page(saving.Files):
     def _changed_time(self) -> None:
         if self.model is None or self.state.playing or math.isclose(float(self.state.time), self.model.time, abs_tol=1e-12):
             return
-        self._need_cycle()
-        self._at(float(self.state.time))
+        self._need_model()
+        seconds = float(self.state.time)
+        self._need_cycle()  # a new cycle begins at 0
+        self._at(seconds)
+        with self.state as state:
+            state.time = seconds
 
     def _at(self, seconds: float) -> None:
         self._end_drag()

@@ -105,13 +105,13 @@ def read_surface(path: str) -> dict[str, Any]:
     try:
         reader = pyvista.get_reader(path)
         if ending != ".pvd":
-            frames, times = [_triangles_of(reader.read())], None
+            frames, times = [_triangles_of(reader.read(), path)], None
         else:
             times = numpy.array(reader.time_values, float)
             frames = []
             for value in times:
                 reader.set_active_time_value(value)
-                frames.append(_triangles_of(reader.read()[0]))
+                frames.append(_triangles_of(reader.read()[0], path))
     except Refusal:
         raise
     except Exception as error:  # PyVista raises many kinds for files that it cannot parse
@@ -129,11 +129,11 @@ def read_surface(path: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _triangles_of(data: Any) -> Any:
+def _triangles_of(data: Any, path: str) -> Any:
     import pyvista
 
     if not isinstance(data, pyvista.PolyData):
-        raise Refusal(f"holds {type(data).__name__}, not a surface")
+        raise Refusal(f"{path}: holds {type(data).__name__}, not a surface")
     return data.triangulate()
 
 
@@ -143,7 +143,10 @@ def mesh_of_saved(path: str) -> str | None:
 
     if not os.path.isfile(path):
         raise Refusal(f"{path}: there is no such file")
-    return read_session(path)[0]["mesh"]
+    root, valves = read_session(path)
+    if not valves:
+        raise Refusal(f"{path}: has no valves")
+    return root["mesh"]
 
 
 def number_of(value: Any, name: str) -> float:

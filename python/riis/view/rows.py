@@ -96,7 +96,7 @@ def placement_of(valve: Any) -> list[dict[str, Any]]:
         row("origin", "Centre", [_number(x) for x in valve.origin], "the valve's origin, in the mesh's unit"),
         row("axis", "Axis", direction(valve.axis), "the direction of the flow, of any length"),
         row("reference", "Turn", direction(valve.reference), "the direction of the valve's x axis, of any length"),
-        row("scale", "Scale", [_number(valve.scale)], "the mesh's units in one of the valve's"),
+        row("scale", "Scale", [_number(valve.scale)], "the length of a centimetre of the valve, in the mesh's unit"),
     ]
 
 

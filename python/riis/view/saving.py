@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files that the page of riis view writes: what is seen, for the program, for solvers and for reports."""
+"""The files that the page of riis view writes, for the program, for solvers and for reports."""
 
 from __future__ import annotations
 
 import asyncio
+import os
 import shlex
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,8 @@ TEXTS = {"case": "Case file", "command": "Command", "python": "Python", "openfoa
 _TEXT_ENDINGS = {"case": ".case.json", "command": ".sh", "python": ".py", "openfoam": ".foam.txt"}
 WRITES = {"view": "This view", "mesh": "Marked mesh", "picture": "Picture", "movie": "Movie"}
 _WRITE_ENDINGS = {"view": ".view.json", "mesh": ".vtu", "picture": ".png", "movie": ".mp4"}
+FILMING = "a movie is being written"
+_NO_FILMS = "a movie needs imageio and imageio-ffmpeg: pip install imageio imageio-ffmpeg"
 
 # Errors that a person's input causes. Their message goes to the page. Other exceptions go to stderr as well.
 REFUSALS = (riis.Error, OSError, ValueError, TypeError, KeyError, ImportError, reading.Refusal)
@@ -37,7 +40,10 @@ class Files:
     _grid: Any
     _written: set[Path]
     _text_name: str
-    _tasks: list[Any]
+    _wanted_size: tuple[int, int] | None
+    _alone: Any
+    _begin_task: Any
+    _need_idle: Any
     _need_model: Any
     _need_cycle: Any
     _pause: Any
@@ -56,7 +62,7 @@ class Files:
     def _text(self, name: str) -> str:
         if name not in TEXTS:
             raise reading.Refusal(f"text: '{name}' is not one of {', '.join(TEXTS)}")
-        if name == "case" and any(valve.cycle is not None for valve in self.model.valves):
+        if name == "case" and any(self.model.period(k) > 0.0 for k in range(len(self.model.valves))):
             return str(self.model.case(numpy.linspace(0.0, float(self.state.period), 51)))
         if name == "command":
             base = str(self.folder / self._name())
@@ -98,7 +104,8 @@ class Files:
             raise reading.Refusal(f"file: '{name}' is not one of {', '.join(WRITES)}")
         path = self._path(_WRITE_ENDINGS[name])
         if name == "movie":
-            self._tasks.append(asyncio.ensure_future(self._movie(path)))
+            self._need_idle()
+            self._begin_task(self._movie(path))
             return
         if name == "view":
             self.model.save(str(path))
@@ -110,32 +117,37 @@ class Files:
         self._wrote(path)
 
     async def _movie(self, path: Path, n_frames: int = 48) -> None:
-        """Writes one heartbeat as a movie. Browsers see its progress."""
-        self._pause()
-        self._need_cycle()
-        width, height = self.scene.size
+        """Writes one heartbeat as a movie. Browsers see its progress. A movie that fails leaves an older file as it is."""
         try:
             import imageio
-
-            self.scene.resize(width // 16 * 16, height // 16 * 16)  # as .mp4 needs
-            self.scene.sharpen()
-            with self.model.kept(), imageio.get_writer(str(path), fps=24) as writer:
-                for k in range(n_frames):
-                    self.model.at(k / n_frames * float(self.state.period))
-                    self._refresh()
-                    self._show_orifice()
-                    self.scene.rest()
-                    writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
-                    with self.state as state:
-                        state.progress, state.progress_text = round(100 * (k + 1) / n_frames), "Writing the movie"
-                    await asyncio.sleep(0)
-            self._wrote(path)
         except ImportError:
-            self._say("a movie needs imageio and imageio-ffmpeg: pip install imageio imageio-ffmpeg")
-        except REFUSALS as error:
-            self._say(text_of(error))
-        finally:
-            self.scene.resize(width, height)
-            with self.state as state:
-                state.progress = None
-            self._touch()
+            raise ImportError(_NO_FILMS) from None
+        self._pause()
+        self._need_cycle()
+        part = path.with_name(f".{path.stem}.part{path.suffix}")
+        with self._alone(FILMING):
+            size = self.scene.size
+            try:
+                self.scene.resize(*(length // 16 * 16 for length in size))  # as .mp4 needs
+                self.scene.sharpen()
+                with self.model.kept(), imageio.get_writer(str(part), fps=24) as writer:
+                    for k in range(n_frames):
+                        self.model.at(k / n_frames * float(self.state.period))
+                        self._refresh()
+                        self._show_orifice()
+                        self.scene.rest()
+                        writer.append_data(numpy.asarray(self.scene.plotter.screenshot(return_img=True)))
+                        with self.state as state:
+                            state.progress, state.progress_text = round(100 * (k + 1) / n_frames), "Writing the movie"
+                        await asyncio.sleep(0)
+                os.replace(part, path)
+            except ImportError:
+                raise ImportError(_NO_FILMS) from None
+            finally:
+                part.unlink(missing_ok=True)
+                self.scene.resize(*(self._wanted_size or size))
+                self._wanted_size = None
+                with self.state as state:
+                    state.progress, state.time = None, float(self.model.time)
+                self._touch()
+        self._wrote(path)
