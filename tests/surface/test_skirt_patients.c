@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Skirts of random patients. Landmarks with noise lie on a root whose cusps differ. A valve is placed and warped by them, and its
- * skirt leads to the wall of that root. RIIS_TEST_LONG=1 takes 100 patients at 11 openings instead of 4 at 3. */
+ * skirt leads to the wall of that root. RIIS_TEST_LONG=1 takes 100 patients at 11 openings instead of 4 at 3. One more patient
+ * is the same in every run. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -24,6 +25,10 @@ typedef struct root {
 enum { n_attachment = 18, n_landmarks = 6 + n_attachment, n_round = 132, n_high = 60 };
 
 static double radians(double degrees) { return degrees * acos(-1) / 180; }
+
+/* From this state, the random numbers give an aortic patient in whom one cusp's attachment leans over the plane along the axis
+ * through the ends of two cusps. Skirts on both sides of that plane would cross. */
+static const uint64_t state_of_leaning_patient = 3451592321834770229u;
 
 static root random_root(int is_wide) {
   root made;
@@ -195,15 +200,16 @@ static void skirts_of_patients_reach_the_wall(void **state) {
   (void)state;
   static const char *const kinds[4] = {"coapting", "trileaflet", "aortic", "mitral"};
   const int n_trials = is_long_test() ? 100 : 4;
-  int n_states = 0, n_with_leaflets = 0, n_folded = 0, n_crossed = 0;
+  int n_states = 0, n_with_leaflets = 0, n_folded = 0;
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
   double worst_reach = 0;
-  for (int trial = 0; trial < n_trials; ++trial) {
-    const int owned_before = n_owned(), kind = trial % 4, is_wide = trial / 4 % 2 == 0;
+  for (int trial = 0; trial <= n_trials; ++trial) {
+    const int is_leaning = trial == n_trials;
+    const int owned_before = n_owned(), kind = is_leaning ? 2 : trial % 4, is_wide = is_leaning || trial / 4 % 2 == 0;
+    if (is_leaning) rng.state = state_of_leaning_patient;
     const double noise = 0.3;
-    int is_crossed = 0;
     riis_valve *valve = new_valve(kinds[kind]);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     riis_surface_options options = surface_options();
@@ -241,10 +247,7 @@ static void skirts_of_patients_reach_the_wall(void **state) {
         const pair_counts counts = crossings_of(surface, crossings);
         n_with_leaflets += counts.of_leaflets > 0;
         ++n_states;
-        /* The ends of a warped aortic valve's cusps may pass each other side by side. Then the skirts cross (docs/theory.md). */
-        if (kind == 2 && counts.of_skirt > 0)
-          is_crossed = 1;
-        else if (counts.of_skirt + counts.of_own > 0)
+        if (counts.of_skirt + counts.of_own > 0)
           fail_msg("patient %d, %s, opening %g, %s: %d pairs with the skirt cross, and %d without", trial, kinds[kind],
                    0.1 * i, is_fixed ? "fixed" : "adapted", (int)(counts.of_skirt + counts.of_own),
                    (int)counts.of_leaflets);
@@ -271,7 +274,6 @@ static void skirts_of_patients_reach_the_wall(void **state) {
         }
         free_owned_after(owned_in_trial);
       }
-    n_crossed += is_crossed;
     free_owned_after(owned_before);
   }
   printf(
@@ -279,8 +281,7 @@ static void skirts_of_patients_reach_the_wall(void **state) {
       "warp folds\n",
       n_states, n_with_leaflets, n_folded);
   assert_true(n_states > 5 * n_folded);
-  printf("skirts of %d aortic patients cross\n", n_crossed);
-  assert_true(n_crossed <= 1 + n_trials / 25 && worst_reach > 0);
+  assert_true(worst_reach > 0);
 }
 
 static int start(void **state) {

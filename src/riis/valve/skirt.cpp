@@ -24,6 +24,8 @@ constexpr double most_between_ends = 0.5;
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine also falls to 0 if the line is nearer to the axis than this sine.
 constexpr double least_sine_to_axis = 0.2;
+// A side that is flatter than this sine leans less than its tangent does, and not at all if it is perpendicular to the axis.
+constexpr double least_rise = 0.5;
 // The derivative of a direction that was turned is a difference over two such shares of the length.
 constexpr double direction_step = 1e-4;
 
@@ -261,9 +263,15 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
   return made;
 }
 
-Vec3 direction_between(const AxisLine &axis, Vec3 before, Vec3 after) {
-  const Vec3 between = after - before, across = between - dot(between, axis.direction) * axis.direction;
-  const Vec3 out = outwards(axis, 0.5 * (before + after)), onwards = cross(axis.direction, out);
+Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
+  // Seen along `rise`, the two sides leave their ends to different sides. The planes of the skirts' ends contain it.
+  const auto lean = [&](Vec3 tangent) {
+    const double up = dot(tangent, axis.direction);
+    return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);
+  };
+  const Vec3 rise = axis.direction + 0.5 * (lean(before.tangent) + lean(after.tangent));
+  const Vec3 between = after.point - before.point, across = between - dot(between, axis.direction) * rise;
+  const Vec3 out = outwards(axis, 0.5 * (before.point + after.point)), onwards = cross(axis.direction, out);
   const double apart = length(across);
   if (!(apart > 0)) return out;
   // Both skirts are turned towards the end that lies farther outwards.
@@ -288,12 +296,13 @@ SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &si
   for (const NeighbourEnds &ends : set.neighbour_ends) {
     const std::size_t before = side_of(ends.before), after = side_of(ends.after);
     if (before == sides.size() || after == sides.size()) continue;
-    const auto point = [&](std::size_t side, bool is_last) {
+    const auto end = [&](std::size_t side, bool is_last) {
       const Curve &curve = set.curve_of(sides[side].side);
-      return is_last != sides[side].side.reversed ? curve.last() : curve.first();
+      const bool is_last_of_curve = is_last != sides[side].side.reversed;
+      return SideEnd{is_last_of_curve ? curve.last() : curve.first(), curve.frame(is_last_of_curve ? 1 : 0).tangent};
     };
     const Vec3 direction =
-        direction_between(axes_[before], point(before, ends.before.is_last), point(after, ends.after.is_last));
+        direction_between(axes_[before], end(before, ends.before.is_last), end(after, ends.after.is_last));
     view(ends_[before])[ends.before.is_last ? 1 : 0] =
         view(ends_[after])[ends.after.is_last ? 1 : 0] = {true, direction};
   }

@@ -40,9 +40,15 @@ inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with suc
 // at a commissure. Numbers the patches as they are after a warp, where each image is a patch of its own.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set);
 
-// Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes along the axis contain these ends
-// of the skirts, and each skirt is on its own side of them. The direction depends continuously on both points.
-Vec3 direction_between(const AxisLine &axis, Vec3 before, Vec3 after);
+// An end of a side, with the unit tangent there. The sign of the tangent does not matter.
+struct SideEnd {
+  Vec3 point, tangent;
+};
+
+// Returns the direction in which the skirts at two neighbouring ends lead. Two parallel planes contain these ends of the skirts,
+// and each skirt is on its own side of them. The planes lean as the two sides do on average. The direction depends continuously
+// on the points and the tangents.
+Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
 // The direction in which a skirt leads away from its attachment: outwards from the axis, except near neighbouring ends.
 class SkirtDirections {
