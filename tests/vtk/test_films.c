@@ -161,9 +161,9 @@ static void test_refusals(void **state) {
                  "lower[1] is nan, upper[1] is 3");
   expect_refused(riis_vtk_film_create(mesh, lower, turned, NULL, &film), RIIS_INVALID_ARGUMENT, "upper[1] is -4");
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  options.view = 7;
+  options.view = 99;
   expect_refused(riis_vtk_film_create(mesh, lower, upper, &options, &film), RIIS_INVALID_ARGUMENT,
-                 "options->view is 7");
+                 "options->view is 99");
   assert_null(film);
   film = make_film(mesh);
   expect_refused(riis_vtk_film_draw(NULL, surface, NULL, path), RIIS_INVALID_ARGUMENT, "film is NULL");
