@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops
-// of a time step run on OpenMP's threads or, after a long wait for one of them, on a team. No other file uses OpenMP.
+// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step run on OpenMP's
+// threads or, after a long wait for one of them, on a team. No other file uses OpenMP.
 #pragma once
 
 #include <omp.h>
@@ -127,8 +127,8 @@ int team_for(std::int64_t n_blocks, int n_threads, const Body &body, LoopChoice 
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   struct Loop {
     Blocks<Body> blocks;
-    std::int64_t n_of_caller,
-        has_worked;  // in the team: number of blocks that the calling thread ran, and when it had run them
+    std::int64_t n_of_caller;  // the number of blocks that the calling thread ran in the team
+    std::int64_t has_worked;   // when it had run them
   } loop{{n_blocks, body}, 0, 0};
   std::int64_t n_alone = 0, begin = nanoseconds();
   if (const std::int64_t time_alone = choice.time_alone(begin); time_alone > 0) {
@@ -159,8 +159,8 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
   if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
 #if defined(RIIS_STD_THREADS)
-  return team_for(n_blocks, n_threads, body,
-                  loop_choice);  // the thread sanitizer then sees the loops of a time step on a team
+  // The thread sanitizer then sees the loops of a time step on a team.
+  return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
   if (loop_choice.takes_team(begin)) return team_for(n_blocks, n_threads, body, loop_choice);
