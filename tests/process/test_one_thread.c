@@ -73,6 +73,9 @@ static riis_surface_options options_with(int32_t n_threads, int32_t triangulatio
   return options;
 }
 
+/* The open mitral valve has so many triangles that threads may start by default. */
+static void close_valve(riis_valve *valve) { CHECK_OK(riis_valve_set_scalar(valve, "opening", 0)); }
+
 static void check_surfaces(int32_t triangulation, double tolerance) {
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
   const riis_surface_options options = options_with(n_threads_asked, triangulation, tolerance);
@@ -84,8 +87,7 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
     riis_valve *valve = new_valve(kinds[k]), *before = new_valve(kinds[k]);
     riis_surface *surface = NULL;
     riis_crossing_list crossings;
-    /* The open mitral valve has so many triangles that threads may start by default. */
-    if (n_threads_asked == 0) CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+    if (n_threads_asked == 0) close_valve(valve);
     CALL_ALONE(riis_surface_create(valve, &options, &surface));
     own(surface);
     for (int step = 1; step < 4; ++step) {
@@ -170,6 +172,7 @@ static void check_markings(int64_t side) {
   fill_arrays(side);
   const riis_surface_options of_surface = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
   riis_valve *valve = new_valve("mitral");
+  close_valve(valve);
   riis_surface *surface = new_surface(valve, &of_surface);
   CALL_ALONE(riis_surface_update_moving(surface, valve, valve, 1, NULL, NULL));
   riis_mesh *mesh = NULL;
