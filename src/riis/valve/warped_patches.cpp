@@ -97,7 +97,7 @@ class Unfolding {
     CurveCopy copy{curve, image, first_[curve], {}, {}};
     for (const Bezier &piece : set_.curves[curve].pieces())
       copy.pieces.push_back(image ? moved_by(piece, [&](Vec3 p) { return place(*image, p); }) : piece);
-    if (!set_.rates.empty()) {
+    if (curve < set_.rates.size()) {  // a skirt's curves have no rates
       copy.rate = set_.rates[curve];
       if (image) {
         const PatchImage turn{image->mirror, image->rotation, {0, 0, 0}, 0, 0};
