@@ -295,29 +295,25 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
   // A marking with a limit that leaves out nothing: over the clusters of a prepared mesh, and node by node with Embree.
-  for (const auto &[name, search] : {std::pair{"riis, every distance of a prepared mesh", RIIS_SEARCH_CLUSTERS},
-                                     std::pair{"riis, every distance, node by node", RIIS_SEARCH_EXHAUSTIVE}}) {
+  const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));
     options.distance_limit = 1e60;
     options.search = search;
     options.n_threads = 1;
-    const auto mark = [&, options] { check(riis_mark_nodes(surface, mesh.get(), &options, result.get())); };
+    return [&, of, options] { check(riis_mark_nodes(of, mesh.get(), &options, result.get())); };
+  };
+  for (const auto &[name, search] : {std::pair{"riis, every distance of a prepared mesh", RIIS_SEARCH_CLUSTERS},
+                                     std::pair{"riis, every distance, node by node", RIIS_SEARCH_EXHAUSTIVE}}) {
+    const auto mark = marking(surface, search);
     mark();
     get_distances(result.get(), infinity, distance);
     add_right(name, n_slow_turns, mark);
   }
   const Surface fine_surface = made_surface(kind, fine);
   for (const auto &[name, search] : {std::pair{"riis, fine triangles, a prepared mesh", RIIS_SEARCH_CLUSTERS},
-                                     std::pair{"riis, fine triangles, node by node", RIIS_SEARCH_EXHAUSTIVE}}) {
-    riis_mark_options options;
-    check(riis_mark_options_init(&options, sizeof options));
-    options.distance_limit = 1e60;
-    options.search = search;
-    options.n_threads = 1;
-    contest.add(name, n_slow_turns,
-                [&, options] { check(riis_mark_nodes(fine_surface.get(), mesh.get(), &options, result.get())); });
-  }
+                                     std::pair{"riis, fine triangles, node by node", RIIS_SEARCH_EXHAUSTIVE}})
+    contest.add(name, n_slow_turns, marking(fine_surface.get(), search));
   std::vector<double> far_apart = nodes.xyz();
   for (double &coordinate : far_apart) coordinate *= wide;
   is_right = add_closest(contest, "riis, all fields", surface, nodes.xyz()) && is_right;

@@ -524,6 +524,17 @@ static void skirts_to_cutting_walls_cross_nothing(void **state) {
   assert_true(n_cut > n_trials / 4);
 }
 
+/* Puts landmark n on a random vertex of the attachment, and its target at most `most` away along each axis. Returns how many
+ * landmarks it made: none if the vertex is near an earlier landmark. */
+static int add_landmark(const riis_attachment *held, int n, double most, double *sources, double *targets) {
+  const double *p = held->edges + 3 * (int64_t)between(0, 2 * (double)held->n_edges - 0.5);
+  double nearest = INFINITY;
+  for (int k = 0; k < n; ++k) nearest = fmin(nearest, distance_between(p, sources + 3 * k));
+  if (nearest < 0.25) return 0;
+  for (int c = 0; c < 3; ++c) sources[3 * n + c] = p[c], targets[3 * n + c] = p[c] + between(-most, most);
+  return 1;
+}
+
 /* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. If a violent warp
  * lets the cusps themselves go through each other, the skirt is not judged. Nor is a patch that such a warp folds onto its own
  * skirt. */
@@ -540,14 +551,7 @@ static void skirts_of_warped_cusps_cross_nothing(void **state) {
     const riis_attachment held = attachment_of(new_surface(valve, NULL));
     double sources[3 * 12], targets[3 * 12];
     int n = 0;
-    while (n < 12) {
-      const double *p = held.edges + 3 * (int64_t)between(0, 2 * (double)held.n_edges - 0.5);
-      double nearest = INFINITY;
-      for (int k = 0; k < n; ++k) nearest = fmin(nearest, distance_between(p, sources + 3 * k));
-      if (nearest < 0.25) continue;
-      for (int c = 0; c < 3; ++c) sources[3 * n + c] = p[c], targets[3 * n + c] = p[c] + between(-0.09, 0.09);
-      ++n;
-    }
+    while (n < 12) n += add_landmark(&held, n, 0.09, sources, targets);
     riis_points from, to;
     CHECK_OK(riis_points_init(&from, sizeof from));
     from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;
@@ -657,14 +661,7 @@ static void skirts_move_continuously_with_a_warp(void **state) {
       ++n;
     }
     assert_true(distance_between(sources, sources + 3) < 0.2);
-    while (n < 12) {
-      const double *p = held.edges + 3 * (int64_t)between(0, 2 * (double)held.n_edges - 0.5);
-      double nearest = INFINITY;
-      for (int k = 0; k < n; ++k) nearest = fmin(nearest, distance_between(p, sources + 3 * k));
-      if (nearest < 0.25) continue;
-      for (int c = 0; c < 3; ++c) sources[3 * n + c] = p[c], targets[3 * n + c] = p[c] + between(-0.02, 0.02);
-      ++n;
-    }
+    while (n < 12) n += add_landmark(&held, n, 0.02, sources, targets);
     riis_points from;
     CHECK_OK(riis_points_init(&from, sizeof from));
     from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;

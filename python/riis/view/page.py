@@ -197,8 +197,7 @@ class Page(saving.Files):
         elif name == "view":
             self._begin_task(self._reopen(path))
         elif name == "surface":
-            self._need_model()
-            self._end_drag()
+            self._begin_change()
             self.model.add_surface(**reading.read_surface(path), path=path)
             self.state.current = len(self.model.valves) - 1
             self._renew_all()
@@ -259,8 +258,7 @@ class Page(saving.Files):
         if mesh is not None and (self.model is None or os.path.abspath(mesh) != os.path.abspath(self.state.path)):
             await self._read(mesh, path)
         else:
-            self._need_model()
-            self._end_drag()
+            self._begin_change()
             self.model.restore(path)
             self._pause()
             with self.state as state:
@@ -475,9 +473,12 @@ class Page(saving.Files):
         self._drag = None
         self._drag_stack.close()
 
-    def _on_set(self, name: str, value: Any) -> None:
+    def _begin_change(self) -> None:
         self._need_model()
         self._end_drag()
+
+    def _on_set(self, name: str, value: Any) -> None:
+        self._begin_change()
         if value is None:
             self.model.unset(self.state.current, name)
         else:
@@ -490,8 +491,7 @@ class Page(saving.Files):
     def _changed_kind(self) -> None:
         if self.model is None or self.state.is_surface or self.state.kind == self._valve().kind:
             return
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         self.model.change_kind(self.state.current, self.state.kind)
         self._renew_all()
 
@@ -501,8 +501,7 @@ class Page(saving.Files):
             self._renew_all()
 
     def _on_add(self, kind: str) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         self.model.add(kind)
         self.state.current = len(self.model.valves) - 1
         self._renew_all()
@@ -516,22 +515,19 @@ class Page(saving.Files):
         self._renew_all()
 
     def _on_undo(self) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         if self.model.can_undo:
             self.model.undo()
             self._renew_all()
 
     def _on_redo(self) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         if self.model.can_redo:
             self.model.redo()
             self._renew_all()
 
     def _on_cure(self, name: str) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         self.model.cure(name)
         if name in ("unit", "inside"):  # the valve is elsewhere
             self._refresh()
@@ -541,8 +537,7 @@ class Page(saving.Files):
     # placement
 
     def _on_place(self, field: str, k: int, value: Any) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         valve = self._valve()
         place = {name: list(getattr(valve, name)) for name in ("origin", "axis", "reference")} | {"scale": [valve.scale]}
         if field in ("axis", "reference"):
@@ -553,8 +548,7 @@ class Page(saving.Files):
         self._renew_all()
 
     def _on_flip(self) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         self.model.flip(self.state.current)
         self._renew_all()
 
@@ -671,8 +665,7 @@ class Page(saving.Files):
             ]
 
     def _on_cycle(self, cycle: str | None, period: Any) -> None:
-        self._need_model()
-        self._end_drag()
+        self._begin_change()
         seconds = reading.number_of(self.state.period if period is None else period, "period")
         name = str(self.state.cycle if cycle is None else cycle or "").strip()
         if not name:
