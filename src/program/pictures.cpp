@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/pictures.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,13 +18,12 @@
 #include "common/array_view.hpp"
 #include "program/mesh_marking.hpp"
 #include "program/moving_valve.hpp"
+#include "program/other_program.hpp"
 #include "program/outputs.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
 #include "program/valve_file.hpp"
-
-extern char **environ;
 
 namespace riis::program {
 
@@ -329,24 +325,12 @@ std::vector<std::string> encoding_of(const std::string &path) {
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
-// Runs a program without a shell. Writes the program's messages to a file. Returns its exit status, or -1 if a signal ended it.
+// Runs a program that must be there. Returns its exit status, or -1 if a signal ended it.
 int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
-  std::vector<char *> arguments;
-  for (const std::string &word : words) arguments.push_back(const_cast<char *>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  if (posix_spawn_file_actions_init(&actions) != 0) throw std::bad_alloc();
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  pid_t process = 0;
-  const int error = posix_spawn(&process, words[0].c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw Refusal{exit_bad_data, words[0] + ": cannot be run: " + std::generic_category().message(error)};
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  const ProgramEnd end = run_program(words, log);
+  if (end.error != 0)
+    throw Refusal{exit_bad_data, words[0] + ": cannot be run: " + std::generic_category().message(end.error)};
+  return end.status;
 }
 
 std::string last_line_of(const std::string &path) {
