@@ -45,7 +45,7 @@ using nlohmann::json;
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
-// The half width of points in leaves that are larger than the valve, in half widths of the cylinder.
+// These points spread over so many times the cylinder. Their leaves are then larger than the valve.
 constexpr double wide = 40;
 // Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
 constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
