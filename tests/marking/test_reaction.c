@@ -145,7 +145,7 @@ static plate new_plate(double spin, const double *along) {
  * leaflet or of a strip along an edge gives the force on this part. */
 static void a_closed_plate_takes_the_drop(void **state) {
   (void)state;
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     const double u[3] = {between(-1, 1), between(-1, 1), between(-2, 2)}, r = pow(10, between(-2, 4));
     const plate p = new_plate(0, u);
     const double about[3] = {between(-9, 9), between(-9, 9), between(-9, 9)};
@@ -192,7 +192,7 @@ static void a_closed_plate_takes_the_drop(void **state) {
  * 1 - (h / 2a)^2. The power of the forces at the nodes must be the moment times the spin. */
 static void a_hinged_plate_has_its_moment(void **state) {
   (void)state;
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     static const double rest[3] = {0, 0, 0};
     const double spin = between(-5, 5), r = pow(10, between(-2, 4));
     const plate p = new_plate(spin, rest);

@@ -131,7 +131,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
   (void)state;
   static const int32_t threads[] = {0, 2, 3, 7};
   riis_surface *moving = new_surface(random_valve(0), NULL);
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", any_of(5) ? between(0, 1) : (double)any_of(2)));
@@ -197,7 +197,7 @@ static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
 
 static void nothing_moves_where_nothing_changed(void **state) {
   (void)state;
-  for (int trial = 0; trial < 30; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3);
     riis_surface_options options = surface_options();
@@ -284,7 +284,7 @@ static void before_of(const riis_surface_options *now, const riis_surface_option
 static void placements_move(void **state) {
   (void)state;
   double worst = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3);
     riis_surface_options now = surface_options(), then;
@@ -325,7 +325,7 @@ static void placements_move(void **state) {
 static void patches_grow_and_drift(void **state) {
   (void)state;
   double worst = 0;
-  for (int trial = 0; trial < 40; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
     const int owned_before = n_owned();
     const strip shape = random_strip(trial % 4 ? 1 : 0);
     const double growth = trial % 5 ? between(-0.5, 0.5) : 0, dt = (any_of(2) ? 1 : -1) * between(0.01, 0.5);
@@ -354,7 +354,7 @@ static void patches_grow_and_drift(void **state) {
 /* The same two states with a negative time give the opposite velocities, to the last bit. */
 static void time_goes_back(void **state) {
   (void)state;
-  for (int trial = 0; trial < 15; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(15); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
     riis_surface_options options = surface_options(), then = surface_options();

@@ -7,6 +7,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 #include "searches.h"
 
 #include "random_meshes.h"
@@ -102,10 +103,13 @@ static void outwards_from(const axis_line *axis, const double *p, double *out) {
   for (int c = 0; c < 3; ++c) out[c] = q[c] / size;
 }
 
+/* Every kind of valve has both triangulations. A sanitizer sees each kind once. */
+static int n_trials_of_kinds(void) { return is_sanitized() ? n_skirted : 2 * n_skirted; }
+
 /* Checks the vertices of both edges of the skirt. */
 static void the_outer_edge_is_the_length_away(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
     const double length = between(0.02, 0.3);
     riis_valve *valve = skirted_valve(kind, length, trial % 2 ? between(0, 1) : 0);
@@ -164,7 +168,7 @@ static void the_outer_edge_is_the_length_away(void **state) {
 /* The skirt comes after the leaflets, which stay as they are. */
 static void leaflets_stay_as_they_are(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     const double opening = trial < n_skirted ? 0 : between(0, 1);
     const uint64_t seed = rng.state;
@@ -202,7 +206,7 @@ static void leaflets_stay_as_they_are(void **state) {
  * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
 static void the_skirt_continues_the_leaflets(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
     riis_valve *valve = skirted_valve(kind, between(0.05, 0.2), trial % 2 ? between(0, 1) : 0);
     const riis_surface_options options =
@@ -262,7 +266,7 @@ static void skirts_cross_nothing(void **state) {
 /* Beside the skirt, the side is that of its normals. */
 static void sides_are_right_beside_the_skirt(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
     const riis_surface *surface =
@@ -704,7 +708,7 @@ static void skirts_move_continuously_with_a_warp(void **state) {
 /* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay. */
 static void skirts_reach_walls_and_no_farther(void **state) {
   (void)state;
-  for (int trial = 0; trial < 2 * n_skirted; ++trial) {
+  for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_valve *valve = skirted_valve(kind, 0, 0);
     set_random_sizes(valve, kind);

@@ -73,6 +73,7 @@ class Page(saving.Files):
         self._busy = ""  # what takes a while now, as a sentence
         self._wanted_size: tuple[int, int] | None = None  # that a browser asked for during a movie
         self._shown: Any = None
+        self._slider_values: list[float] = []  # as the model has them
         self._build()
 
     # the page's variables and functions
@@ -307,8 +308,10 @@ class Page(saving.Files):
                         sliders.append(rows.slider_of(parameter, float(value)))
                     else:
                         table.append(rows.row_of(parameter, value, parameter.name in valve.parameters))
-            for k, slider in enumerate(sliders):
-                state[f"slider_{k}"] = slider["value"]
+            # The server changes no list that it has pushed: the page would not hear of it.
+            self._slider_values = [slider.pop("value") for slider in sliders]
+            for k, value in enumerate(self._slider_values):
+                state[f"slider_{k}"] = value
             state.sliders, state.rows = sliders, table
             state.placement = rows.placement_of(valve)
             state.can_undo, state.can_redo = bool(model.can_undo), bool(model.can_redo)
@@ -362,8 +365,8 @@ class Page(saving.Files):
         self.scene.show_lights([])
         valve = self._valve()
         with self.state as state:
-            if state.sliders and state.sliders[0]["name"] == "opening" and state.sliders[0]["value"] != valve.opening:
-                state.sliders[0]["value"] = state.slider_0 = valve.opening
+            if state.sliders and state.sliders[0]["name"] == "opening" and self._slider_values[0] != valve.opening:
+                self._slider_values[0] = state.slider_0 = valve.opening
             if self._playing is not None:
                 state.time = float(self.model.time)
             state.n_marked, state.milliseconds = len(self._shown.marked), self._shown.milliseconds
@@ -450,9 +453,9 @@ class Page(saving.Files):
         if self.model is None or k >= len(self.state.sliders):
             return
         name, value = self.state.sliders[k]["name"], float(self.state[f"slider_{k}"])
-        if math.isclose(value, self.state.sliders[k]["value"], rel_tol=1e-12, abs_tol=1e-12):
+        if math.isclose(value, self._slider_values[k], rel_tol=1e-12, abs_tol=1e-12):
             return
-        self.state.sliders[k]["value"] = value
+        self._slider_values[k] = value
         self._move(lambda: self.model.set(self.state.current, name, value), ("set", self.state.current, name))
 
     def _move(self, change: Callable[[], Any], what: Any) -> None:
