@@ -97,8 +97,11 @@ def ms_of(name, run):
 
 
 def table_of_paper(data, valve):
+    """Returns the table for at most as many threads as there are processors. details.md has the speed-ups of more threads."""
     rows = []
     for nodes, threads, exhaustive, neighbor, runs in paper_rows(data, valve):
+        if threads_text(data, threads) != str(threads):
+            continue
         ms = {name: ms_of(name, run) for name, run in runs.items()}
         rows.append(
             [
