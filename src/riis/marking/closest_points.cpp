@@ -57,8 +57,9 @@ class ClosestPoints {
   }
 
  private:
-  // In half extents of the surface. Single precision does not separate the triangles near a point that is far. One such point
-  // would make the batch's frame useless for all other points. Points that are not wide have the frame of all points.
+  // Two distances from the surface's middle, in half extents of the surface. Near a point beyond `far`, single precision does not
+  // separate triangles, and one such point would make its batch's frame useless for the other points. If no point is beyond
+  // `wide`, one frame serves all batches.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
   double reach_of(Vec3 p) const {
@@ -148,8 +149,8 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. k counts from
-  // the range's begin. `place` counts from it, too, but leaves out the points of the same block that were not visited.
+  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. The first point
+  // of the range has the k 0. The visited points of a block have consecutive places from the k at which the block begins.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, const Visit &visit) const {
     std::array<Block, points_per_batch / points_per_block> blocks;
@@ -256,7 +257,7 @@ class ClosestPoints {
   const bool is_limited_, may_be_far_, is_spread_;
   const riis_closest_arrays &to_;
   std::atomic<bool> has_written_{false};
-  // A batch: its points that are searched over clusters, and their frame. A point's number counts from the batch's begin.
+  // The points of a batch that are searched over clusters, and their frame. The first point of the batch has the number 0.
   NodeItems<std::uint32_t> items_, buffer_;
   NodeFrame frame_;
   struct alignas(64) OfThread {

@@ -24,7 +24,8 @@ constexpr double most_between_ends = 0.5;
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine also falls to 0 if the line is nearer to the axis than this sine.
 constexpr double least_sine_to_axis = 0.2;
-// A side that is flatter than this sine leans less than its tangent does, and not at all if it is perpendicular to the axis.
+// A side leans as its tangent does, if the sine of its rise is at least this. A flatter side leans less, and a side perpendicular
+// to the axis does not lean.
 constexpr double least_rise = 0.5;
 // The derivative of a direction that was turned is a difference over two such shares of the length.
 constexpr double direction_step = 1e-4;
