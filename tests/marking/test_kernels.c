@@ -247,8 +247,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided ones, as fractions of the allowed error. Distances that are too small and those
- * that are too large are checked separately, because the margin causes most of the latter. */
+/* Compares filtered distances with decided ones, as fractions of the allowed error. Too small distances and too large ones are
+ * checked separately, because the margin makes most distances too large. */
 static void single_precision_is_right_to_its_error(void **state) {
   (void)state;
   enum { n_lanes = 16 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests warps: the map against an own solution of its equations, warped valves against the map and against placed valves, folds,
- * an annulus that moves, and the patches that are read out. */
+ * Tests warps. The map is compared with a separate solution of its equations. Warped valves are compared with the map and with
+ * placed valves. Further tests cover folds, an annulus that moves, and the patches that are read out. */
 #include <riis/riis.h>
 
 #include "test_support.h"
