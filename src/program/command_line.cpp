@@ -10,8 +10,8 @@
 #include "common/nearest_name.hpp"
 #include "program/command_options.hpp"
 #include "program/help.hpp"
+#include "program/other_program.hpp"
 #include "program/outputs.hpp"
-#include "program/view.hpp"
 
 namespace riis::program {
 namespace {

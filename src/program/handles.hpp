@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds handles of riis_vtk's objects to the handles of riis.hpp, and returns the content of handles as structs.
+// Adds handles of riis_vtk's objects to the handles of riis.hpp. Returns the content of handles, and arrays of triangles, as
+// structs.
 #pragma once
 
 #include <riis/riis_vtk.h>
 #include <riis/riis.hpp>
 
+#include <cstdint>
+#include <vector>
+
+#include "common/array_view.hpp"
 #include "program/refusal.hpp"
 
 namespace riis::program {
@@ -29,6 +34,21 @@ inline riis_leak_list list_of(const riis_leaks *leaks) {
   riis_leak_list list{};
   check(riis_leaks_get_list(leaks, &list, sizeof list));
   return list;
+}
+
+// Returns arrays that borrow vertices (3, n) and the corners (3, n) of triangles.
+inline riis_surface_arrays arrays_of(const std::vector<double> &xyz, const std::vector<int64_t> &corners) {
+  riis_surface_arrays arrays;
+  check(riis_surface_arrays_init(&arrays, sizeof arrays));
+  arrays.n_vertices = view(xyz).size() / 3;
+  arrays.x = xyz.data();
+  arrays.y = xyz.data() + 1;
+  arrays.z = xyz.data() + 2;
+  arrays.stride = 3;
+  arrays.n_faces = view(corners).size() / 3;
+  arrays.vertex_ids = corners.data();
+  arrays.id_bits = 64;
+  return arrays;
 }
 
 }  // namespace riis::program

@@ -504,7 +504,7 @@ class PieceMarking {
     report_.seconds.write += stage.seconds();
   }
 
-  // Keeps what other pieces and the report need of a piece.
+  // Keeps the data of a piece that other pieces and the report need.
   void note(std::int64_t piece, const riis_vtk_mesh *file, const PieceNodes &nodes, MarkedFile &marks) {
     const Stage stage("looking for leaks", options_.quiet);
     leaks_.add(piece, nodes, file, marks.mesh.get(), marks.marks.get());

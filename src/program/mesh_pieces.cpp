@@ -195,8 +195,8 @@ void LooseNodes::check(const MeshPieces &pieces) const {
   for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
   if (sum > 0)
     throw Refusal{exit_bad_data, pieces.path() + ": " + std::to_string(sum) +
-                                     " points are inside one piece, and in another piece without a cell; write each "
-                                     "piece with only the points of its own cells"};
+                                     " points are inside one piece, and another piece has them without a cell; "
+                                     "write each piece with only the points of its own cells"};
 }
 
 void release_free_memory() {

@@ -144,16 +144,7 @@ Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surfac
     for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(before + triangles.vertex_id[i]);
     for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first[valve] + triangles.leaflet_id[i]);
   }
-  riis_surface_arrays arrays;
-  check(riis_surface_arrays_init(&arrays, sizeof arrays));
-  arrays.n_vertices = view(xyz).size() / 3;
-  arrays.x = xyz.data();
-  arrays.y = xyz.data() + 1;
-  arrays.z = xyz.data() + 2;
-  arrays.stride = 3;
-  arrays.n_faces = view(leaflets).size();
-  arrays.vertex_ids = corners.data();
-  arrays.id_bits = 64;
+  riis_surface_arrays arrays = arrays_of(xyz, corners);
   arrays.leaflet_id = leaflets.data();
   riis_surface *surface = nullptr;
   check(riis_surface_create_from_arrays(&arrays, options, &surface));

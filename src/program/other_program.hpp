@@ -15,4 +15,8 @@ struct ProgramEnd {
 // nothing, its output is lost, and its messages are written to a file.
 ProgramEnd run_program(const std::vector<std::string> &words, const std::string &log);
 
+// Implements `riis view`: replaces this process by `python3 -m riis view` with the same words. Returns only by a Refusal, which
+// says how to install the Python package riis if it is missing. The environment variable RIIS_PYTHON names another Python.
+[[noreturn]] void run_view(int argc, char **argv);
+
 }  // namespace riis::program

@@ -57,18 +57,23 @@ void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
 }
 
 // Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
-// scale of its placement tell the unit of the mesh.
-const char *unit_of_mesh(const std::optional<Unit> &given, const ValveOptions &valve) {
+// scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
+const char *unit_of_mesh(const std::optional<Unit> &given, const ShownValves &valves) {
   if (given) return name_of(*given);
-  if (!valve.surface.empty() || is_valve_file(valve.valve)) return nullptr;
-  const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve.surface_options.scale);
-  return reached ? name_of(*reached) : nullptr;
+  std::optional<Unit> told;
+  for (const ValveOptions *valve : valves) {
+    if (!valve->surface.empty() || is_valve_file(valve->valve)) continue;
+    const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve->surface_options.scale);
+    if (!reached || (told && *told != *reached)) return nullptr;
+    told = reached;
+  }
+  return told ? name_of(*told) : nullptr;
 }
 
-// Sets what the pictures of a run have in common.
-void set_mesh_of_pictures(const MarkOptions &options, const ValveOptions &valve, riis_vtk_picture_options &how) {
-  const riis_surface_options &placement = valve.surface_options;
-  how.unit = unit_of_mesh(options.unit, valve);
+// Sets the options that all pictures of a run have in common. Only a single valve has views by its axes.
+void set_mesh_of_pictures(const MarkOptions &options, const ShownValves &valves, riis_vtk_picture_options &how) {
+  const riis_surface_options &placement = valves.front()->surface_options;
+  how.unit = unit_of_mesh(options.unit, valves);
   std::copy_n(placement.rotation_axis, 3, how.rotation_axis);
   how.rotation_angle = placement.rotation_angle;
 }
@@ -116,7 +121,7 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   return title;
 }
 
-void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title,
+void draw_pictures(const MarkOptions &options, const ShownValves &valves, const std::string &title,
                    const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
                    const riis_marks *result, Report &report) {
   std::vector<int32_t> views;
@@ -134,7 +139,7 @@ void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const 
   how.title = title.c_str();
   how.leaflet_names = names.data();
   how.n_leaflet_names = view(names).size();
-  set_mesh_of_pictures(options, valve, how);
+  set_mesh_of_pictures(options, valves, how);
   if (result) show_leaks(report.leaks, how);
   check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());
@@ -237,14 +242,14 @@ std::string SeriesPictures::title(std::size_t step, const std::vector<MovingValv
   return valves[0].source().valve ? text + ", opening " + fixed(valves[0].opening(), 2) : text;
 }
 
-riis_vtk_film *SeriesPictures::film(const ValveOptions &valve) {
+riis_vtk_film *SeriesPictures::film(const ShownValves &valves) {
   if (film_) return film_.get();
   riis_vtk_picture_options how;
   check(riis_vtk_picture_options_init(&how, sizeof how));
   how.view = all_.options.series.movie_view;
   how.leaflet_names = leaflet_names_.data();
   how.n_leaflet_names = view(leaflet_names_).size();
-  set_mesh_of_pictures(all_.options, valve, how);
+  set_mesh_of_pictures(all_.options, valves, how);
   riis_vtk_film *film = nullptr;
   check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &how, &film));
   film_.reset(film);
@@ -261,9 +266,10 @@ void SeriesPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Re
   const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
   const riis_surface *surface = joined ? joined.get() : valves[0].surface();
   const std::string text = title(step, valves);
-  const ValveOptions &first = valves[0].options();
-  if (step == 0) draw_pictures(all_.options, first, text, leaflet_names_, surface, mesh_.get(), nullptr, report);
-  if (movie_) check(riis_vtk_film_draw(film(first), surface, text.c_str(), movie_->next_frame().c_str()));
+  ShownValves shown;
+  for (const MovingValve &valve : valves) shown.push_back(&valve.options());
+  if (step == 0) draw_pictures(all_.options, shown, text, leaflet_names_, surface, mesh_.get(), nullptr, report);
+  if (movie_) check(riis_vtk_film_draw(film(shown), surface, text.c_str(), movie_->next_frame().c_str()));
 }
 
 void SeriesPictures::encode(Report &report) {

@@ -32,9 +32,12 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
 // `valve` has the options of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
 
-// Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`. The placement of `valve` gives
-// the valve's axes.
-void draw_pictures(const MarkOptions &options, const ValveOptions &valve, const std::string &title,
+// The options of the valves in a picture, at least one.
+using ShownValves = std::vector<const ValveOptions *>;
+
+// Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`. The placement of the first valve
+// gives the valve's axes.
+void draw_pictures(const MarkOptions &options, const ShownValves &valves, const std::string &title,
                    const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
                    const riis_marks *result, Report &report);
 
@@ -80,7 +83,7 @@ class SeriesPictures {
  private:
   void set_marks_of(std::vector<MovingValve> &valves);
   std::string title(std::size_t step, const std::vector<MovingValve> &valves) const;
-  riis_vtk_film *film(const ValveOptions &valve);
+  riis_vtk_film *film(const ShownValves &valves);
 
   const Case &all_;
   MeshFile mesh_;

@@ -134,7 +134,7 @@ ExitCode run_single(MarkOptions options) {
     // written.
     if (result && !options.pictures.empty())
       check(riis_vtk_mesh_set_marks(mesh.get(), result.get(), options.far_distance, nullptr));
-    draw_pictures(options, options, picture_title(options, valve, report), leaflet_names(options), surface.get(),
+    draw_pictures(options, {&options}, picture_title(options, valve, report), leaflet_names(options), surface.get(),
                   mesh.get(), result.get(), report);
   } catch (const Refusal &) {
     // The statistics are written even if drawing failed, because the marks are valid.

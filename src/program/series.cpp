@@ -203,7 +203,7 @@ double time_before(const Case &all, std::size_t step) {
 
 namespace {
 
-// Moves each valve to the first time at which its opening is the first of all in an order.
+// Moves each valve to the time at which its opening comes first in an order, and to the first such time if there are several.
 template <class Order>
 void move_to_first(const Case &all, std::vector<MovingValve> &valves, Order order) {
   const std::vector<double> &times = all.options.series.times;

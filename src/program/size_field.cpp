@@ -133,16 +133,7 @@ class SweptSurface {
   }
 
   Surface make(double half_thickness) const {
-    riis_surface_arrays arrays;
-    check(riis_surface_arrays_init(&arrays, sizeof arrays));
-    arrays.n_vertices = view(xyz_).size() / 3;
-    arrays.x = xyz_.data();
-    arrays.y = xyz_.data() + 1;
-    arrays.z = xyz_.data() + 2;
-    arrays.stride = 3;
-    arrays.n_faces = view(corners_).size() / 3;
-    arrays.vertex_ids = corners_.data();
-    arrays.id_bits = 64;
+    const riis_surface_arrays arrays = arrays_of(xyz_, corners_);
     riis_surface_options how;
     check(riis_surface_options_init(&how, sizeof how));
     how.half_thickness = half_thickness;

@@ -186,11 +186,15 @@ vtkSmartPointer<vtkUnstructuredGrid> read_blocks(const std::string &path, const 
   std::vector<Block> blocks;
   std::vector<std::int32_t> numbers;
   bool has_single = false;
-  for (const std::string &name : files) {
-    blocks.push_back({read_grid((std::filesystem::path(path).parent_path() / name).string(), caught), {}});
-    has_single = has_single || is_single(blocks.back().grid);
-    numbers.push_back(static_cast<std::int32_t>(numbers.size()));
+  for (std::int32_t number = 0; number < view(files).size(); ++number) {
+    const std::string file = (std::filesystem::path(path).parent_path() / view(files)[number]).string();
+    const vtkSmartPointer<vtkUnstructuredGrid> grid = read_grid(file, caught, Points::may_be_missing);
+    if (grid->GetNumberOfPoints() == 0) continue;  // a part of the model may lie outside of this mesh
+    blocks.push_back({grid, {}});
+    has_single = has_single || is_single(grid);
+    numbers.push_back(number);
   }
+  if (blocks.empty()) fail_file(path, "lists only blocks without points");
   const vtkIdType n_nodes = number_nodes(blocks);
   const auto grid = join(blocks, n_nodes, numbers, "riis_block");
   std::string note = has_single ? "its points have single precision" : "";

@@ -29,7 +29,7 @@ CellCenters centers_of(vtkUnstructuredGrid *grid);
 
 struct riis_vtk_mesh {
   vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
-  std::string notes = {};                     // what riis_vtk_mesh_get_notes gives
+  std::string notes = {};                     // the notes that riis_vtk_mesh_get_notes gives
   std::string foam_case = {};                 // the folder of the case that the mesh was read from, or ""
   // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};

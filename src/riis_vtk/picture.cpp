@@ -55,7 +55,7 @@ void check_edges(const riis_vtk_picture_options &options, const riis_vtk_mesh *m
   }
 }
 
-// Fails unless the size lies between that of the first release and that of this one.
+// Fails unless the struct's size is one that check_struct_size accepts.
 void check_picture_options_size(std::int64_t size) { check_struct_size(size, first_size, size_here, "options"); }
 
 const riis_vtk_picture_options &default_picture_options() {

@@ -285,8 +285,8 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
 }
 
 // Finds the nodes that other pieces may share. A face that two cells of a piece share is inside the piece. Each node keeps the
-// combined bits of its faces. A face combines twice if it is inside, and then leaves nothing. Whether all faces of a node are
-// inside is so known without a list of faces; the answer is wrong with a probability of 2^-64 for a node.
+// combined bits of its faces. A face combines twice if it is inside, and then leaves nothing. This shows without a list of faces
+// whether all faces of a node are inside. The answer is wrong with a probability of 2^-64 for a node.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

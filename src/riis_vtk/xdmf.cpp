@@ -351,7 +351,7 @@ const Topology *topology_of(int vtk_type) {
   return found == std::end(topologies) ? nullptr : found;
 }
 
-// Writes the text of the file, and the numbers into it or into an HDF5 file.
+// Writes the file's text. The numbers go into this text or into an HDF5 file.
 class XdmfWriter {
  public:
   XdmfWriter(const std::string &path, vtkUnstructuredGrid *grid) : path_(path), grid_(grid) {

@@ -158,6 +158,8 @@ static void test_view(void **state) {
   assert_int_equal(program_exit_code, 4);
   setenv("MISSING", "3", 1);
   RUN_REFUSED(1, "does not find the Python package riis; install it by 'python3 -m venv", "view", "mesh.vtu");
+  setenv("MISSING", "1", 1);
+  RUN_REFUSED(1, "python fails when it imports the Python package riis; install it by", "view");
   unsetenv("MISSING");
   setenv("RIIS_PYTHON", scratch_path("no python"), 1);
   RUN_REFUSED(1, "no python cannot be run; install it by", "view");

@@ -214,7 +214,7 @@ static void test_named_sizes(void **state) {
   assert_string_equal(program_out, by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "bending_height") == 0.7);
-  /* A template has all values, so none follows from others after it was read. */
+  /* A template sets all values. After it is read, no value follows from others by a rule. */
   scratch_write_text("p.json", by_options);
   RUN_FINE("params", "--valve", "trileaflet", "--params", scratch_path("p.json"), "--set", "leaflet_height=1.4");
   assert_true(json_number(program_out, "leaflet_height") == 1.4 && json_number(program_out, "bending_height") == 0.5);

@@ -402,7 +402,7 @@ static void vtk_reads_and_writes_pieces(void **state) {
   run_program("mark", scratch_path("full.pvtu"), "--half-thickness", "0.8", "--quiet", "--output",
               scratch_path("full_out.pvtu"), NULL);
   assert_int_equal(program_exit_code, 1);
-  assert_non_null(strstr(program_err, "points are inside one piece, and in another piece without a cell"));
+  assert_non_null(strstr(program_err, "points are inside one piece, and another piece has them without a cell"));
   assert_false(scratch_exists("full_out.pvtu"));
   plain_free(&box);
 }

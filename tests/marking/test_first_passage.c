@@ -52,17 +52,6 @@ static riis_passage passage_at(riis_valve *valve, double opening, const riis_mes
   return passage;
 }
 
-static int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
-  int64_t nearest = 0;
-  double least = INFINITY;
-  for (int64_t i = 0; i < mesh->n; ++i) {
-    const double *p = mesh->xyz + 3 * i;
-    const double d = hypot(hypot(p[0] - x, p[1] - y), p[2] - z);
-    if (d < least) least = d, nearest = i;
-  }
-  return nearest;
-}
-
 /* The valve fills a tube, so that a path can only lead through the valve. */
 static void valves_first_open_where_a_ladder_says(void **state) {
   (void)state;

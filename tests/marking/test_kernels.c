@@ -247,8 +247,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided ones, as fractions of the allowed error. Distances that are too small and those
- * that are too large are checked separately, because the margin causes most of the latter. */
+/* Compares filtered distances with decided ones, as fractions of the allowed error. Too small distances and too large ones are
+ * checked separately, because the margin makes most distances too large. */
 static void single_precision_is_right_to_its_error(void **state) {
   (void)state;
   enum { n_lanes = 16 };
@@ -776,6 +776,33 @@ static void keys_are_ranked(void **state) {
   }
 }
 
+/* The arrays have exactly the promised sizes, so a sanitizer finds what is read or written beyond them. */
+static void marked_numbers_are_selected(void **state) {
+  (void)state;
+  for (int trial = 0; trial < fewer_if_sanitized(3000); ++trial) {
+    const int32_t n = (int32_t)(random_bits(&rng) % 100), bit = (int32_t)(random_bits(&rng) % 16);
+    int32_t *numbers = malloc((size_t)n * sizeof *numbers), *to = malloc((size_t)n * sizeof *to);
+    uint16_t *marks = malloc((size_t)n * sizeof *marks);
+    for (int32_t i = 0; i < n; ++i) {
+      numbers[i] = (int32_t)random_bits(&rng);
+      /* Other bits are set at random. This bit is set nowhere, everywhere, or here and there. */
+      const uint64_t has_bit = trial % 4 < 2 ? (uint64_t)(trial % 2) : random_bits(&rng) % 2;
+      marks[i] = (uint16_t)((random_bits(&rng) & ~(UINT64_C(1) << bit)) | has_bit << bit);
+    }
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      if (n > 0) memset(to, 0x77, (size_t)n * sizeof *to);
+      const int32_t n_selected = kernels_select(set, numbers, marks, n, bit, to);
+      int32_t n_expected = 0;
+      for (int32_t i = 0; i < n; ++i)
+        if (marks[i] >> bit & 1 && to[n_expected++] != numbers[i])
+          fail_msg("%s, trial %d: number %d of %d, bit %d", kernels_name(set), trial, i, n, bit);
+      assert_int_equal(n_selected, n_expected);
+    }
+    free(numbers), free(to), free(marks);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
@@ -790,6 +817,7 @@ int main(void) {
       cmocka_unit_test(points_are_placed),
       cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
       cmocka_unit_test(keys_are_ranked),
+      cmocka_unit_test(marked_numbers_are_selected),
   };
   rng = random_start("test_kernels");
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -232,17 +232,6 @@ static riis_surface *plate_with_hole(const double *place, double radius, double 
   return surface_from(&arrays, &options);
 }
 
-static int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
-  int64_t nearest = 0;
-  double least = INFINITY;
-  for (int64_t i = 0; i < mesh->n; ++i) {
-    const double *p = mesh->xyz + 3 * i;
-    const double d = hypot(hypot(p[0] - x, p[1] - y), p[2] - z);
-    if (d < least) least = d, nearest = i;
-  }
-  return nearest;
-}
-
 /* One node is the middle of the hole. The node's distance is the distance to the polygon's sides. */
 static void a_hole_is_found_where_it_is(void **state) {
   (void)state;

@@ -91,4 +91,16 @@ static inline test_mesh tube(double radius, double from, double to, double spaci
   return mesh;
 }
 
+/* Returns the node that is nearest to a point. */
+static inline int64_t node_at(const test_mesh *mesh, double x, double y, double z) {
+  int64_t nearest = 0;
+  double least = INFINITY;
+  for (int64_t i = 0; i < mesh->n; ++i) {
+    const double *p = mesh->xyz + 3 * i;
+    const double d = hypot(hypot(p[0] - x, p[1] - y), p[2] - z);
+    if (d < least) least = d, nearest = i;
+  }
+  return nearest;
+}
+
 #endif

@@ -125,10 +125,12 @@ void kernels_frame_group(int set, const double *centre, double scale, const doub
 /* For fields: interpolates the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);
-/* For fields: computes on which side of planes 8 points (3, 8) lie. The planes go through points (3, 8) and have normals (3,
- * 8). */
 /* Ranks keys by their size. key and n_less have room for 64. */
 void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less);
+/* Copies the numbers whose marks have the bit, and returns how many there are. `to` has room for n. */
+int32_t kernels_select(int set, const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
+/* For fields: computes on which side of planes 8 points (3, 8) lie. The planes go through points (3, 8) and have normals (3,
+ * 8). */
 void kernels_find_sides(int set, const double *points, const double *on, const double *normals, int32_t *side);
 /* Measures up to 8 triangles: measures(6, n) has the normal, twice the area, and the products of the edges at the first and at
  * the second corner. */

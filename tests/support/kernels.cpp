@@ -186,6 +186,10 @@ void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers,
   for (int i = 0; i < pairs_at_once; ++i) std::copy_n(made[i].number, 8, mixed + 8 * i);
 }
 
+int32_t kernels_select(int set, const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
+  return of(set).select(numbers, marks, n, bit, to);
+}
+
 void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less) {
   alignas(64) std::int32_t aligned_key[keys_at_once], aligned_less[keys_at_once];
   std::copy(key, key + keys_at_once, aligned_key);

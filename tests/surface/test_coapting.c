@@ -147,7 +147,7 @@ static point cross_of(point p, point q) {
 }
 static double dot_of(point p, point q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* What the crease at t of the coaptation line depends on: the chord's point, the free edge's point, and the end tangents. */
+/* The crease at t of the coaptation line depends on these: the chord's point, the free edge's point, and the end tangents. */
 typedef struct crease_at {
   double t;
   point chord, edge, tangents;

@@ -444,7 +444,7 @@ static void test_exact_mitral(void **state) {
     if (has_more) add_commissures(&p, ratio, sizes);
     if (trial % 3 == 1) memset(p.flow, 0, sizeof p.flow); /* the commissures show the atrium's side */
     place_patient(&p, scales[trial % 3]);
-    /* By the default noise, a size of some valves is undetermined. It is exact all the same. */
+    /* With the default noise, a size of some valves counts as undetermined, but exact landmarks still give its exact value. */
     if (trial % 2 == 0) p.noise = 0.01 * p.scale;
     riis_valve *valve = new_valve("mitral");
     const answer found = place(valve, &p);

@@ -50,7 +50,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
 
 enum { max_parameters = 64 };
 
-/* What a valve should be: the values that were set. */
+/* The values that were set, from which the expected values of a valve follow. */
 typedef struct model {
   const char *kind;
   int64_t n;
@@ -103,7 +103,8 @@ static int rule_value(const model *of, const char *name, double *value) {
   if (strcmp(of->kind, "aortic") == 0) {
     for (int k = 0; k < 3; ++k) {
       if (strcmp(name, of_cusp(k, "leaflet_power")) != 0) continue;
-      /* The largest exponent whose profile, at its end, is no steeper than the plane there. The paper's are lowered as it is. */
+      /* Limits the exponent to the largest one whose profile is no steeper at its end than the plane there. The exponents of
+       * the paper are lowered in the same proportion. */
       static const double paper[3][4] = {{0.24, 1.365, 61, 1.58}, {0.49, 1.495, 58.5, 2.77}, {0.2, 1.38, 60.5, 1.19}};
       const double now[3] = {first_expected(of, of_cusp(k, "leaflet_radius_in")),
                              first_expected(of, of_cusp(k, "leaflet_radius_out")),

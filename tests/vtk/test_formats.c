@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* Reads a mesh and writes it again. `notes` is what the reader must say. */
+/* Reads a mesh and writes it again. The reader must give these notes. */
 static void rewrite(const char *from, const char *to, const char *notes) {
   riis_vtk_mesh *mesh = NULL;
   const char *text = NULL;
@@ -121,6 +121,18 @@ static void write_plain(const char *name, int quadratic) {
   plain_free(&tetrahedra);
 }
 
+static const char empty_vtu[] =
+    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"><UnstructuredGrid>\n<Piece NumberOfPoints=\"0\" "
+    "NumberOfCells=\"0\">\n<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\"></DataArray>"
+    "</Points>\n<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\"></DataArray>"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\"></DataArray>"
+    "<DataArray type=\"UInt8\" Name=\"types\" "
+    "format=\"ascii\"></DataArray></Cells>\n</Piece>\n</UnstructuredGrid></VTKFile>\n";
+static const char vtm[] =
+    "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>\n"
+    "<Block index=\"0\"><DataSet index=\"0\" file=\"plain.vtu\"/></Block>\n</vtkMultiBlockDataSet></VTKFile>\n";
+
+/* A block without points adds nothing to the mesh, but it keeps its number. */
 static void test_vtm(void **state) {
   (void)state;
   for (int kind = 0; kind < 4; ++kind) {
@@ -129,6 +141,20 @@ static void test_vtm(void **state) {
     rewrite("blocks.vtm", "joined.vtu", "");
     expect_same("joined.vtu", "plain.vtu", SHIM_BITS, 27);
   }
+  scratch_write_text("empty.vtu", empty_vtu);
+  scratch_write_text("with_empty.vtm",
+                     "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>\n"
+                     "<DataSet index=\"0\" file=\"empty.vtu\"/>\n<DataSet index=\"1\" file=\"plain.vtu\"/>\n"
+                     "<DataSet index=\"2\" file=\"empty.vtu\"/>\n</vtkMultiBlockDataSet></VTKFile>\n");
+  rewrite("with_empty.vtm", "joined.vtu", "");
+  expect_same("joined.vtu", "plain.vtu", SHIM_BITS, 27);
+  char type[32];
+  int64_t n_components = 0, n_cells = 0;
+  static double blocks[4096];
+  assert_true(shim_read_array(scratch_path("joined.vtu"), 'c', "riis_block", type, &n_components, &n_cells, NULL));
+  assert_true(n_cells > 20 && n_cells <= 4096 && n_components == 1);
+  shim_read_array(scratch_path("joined.vtu"), 'c', "riis_block", type, &n_components, &n_cells, blocks);
+  for (int64_t i = 0; i < n_cells; ++i) assert_true(blocks[i] == 1);
 }
 
 static void test_exodus(void **state) {
@@ -237,10 +263,6 @@ static const char xdmf[] =
     "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1</DataItem>\n"
     "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
     "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
-static const char vtm[] =
-    "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\"><vtkMultiBlockDataSet>\n"
-    "<Block index=\"0\"><DataSet index=\"0\" file=\"plain.vtu\"/></Block>\n</vtkMultiBlockDataSet></VTKFile>\n";
-
 /* A file that is broken in one place: the first `from` becomes `to`. */
 typedef struct broken {
   const char *name, *whole, *from, *to, *text;
@@ -299,6 +321,7 @@ static const broken faults[] = {
     {"a.vtm", vtm, "vtkMultiBlockDataSet\"", "Collection\"", "is not a list of blocks"},
     {"a.vtm", vtm, "plain.vtu", "missing.vtu", "missing.vtu: cannot be read: No such file"},
     {"a.vtm", vtm, "plain.vtu", "a.vtp", "lists no .vtu file"},
+    {"a.vtm", vtm, "plain.vtu", "empty.vtu", "lists only blocks without points"},
     {"a.exo", xdmf, "", "", "is not an Exodus file: it is neither NetCDF nor HDF5"},
 };
 
@@ -313,6 +336,7 @@ static void write_broken(const broken *fault) {
 static void test_broken(void **state) {
   (void)state;
   write_plain("plain.vtu", 0);
+  scratch_write_text("empty.vtu", empty_vtu);
   for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
     riis_vtk_mesh *mesh = NULL;
     write_broken(&faults[i]);
@@ -325,7 +349,7 @@ static void test_broken(void **state) {
   }
 }
 
-/* Every beginning of a file is refused. So is a file with a wrong byte, or it is read. */
+/* Every beginning of a file is refused. A file with a wrong byte is refused or read. */
 static void test_cut_and_changed(void **state) {
   (void)state;
   const char *wholes[] = {msh22, msh41, xdmf, vtm}, *names[] = {"a.msh", "a.msh", "a.xdmf", "a.vtm"};

@@ -61,17 +61,21 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
+static void draw_by(const riis_vtk_picture_options *options, const char *name, const riis_vtk_mesh *drawn) {
+  scratch_watch_output();
+  const riis_status status = riis_vtk_draw(surface, drawn, options, scratch_path(name));
+  const long n_printed = scratch_end_watch();
+  expect_fine(status);
+  assert_int_equal(n_printed, 0);
+}
+
 static void draw(const char *name, const riis_vtk_mesh *drawn, int32_t view, int32_t width, int32_t height) {
   riis_vtk_picture_options options;
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
   options.view = view;
   options.width = width;
   options.height = height;
-  scratch_watch_output();
-  const riis_status status = riis_vtk_draw(surface, drawn, &options, scratch_path(name));
-  const long n_printed = scratch_end_watch();
-  expect_fine(status);
-  assert_int_equal(n_printed, 0);
+  draw_by(&options, name, drawn);
 }
 
 /* Checks that the picture has this size and many colours, and that a large part of both halves is coloured. */
@@ -114,11 +118,7 @@ static void draw_texts(const char *name, const char *title, const char *const *n
   options.title = title;
   options.leaflet_names = names;
   options.n_leaflet_names = n_names;
-  scratch_watch_output();
-  const riis_status status = riis_vtk_draw(surface, mesh, &options, scratch_path(name));
-  const long n_printed = scratch_end_watch();
-  expect_fine(status);
-  assert_int_equal(n_printed, 0);
+  draw_by(&options, name, mesh);
 }
 
 /* The texts are visible. Characters outside ASCII are drawn as ?, and no text is rendered as a formula. */

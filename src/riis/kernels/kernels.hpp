@@ -147,7 +147,7 @@ struct FilterKernels {
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns how many there are. `to` must have
-  // room for 16 more numbers.
+  // room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
   // For each of 16 boxes, finds the candidate group, n_candidates > 0, whose corner is nearest to the middle of the box. Writes
   // the position of that group among the candidates.

@@ -37,7 +37,7 @@ class Problem {
   }
 
   std::vector<bool> with_prior;  // for each free size: whether it is drawn to its expected value
-  double prior_noise;            // the noise of the landmarks beside which the spread of expected values is weighed
+  double prior_noise;            // the noise of the landmarks, with which the spread of expected values is compared
   const std::vector<std::size_t> &free_sizes() const { return free_; }
   std::size_t n_unknowns() const { return free_.size() + 6; }
   std::size_t n_residuals() const {

@@ -35,8 +35,8 @@ struct Eigen {
 };
 Eigen symmetric_eigen(std::vector<double> a, std::size_t n);
 
-// Returns the inverse of J^T J. An entry of its diagonal is infinite if the unknown takes part in a combination of unknowns that
-// the residuals do not depend on; then the other entries of its row and column are 0.
+// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entry of each
+// unknown in the combination is infinite. The other entries of its row and column are then 0.
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n);
 
 }  // namespace riis

@@ -143,8 +143,8 @@ std::optional<Vec3> nearest_on(const Vector<AttachmentPart> &parts, const WarpMa
   return place(nearest->image, nearest->curve.at(at));
 }
 
-// Finds the places of the landmarks along the attachment: those that the warp of all landmarks takes nearest to them. `places`
-// has the places of the other landmarks. `local` has the landmarks in the valve's frame.
+// Finds the places of the landmarks along the attachment. The warp of all landmarks takes each place as near to its landmark as
+// any point of the attachment. `places` has the places of the other landmarks. `local` has the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   const std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);

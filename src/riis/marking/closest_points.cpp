@@ -57,8 +57,9 @@ class ClosestPoints {
   }
 
  private:
-  // In half extents of the surface. Single precision does not separate the triangles near a point that is far. One such point
-  // would make the batch's frame useless for all other points. Points that are not wide have the frame of all points.
+  // Two distances from the surface's middle, in half extents of the surface. Near a point beyond `far`, single precision does not
+  // separate triangles, and one such point would make its batch's frame useless for the other points. If no point is beyond
+  // `wide`, one frame serves all batches.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
   double reach_of(Vec3 p) const {
@@ -114,28 +115,37 @@ class ClosestPoints {
     const std::int64_t share = request_.n_threads == 1 ? n : n / (4 * request_.n_threads);
     const std::int64_t per_part =
         std::clamp<std::int64_t>(share / nodes_per_cluster * nodes_per_cluster, nodes_per_cluster, points_per_region);
-    parallel_for_ranges(n, per_part, request_.n_threads, [&](const Range &part, int thread) {
-      OfThread &own = view(threads_)[thread];
-      own.clusters.frame = frame_;
-      const auto id_of = [&](std::int64_t at) { return wanted_.id(range.begin + at); };
-      const auto item_at = [&](std::int64_t at) -> const auto & { return view(items_)[part.begin + at]; };
-      fill_clusters(
-          part.end - part.begin, 1,
-          [&](std::int64_t at) {
-            const NodeItem<std::uint32_t> &item = item_at(at);
-            return OrderedNode{item.node, points_[id_of(item.node)], {item.x[0], item.x[1], item.x[2]}};
-          },
-          [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, own.clusters);
-      const NodeSearch search = node_search();
-      search_clusters(search, own.clusters, kernels(search.instructions), own.scratch, own.found);
-      has_written_ = true;
-      write_found(view(own.found.by_thread)[0], id_of);
-    });
+    parallel_for_ranges(n, per_part, request_.n_threads,
+                        [&](const Range &part, int thread) { search_part(range, part, view(threads_)[thread]); });
     if (has_far) {
       has_written_ = true;
       write_one_by_one(range, [&](Vec3 p) { return is_far(p); });
     }
     return true;
+  }
+
+  struct alignas(64) OfThread {
+    Clusters clusters;
+    ClusterScratch scratch;
+    FoundNodes found;
+  };
+
+  // Fills clusters with a part of the batch's items, searches them, and writes the points.
+  void search_part(const Range &batch, const Range &part, OfThread &own) {
+    const auto id_of = [&](std::int64_t at) { return wanted_.id(batch.begin + at); };
+    const auto item_at = [&](std::int64_t at) -> const auto & { return view(items_)[part.begin + at]; };
+    own.clusters.frame = frame_;
+    fill_clusters(
+        part.end - part.begin, 1,
+        [&](std::int64_t at) {
+          const NodeItem<std::uint32_t> &item = item_at(at);
+          return OrderedNode{item.node, points_[id_of(item.node)], {item.x[0], item.x[1], item.x[2]}};
+        },
+        [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, own.clusters);
+    const NodeSearch search = node_search();
+    search_clusters(search, own.clusters, kernels(search.instructions), own.scratch, own.found);
+    has_written_ = true;
+    write_found(view(own.found.by_thread)[0], id_of);
   }
 
   // A search of one thread.
@@ -148,8 +158,8 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. k counts from
-  // the range's begin. `place` counts from it, too, but leaves out the points of the same block that were not visited.
+  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. The first point
+  // of the range has the k 0. The visited points of a block have consecutive places from the k at which the block begins.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, const Visit &visit) const {
     std::array<Block, points_per_batch / points_per_block> blocks;
@@ -256,14 +266,9 @@ class ClosestPoints {
   const bool is_limited_, may_be_far_, is_spread_;
   const riis_closest_arrays &to_;
   std::atomic<bool> has_written_{false};
-  // A batch: its points that are searched over clusters, and their frame. A point's number counts from the batch's begin.
+  // The points of a batch that are searched over clusters, and their frame. The first point of the batch has the number 0.
   NodeItems<std::uint32_t> items_, buffer_;
   NodeFrame frame_;
-  struct alignas(64) OfThread {
-    Clusters clusters;
-    ClusterScratch scratch;
-    FoundNodes found;
-  };
   std::vector<OfThread> threads_;
 };
 

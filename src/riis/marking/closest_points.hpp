@@ -33,7 +33,7 @@ struct ClosestPointsRequest {
   Threads n_threads;
 };
 
-// Writes the wanted entries of the arrays. The points were checked. If memory runs out, nothing is written.
+// Writes the wanted entries of the arrays. The points were checked. A failure for lack of memory leaves the arrays unchanged.
 template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to);

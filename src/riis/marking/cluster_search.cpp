@@ -155,9 +155,8 @@ class ClusterSearch {
   // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
   std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
                          std::vector<std::int32_t> &to) const {
-    constexpr std::size_t whole_register = 16;  // the kernel may write as much beyond the last number
     const std::size_t first = to.size();
-    to.resize(first + n + whole_register);
+    to.resize(first + n);
     const auto n_added = static_cast<std::size_t>(kernels_.select(numbers, bits, static_cast<std::int32_t>(n),
                                                                   static_cast<std::int32_t>(bit), to.data() + first));
     to.resize(first + n_added);

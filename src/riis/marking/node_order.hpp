@@ -87,9 +87,9 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// Where parts are cut. by_clusters: into up to four, early between clusters and later between leaves, so clusters are compact.
-// by_leaves: between leaves only, into as many parts as make a leaf as wide as it is long. There are half as many passes, and
-// clusters are long.
+// The places at which parts are cut. by_clusters cuts large parts between clusters, and small ones between leaves, into at most
+// four parts each time. Clusters are then compact. by_leaves always cuts between leaves, into so many parts that a leaf becomes
+// as wide as it is long. This takes half as many passes, but clusters are long.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its

@@ -121,7 +121,7 @@ inline std::int64_t nanoseconds() noexcept {
 }
 
 // Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up. The calling thread first
-// works alone for as long as `choice` says. The result also counts the other threads if the loop has ended before that time.
+// works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
 template <class Body>
 int team_for(std::int64_t n_blocks, int n_threads, const Body &body, LoopChoice &choice) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);

@@ -19,8 +19,8 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // threads of the caller's own loops. But a loop waits for all of them at its end, for as long as another process holds a
 // processor. After such a wait, teams run the loops for a while. Each further such wait doubles this time.
 // A team also waits, for a thread that another process interrupts inside a block. The calling thread therefore begins a team's
-// loop alone, and calls the team when it has worked for as long as recent loops have lost by calling their teams. If
-// the team then loses as much, the loop takes at most twice as long as with the better choice. All times are in nanoseconds.
+// loop alone. It calls the team after it has worked for as long as recent loops lost by calling theirs. If the team then loses as
+// much, the loop takes at most twice as long as with the better choice. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 8'000'000'000;
@@ -46,8 +46,8 @@ class LoopChoice {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
-  // Records a loop that called a team and ended now. `lost` is the calling thread's wait at the end, less the time that it would
-  // have taken to do the work of the other threads.
+  // Records a loop that called a team and ended now. `lost` is the calling thread's wait at the end, minus the time in which it
+  // would have done the other threads' work itself.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);

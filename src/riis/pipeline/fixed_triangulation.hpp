@@ -14,7 +14,8 @@ class FixedTriangulation {
   // of the pipeline do. The message names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
-  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in more than its opening.
+  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in more than its opening and the values of its
+  // warp.
   void check(const Valve &valve) const { valve_.check_same_but_for_opening(valve); }
   const TriangulationPlan &plan() const { return plan_; }
 

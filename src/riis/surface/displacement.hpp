@@ -58,9 +58,9 @@ class Through {
   std::array<T, n_material> factors_{};
 };
 
-// Which points of a side are the same material in both states. Without a warp, those at equal shares of the length. A warp
-// stretches curves unevenly. Then the point at a share now was at another share before. Besides, the curves differ a little from
-// the curves that the map takes the points along. `rest` makes up for the change of this difference.
+// Tells which points of a side are the same material in both states. Without a warp, points at equal shares of the length are. A
+// warp stretches curves unevenly. Then the point at a share now was at another share before. Besides, the curves differ a little
+// from the curves that the map takes the points along. `rest` makes up for the change of this difference.
 class SideMaterial {
  public:
   SideMaterial(const MovedPatch &moved, Side Patch::*side);
@@ -86,9 +86,9 @@ class SideMaterial {
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// What the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
-// (MappedInside) it is the difference between the displacement of the mapped point and the Coons combination of the mapped
-// sides. Between them lies the polynomial of degree 3 in u and in v.
+// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
+// (MappedInside) it is the difference between the displacement of the mapped point and the Coons combination of the mapped sides.
+// Between them lies the polynomial of degree 3 in u and in v.
 class RestInside {
  public:
   explicit RestInside(const MovedPatch &moved);

@@ -122,7 +122,7 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
     for (auto &[id, volume] : back) volume = -volume;
     return back;
   }
-  if (!valve.can_open()) patches_at(valve, opening_to);  // a failure here names the caller's opening
+  if (!valve.can_open()) patches_at(valve, opening_to);  // a failure's message names the caller's opening
   std::vector<double> openings{opening_from};
   for (int i = 1; i < n_steps; ++i) {
     const double opening = static_cast<double>(i) / n_steps;

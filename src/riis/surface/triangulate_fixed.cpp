@@ -69,7 +69,7 @@ Vector<std::size_t> make_triangles(Pieces &pieces) {
 // Gives a set the triangles of a plan, unless it already has them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The number alone does not tell: a set whose triangles were moved away keeps its number but has no triangles.
+  // The number alone is not enough, because a set whose triangles were moved away keeps its number.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;

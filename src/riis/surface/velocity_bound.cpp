@@ -173,10 +173,7 @@ class SideInBoth {
   // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or
   // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short piece at a curve's end, whose
   // length changes many times over as a joint approaches the end.
-  bool is_compared(std::size_t i) const {
-    if (at_now_.piece(i) + more_before_ != at_before_.piece(i) + more_now_) return false;
-    return width(i) > narrow || compared(i).is_tight;
-  }
+  bool is_compared(std::size_t i) const { return are_on_one_piece(i) && (width(i) > narrow || compared(i).is_tight); }
 
   // Returns whether a piece of one of the states begins at share i.
   bool is_joint(std::size_t i) const {
@@ -188,12 +185,20 @@ class SideInBoth {
       const Both none{0, 0};
       return {none, none, none, none, 0, 0, true};
     }
-    if (is_compared(i)) return compared(i);
+    if (are_on_one_piece(i)) {
+      const AlongCurve made = compared(i);
+      if (width(i) > narrow || made.is_tight) return made;
+    }
     const CurvePart now = part(at_now_, now_, i), before = part(at_before_, before_, i);
     return either(along(now, now, width(i)), along(before, before, width(i)));
   }
 
  private:
+  // Returns whether both states lie on the same piece on the range after share i.
+  bool are_on_one_piece(std::size_t i) const {
+    return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_;
+  }
+
   AlongCurve compared(std::size_t i) const {
     return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
   }
@@ -270,7 +275,7 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
   return {along(states.now, states.now.patches[patch].*side), along(states.before, states.before.patches[patch].*side)};
 }
 
-// Bounds the largest curvature of a curve. Infinite if the curve may turn on the spot.
+// Bounds the largest curvature of a curve. The bound is infinite if the curve may turn on the spot.
 double largest_curvature(const Curve &curve) {
   double largest = 0;
   for (const Bezier &piece : curve.pieces()) largest = larger(largest, largest_curvature(piece));
@@ -282,7 +287,7 @@ double off_line(double width, const Through<Vec3>::Bounds &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
-// What SideMaterial adds to the displacement at equal shares: C(u) - C(u + slide(u)) + rest(u), with the curve C before.
+// The part that SideMaterial adds to the displacement at equal shares: C(u) - C(u + slide(u)) + rest(u), with the curve C before.
 class AddedByMaterial {
  public:
   // `third` bounds the third derivative of C by the share. It may be infinite.

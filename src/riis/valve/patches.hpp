@@ -141,12 +141,12 @@ struct PatchSet {
   // The derivatives of control points with respect to the opening, or nothing if the valve does not blend control points. The
   // list serves the first curves, which have one piece each. The curves of a skirt come after these and have no entry.
   Vector<Bezier> rates = {};
-  // Only of warped patches: an entry for each curve but the lines between the sides of a skirt. On them, equal shares stand for
-  // the same points already.
+  // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
+  // equal shares stand for the same points without it.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only of warped patches: where the map takes points inside a patch. The index is that of the patch.
+  // Only warped patches have this list. It says for each patch where the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};
-  // Only of valves whose skirts lead away from the axis of the attachment. Their patches have one image each.
+  // Only valves whose skirts lead away from the axis of the attachment have this list. Their patches have one image each.
   Vector<NeighbourEnds> neighbour_ends = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }

@@ -24,7 +24,8 @@ constexpr double most_between_ends = 0.5;
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine also falls to 0 if the line is nearer to the axis than this sine.
 constexpr double least_sine_to_axis = 0.2;
-// A side that is flatter than this sine leans less than its tangent does, and not at all if it is perpendicular to the axis.
+// A side leans as its tangent does, if the sine of its rise is at least this. A flatter side leans less, and a side perpendicular
+// to the axis does not lean.
 constexpr double least_rise = 0.5;
 // The derivative of a direction that was turned is a difference over two such shares of the length.
 constexpr double direction_step = 1e-4;
@@ -207,29 +208,21 @@ class SkirtMaker {
   std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and image of a patch and its image
 };
 
-}  // namespace
+// An end of a held side of an image. `is_before` tells whether the side ends there, as seen along the axis.
+struct PlacedEnd {
+  AttachedEnd end;
+  Vec3 point;
+  std::int32_t leaflet_id;
+  bool is_before;
+};
 
-Vec3 outwards(const AxisLine &axis, Vec3 point) {
-  const Vec3 from_axis = point - axis.centre, q = from_axis - dot(from_axis, axis.direction) * axis.direction;
-  const double size = length(q);
-  return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
-}
-
-Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
-  struct Place {
-    AttachedEnd end;
-    Vec3 point;
-    std::int32_t leaflet_id;
-    bool is_before;
-  };
-  Vector<Place> places;
+Vector<PlacedEnd> placed_ends(const PatchSet &set, const Vector<HeldSide> &sides) {
   Vector<std::size_t> first_number;
   std::size_t n_images = 0;
   for (const Patch &patch : set.patches) first_number.push_back(n_images), n_images += patch.images.size();
-  double size = 0;
-  for (const HeldSide &held : held_sides(set)) {
+  Vector<PlacedEnd> places;
+  for (const HeldSide &held : sides) {
     const Curve &curve = set.curve_of(held.side);
-    size = std::max(size, curve.length());
     const Vector<PatchImage> &images = set.patches[held.patch].images;
     for (std::size_t i = 0; i < images.size(); ++i)
       for (const bool is_last : {false, true})
@@ -239,24 +232,40 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
                           images[i].leaflet_id,
                           is_last != points_upstream(images[i])});
   }
-  Vector<const Place *> free;
-  for (const Place &at : places)
-    if (std::none_of(places.begin(), places.end(), [&](const Place &other) {
+  return places;
+}
+
+}  // namespace
+
+Vec3 outwards(const AxisLine &axis, Vec3 point) {
+  const Vec3 from_axis = point - axis.centre, q = from_axis - dot(from_axis, axis.direction) * axis.direction;
+  const double size = length(q);
+  return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
+}
+
+Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
+  const Vector<HeldSide> sides = held_sides(set);
+  const Vector<PlacedEnd> places = placed_ends(set, sides);
+  double size = 0;
+  for (const HeldSide &held : sides) size = std::max(size, set.curve_of(held.side).length());
+  Vector<const PlacedEnd *> free;
+  for (const PlacedEnd &at : places)
+    if (std::none_of(places.begin(), places.end(), [&](const PlacedEnd &other) {
           return &other != &at && distance(other.point, at.point) <= 1e-9 * size;
         }))
       free.push_back(&at);
-  const auto nearest_to = [&](const Place &at) {
-    const Place *nearest = nullptr;
-    for (const Place *other : free)
+  const auto nearest_to = [&](const PlacedEnd &at) {
+    const PlacedEnd *nearest = nullptr;
+    for (const PlacedEnd *other : free)
       if (other->leaflet_id != at.leaflet_id && other->is_before != at.is_before &&
           (!nearest || distance(other->point, at.point) < distance(nearest->point, at.point)))
         nearest = other;
     return nearest;
   };
   Vector<NeighbourEnds> made;
-  for (const Place *at : free) {
+  for (const PlacedEnd *at : free) {
     if (!at->is_before) continue;
-    const Place *other = nearest_to(*at);
+    const PlacedEnd *other = nearest_to(*at);
     if (other && nearest_to(*other) == at && distance(other->point, at->point) <= most_between_ends * size)
       made.push_back({at->end, other->end});
   }

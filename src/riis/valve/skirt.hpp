@@ -23,7 +23,7 @@ enum class SkirtAxis : std::uint8_t {
 // Gives every attached patch its axis.
 void aim_skirt(PatchSet &set, SkirtAxis axis);
 
-// A side at which a patch is attached, and that is a side of no other patch.
+// A side at which a patch is attached. It is a side of no other patch.
 struct HeldSide {
   std::size_t patch;
   Side side;

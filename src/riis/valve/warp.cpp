@@ -166,7 +166,8 @@ WarpLandmarks::WarpLandmarks(const Vector<Vec3> &sources, double noise, const ch
 void WarpLandmarks::reduce() {
   const std::size_t n = size(), m = n_terms_;
   const auto term = [&](std::size_t k, Vec3 y) { return k == 0 ? 1.0 : dot(axis_[k - 1], y); };
-  // The polynomials' orthonormal basis, by Gram and Schmidt in two passes: the terms are nearly orthogonal already.
+  // Makes the polynomials' orthonormal basis by Gram and Schmidt's method. Two passes are enough, because the terms are nearly
+  // orthogonal.
   Vector<double> orthonormal(m * n), upper(m * m, 0.0);
   for (std::size_t k = 0; k < m; ++k) {
     double *column = orthonormal.data() + k * n;
