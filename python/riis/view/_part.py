@@ -30,6 +30,7 @@ class Part:
     _playing: asyncio.Task[None] | None
     _written: set[Path]
     _text_name: str
+    _slider_values: list[float]  #: as the sliders show them
     _wanted_size: tuple[int, int] | None
     _alone: Any
     _begin_task: Callable[[Coroutine[Any, Any, None]], None]

@@ -23,9 +23,9 @@ class Hand(Part):
         if self.model is None or k >= len(self.state.sliders):
             return
         name, value = self.state.sliders[k]["name"], float(self.state[f"slider_{k}"])
-        if math.isclose(value, self.state.sliders[k]["value"], rel_tol=1e-12, abs_tol=1e-12):
+        if math.isclose(value, self._slider_values[k], rel_tol=1e-12, abs_tol=1e-12):
             return
-        self.state.sliders[k]["value"] = value
+        self._slider_values[k] = value
         self._move(lambda: self.model.set(self.state.current, name, value), ("set", self.state.current, name))
 
     def _move(self, change: Callable[[], Any], what: Any) -> None:

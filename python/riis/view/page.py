@@ -70,6 +70,7 @@ class Page(Hand, Heartbeat, saving.Files):
         self._clicks: list[Any] = []
         self._written: set[Path] = set()
         self._text_name = "case"
+        self._slider_values: list[float] = []
         self._orifice_at = 0.0
         self._playing: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()  # asyncio itself does not keep them
@@ -336,8 +337,10 @@ class Page(Hand, Heartbeat, saving.Files):
                         sliders.append(rows.slider_of(parameter, float(value)))
                     else:
                         table.append(rows.row_of(parameter, value, parameter.name in valve.parameters))
-            for k, slider in enumerate(sliders):
-                state[f"slider_{k}"] = slider["value"]
+            # The values are not in state.sliders: trame sends a list that was changed in place to no browser.
+            self._slider_values = [float(slider.pop("value")) for slider in sliders]
+            for k, value in enumerate(self._slider_values):
+                state[f"slider_{k}"] = value
             state.sliders, state.rows = sliders, table
             state.placement = rows.placement_of(valve)
             state.can_undo, state.can_redo = bool(model.can_undo), bool(model.can_redo)
@@ -391,8 +394,8 @@ class Page(Hand, Heartbeat, saving.Files):
         self.scene.show_lights([])
         valve = self._valve()
         with self.state as state:
-            if state.sliders and state.sliders[0]["name"] == "opening" and state.sliders[0]["value"] != valve.opening:
-                state.sliders[0]["value"] = state.slider_0 = valve.opening
+            if state.sliders and state.sliders[0]["name"] == "opening" and self._slider_values[0] != valve.opening:
+                self._slider_values[0] = state.slider_0 = valve.opening
             if self._playing is not None:
                 state.time = float(self.model.time)
             state.n_marked, state.milliseconds = len(self._shown.marked), self._shown.milliseconds
