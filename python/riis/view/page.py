@@ -458,6 +458,7 @@ class Page(Hand, Heartbeat, saving.Files):
             self._seen.set()
             return
         self._number += 1
+        self._seen_at = time.monotonic()  # a slow picture is no sign that the browser is gone
         self._seen.clear()
         with self.state as state:
             state.picture, state.picture_number = picture, self._number
