@@ -29,10 +29,13 @@ class Hand(Part):
         self._move(lambda: self.model.set(self.state.current, name, value), ("set", self.state.current, name))
 
     def _move(self, change: Callable[[], Any], what: Any) -> None:
-        """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo."""
+        """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo.
+
+        The time counts from the last picture, because a slow server answers late to a hand that still moves.
+        """
         self._need_model()
         now = time.monotonic()
-        if self._drag is None or self._drag[0] != what or (not self._held and now - self._drag[1] > 0.7):
+        if self._drag is None or self._drag[0] != what or (not self._held and now - max(self._drag[1], self._seen_at) > 0.7):
             self._end_drag()
             self._drag_stack.enter_context(self.model.dragging())
         self._drag = (what, now)
