@@ -76,6 +76,7 @@ class Browser:
             options.add_argument(word)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
+        self.driver.set_script_timeout(120)
         self.folder = folder
 
     def open(self, address):
@@ -98,11 +99,17 @@ class Browser:
         raise AssertionError(f"waited {seconds} s in vain: {what}")
 
     def rest(self):
-        """Waits until the lights are those of the last change, and no new picture has come for a while."""
-        end, still, last = time.monotonic() + 120, 0, -1
+        """Waits until the server has answered, the lights are those of the last change, and no new picture has come for a
+        while."""
+        end, still, last, has_answered = time.monotonic() + 240, 0, -1, False
         while still < 6:
             time.sleep(0.25)
             try:
+                if not has_answered:  # then it has also taken all earlier changes
+                    self.driver.execute_async_script(
+                        "const done = arguments[0]; window.trame.trigger('riis_seen', [0]).then(() => done(), () => done());"
+                    )
+                    has_answered = True
                 rests = self.get("fresh") and self.get("at_rest") and self.get("progress") is None
                 number = self.get("picture_number") if rests else -1
             except JavascriptException:  # the page is not there yet
