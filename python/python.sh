@@ -103,14 +103,18 @@ python_needs_environment() {
 # Packages that ./run view --check needs besides the program's.
 view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-core procps)
 
-# view [MESH...]: shows a valve in a mesh. view --check: uses the page in a browser.
+# view [MESH...]: shows a valve in a mesh. view --check: uses the page in a browser, and first makes the environment if it is
+# missing, as in a bare Debian.
 view() {
-  python_needs_environment view
-  [[ ${1:-} == --check ]] || exec "$python_folder/fresh/bin/python" -m riis view "$@"
+  if [[ ${1:-} != --check ]]; then
+    python_needs_environment view
+    exec "$python_folder/fresh/bin/python" -m riis view "$@"
+  fi
   [[ $# == 1 ]] || {
     echo "./run view: '${*:2}' is not an argument of ./run view --check" >&2
     exit 2
   }
+  [[ -x $python_folder/fresh/bin/python ]] || python_make
   packages=("${demo_packages[@]}" "${view_packages[@]}")
   install_missing
   step "configure" cmake --preset default
@@ -129,9 +133,22 @@ fit_study() {
   OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python_folder/fresh/bin/python" -B python/tests/fit_study.py "$n"
 }
 
+# python_make: makes the wheel, and a fresh environment with it.
+python_make() {
+  local interpreter
+  interpreter=$(python_of_packages)
+  packages=("${python_packages[@]}")
+  install_missing
+  step "build tools from PyPI" python_tools "$interpreter"
+  step "build the wheel" python_wheel
+  step "repair the wheel" python_repair
+  step "add the licences of its libraries" python_licences
+  step "install it into a fresh environment" python_environment "$interpreter"
+}
+
 # python_package [tests|fit|tutorial]
 python_package() {
-  local interpreter status=0 cost=1
+  local status=0 cost=1
   case $* in
     '') ;;
     tests) cost= ;;
@@ -150,14 +167,7 @@ python_package() {
       exit 2
       ;;
   esac
-  interpreter=$(python_of_packages)
-  packages=("${python_packages[@]}")
-  install_missing
-  step "build tools from PyPI" python_tools "$interpreter"
-  step "build the wheel" python_wheel
-  step "repair the wheel" python_repair
-  step "add the licences of its libraries" python_licences
-  step "install it into a fresh environment" python_environment "$interpreter"
+  python_make
   step "check that the module loads only its own libraries" python_is_alone
   step "check the types" "$python_folder/fresh/bin/mypy" --strict python/tests/typed.py
   python_tell

@@ -12,6 +12,9 @@ import numpy as np
 from matplotlib.tri import Triangulation
 
 DT = 0.002  # s, RUN_DT of settings.c
+# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+COLOURS = ("#0072b2", "#e69f00", "#009e73")
+LEAFLET = "#d55e00"
 
 
 class Triangles(ctypes.Structure):
@@ -81,7 +84,7 @@ def draw_flow(study, out, history):
         colours = axis.tripcolor(mesh, np.minimum(speed, 0.8), shading="gouraud", vmin=0, vmax=0.8, cmap="viridis")
         axis.quiver(x[::2], z[::2], rows[::2, 2], rows[::2, 4], color="white", scale=8, width=0.004)
         for ends in leaflets_cut(opening[step - 1]):
-            axis.plot(1e3 * ends[:, 0], 1e3 * ends[:, 1], color="red", linewidth=2.5)
+            axis.plot(1e3 * ends[:, 0], 1e3 * ends[:, 1], color=LEAFLET, linewidth=2.5)
         title = f"{step * DT:.3f} s, opening {opening[step - 1]:.2f}\ndrop {history['drop'][step - 1]:.0f} Pa"
         axis.set_title(title, fontsize=11)
         axis.set_aspect("equal")
@@ -90,17 +93,17 @@ def draw_flow(study, out, history):
         axis.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm: the ventricle is below, the aorta above")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.7)
-    figure.suptitle("The aortic root in code_saturne. Red: the leaflets; the cut runs through the middle of the right cusp, and "
-                    "between the two others, which meet in it when they close")
+    figure.suptitle("The aortic root in code_saturne. Orange: the leaflets; the cut runs through the middle of the right cusp, "
+                    "and between the two others, which meet in it when they close")
     figure.savefig(os.path.join(out, "flow.png"), dpi=110)
     plt.close(figure)
 
 
 def draw_beat(study, out, read_history):
     """Draws the pressure drop, the flow and the opening over the beat."""
-    runs = [("C, head losses", read_history(study, "c", "beat"), "tab:blue", "-"),
-            ("C, without the leaflets' velocity", read_history(study, "c", "beat_still"), "tab:orange", "--"),
-            ("Fortran, momentum source", read_history(study, "fortran", "beat"), "tab:green", ":")]
+    runs = [("C, head losses", read_history(study, "c", "beat"), COLOURS[0], "-"),
+            ("C, without the leaflets' velocity", read_history(study, "c", "beat_still"), COLOURS[1], "--"),
+            ("Fortran, momentum source", read_history(study, "fortran", "beat"), COLOURS[2], ":")]
     figure, axes = plt.subplots(3, 1, figsize=(9, 9), sharex=True, constrained_layout=True)
     for label, history, colour, line in runs:
         time = np.array(history["time"])
@@ -125,10 +128,11 @@ def draw_closed(study, out, read_history):
     """Draws how the pressure drop of the closed valve builds up."""
     figure, axis = plt.subplots(figsize=(8, 4.5), constrained_layout=True)
     reference = read_history(study, "reference", "closed")
-    for label, history, style in (("C, head losses", read_history(study, "c", "closed_1"), "o-"),
-                                  ("Fortran, momentum source", read_history(study, "fortran", "closed_1"), "s-"),
-                                  ("the solver's own head-loss zone", reference, "k--")):
-        axis.plot(history["step"][1:], history["drop"][1:], style, markersize=3, label=label)
+    runs = (("C, head losses", read_history(study, "c", "closed_1"), COLOURS[0], "o-"),
+            ("Fortran, momentum source", read_history(study, "fortran", "closed_1"), COLOURS[2], "s-"),
+            ("the solver's own head-loss zone", reference, "black", "--"))
+    for label, history, colour, style in runs:
+        axis.plot(history["step"][1:], history["drop"][1:], style, color=colour, markersize=3, label=label)
     axis.set_xlabel("time step after a sudden start; the first one, with the inertia of the whole fluid, is left out")
     axis.set_ylabel("drop across the closed valve, Pa")
     axis.grid(alpha=0.3)

@@ -10,6 +10,7 @@ import sys
 import numpy
 
 RADIUS, HINGE, DT, EPS = 0.011, 0.45, 0.02, 2e-3
+LEAFLET = "#d55e00"  # of the palette of riis, which all kinds of colour vision tell apart
 
 
 def require(holds, text):
@@ -249,13 +250,13 @@ def picture(folder, path):
         one.quiver(1e3 * cuts["x"][::6, ::6], 1e3 * cuts["z"][::6, ::6], u[..., 0], u[..., 2], color="white", scale=4,
                    width=0.004)
         lines = [[(1e3 * x, 1e3 * z) for x, z in line] for line in leaflets(opening)]
-        one.add_collection(LineCollection(lines, colors="red", linewidths=2))
+        one.add_collection(LineCollection(lines, colors=LEAFLET, linewidths=2))
         one.set_title(f"{time:.3f} s, opening {opening:.2f}\ndrop {drop:.0f} Pa", fontsize=10)
         one.set_aspect("equal")
         one.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm; blood flows upwards")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.9)
-    figure.suptitle("Speed and velocity in the plane y = 0; red: the leaflets there")
+    figure.suptitle("Speed and velocity in the plane y = 0; orange: the leaflets there")
     figure.savefig(path, dpi=70)
 
 

@@ -12,6 +12,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 RHO = 1060.0
+# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+COLOURS = ("#0072b2", "#e69f00")
+LEAFLET = "#d55e00"
 
 
 def _drop(case):
@@ -22,12 +25,13 @@ def _drop(case):
 def beat(case, still, path):
     """Draws opening, pressure difference and flow over the heartbeat."""
     figure, axes = plt.subplots(3, 1, figsize=(8, 8), sharex=True)
-    for folder, name, style in ((case, "K (u - velocity of the leaflets)", "C0-"), (still, "K u", "C1--")):
+    runs = (case, "K (u - velocity of the leaflets)", "-"), (still, "K u", "--")
+    for (folder, name, style), colour in zip(runs, COLOURS):
         rows, flow = foam.steps(folder), foam.table(folder, "flow")
         time, drop = _drop(folder)
-        axes[0].plot(rows[:, 0], rows[:, 1], style, label=name)
-        axes[1].plot(time, drop, style)
-        axes[2].plot(flow[:, 0], flow[:, 1] * 1e6, style)
+        axes[0].plot(rows[:, 0], rows[:, 1], style, color=colour, label=name)
+        axes[1].plot(time, drop, style, color=colour)
+        axes[2].plot(flow[:, 0], flow[:, 1] * 1e6, style, color=colour)
     axes[0].set_ylabel("opening, 0 to 1")
     axes[0].legend(frameon=False)
     axes[1].set_ylabel("pressure below the valve\nless that above, Pa")
@@ -80,13 +84,13 @@ def velocity(case, path):
         leaflets = foam.triangles(case / "postProcessing/aorticValve" / folder.name / "leaflets.vtk")
         lines = [[100 * a, 100 * b] for a, b in _cut(*leaflets[:2])]
         one.add_collection(matplotlib.collections.LineCollection(lines, colors="white", linewidths=2.5))
-        one.add_collection(matplotlib.collections.LineCollection(lines, colors="red", linewidths=1.2))
+        one.add_collection(matplotlib.collections.LineCollection(lines, colors=LEAFLET, linewidths=1.2))
         now = opening[numpy.abs(time - float(folder.name)).argmin()]
         one.set_title(f"{float(folder.name):.2f} s, opening {now:.2f}", fontsize=10)
         one.set_aspect("equal")
         one.set_xlabel("y, cm")
     axes[0].set_ylabel("z, cm; blood flows upwards")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.9, extend="max")
-    figure.suptitle("Speed in the plane x = 0; red: the leaflets there")
+    figure.suptitle("Speed in the plane x = 0; orange: the leaflets there")
     figure.savefig(path, dpi=90)
     plt.close(figure)

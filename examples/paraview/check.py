@@ -223,6 +223,34 @@ def check_transformed():
     check(differ <= 2, f"a valve that ParaView moves: {differ} marks differ")  # ParaView may compute in single precision
 
 
+def check_placed():
+    """A placed valve with a warp marks as riis.mark does, whatever the panel says, and moves."""
+    turns = numpy.arange(6) * numpy.pi / 3
+    ring = numpy.stack([11.0 * numpy.cos(turns), 11.0 * numpy.sin(turns), numpy.where(numpy.arange(6) % 2, 14.0, 0.0)], 1)
+    ring += [[CHANCE.gauss(0.0, 0.6) for _ in range(3)] for _ in range(6)]
+    names = ("nadir_right", "commissure_right_left", "nadir_left", "commissure_left_non", "nadir_non", "commissure_non_right")
+    xyz, cells = box(25, 40.0, numpy.array([0.0, 0.0, 7.0]))
+    mesh = pv.XMLUnstructuredGridReader(FileName=[write(grid_of(xyz, [(HEXAHEDRON, cell) for cell in cells]), "placed.vtu")])
+    path = os.path.join(FOLDER, "placed.json")
+    for warp in ("none", "exact"):
+        found = riis.place(dict(zip(names, ring)), "coapting", unit="mm", warp=warp)
+        found.save(path)
+        opening = CHANCE.random()
+        source = pv.HeartValve(Kind="mitral", PlacedValve=path, Opening=opening, MeshUnit="m", Translation=[5, 5, 5])
+        marked = pv.MarkByValve(Mesh=mesh, Valve=source, Resistance=10.0)
+        placed = riis.read_placed(path)
+        placed.valve["opening"] = opening
+        surface = riis.Surface(placed.valve, **placed.placement)
+        _, expected = expected_of(surface, riis.Mesh(xyz), [], 10.0)
+        compare(arrays_of(marked), expected, f"a placed valve with the warp {warp}")
+        source.Motion, source.NumberOfTimes = "heartbeat by four times", 5
+        source.UpdatePipelineInformation()
+        check(len(source.TimestepValues) == 5, f"a placed valve has the times {source.TimestepValues}")
+        pv.Delete(marked)
+        pv.Delete(source)
+    print("placed      files of riis.place, with and without a warp: the same bits")
+
+
 def check_state(marked, expected):
     path = os.path.join(FOLDER, "valve.pvsm")
     pv.SaveState(path)
@@ -303,6 +331,9 @@ def check_refusals():
     with open(bad_cycle, "w", encoding="utf-8") as file:
         file.write("0,0\n1,full\n")
     table = {"Motion": "cycle from a table"}
+    bad_placed = os.path.join(FOLDER, "bad.json")
+    with open(bad_placed, "w", encoding="utf-8") as file:
+        file.write('{"valve": "mitral", "unit": "inch"}')
     cases = [
         (lambda: pv.HeartValve(Kind="mitral", Opening=2.0), "opening", "2"),
         (lambda: pv.HeartValve(Kind="aortic", aortic_root_radius=-1.0), "root_radius", "-1"),
@@ -312,6 +343,8 @@ def check_refusals():
         (lambda: pv.HeartValve(**table), "CycleFile: no file is named", ""),
         (lambda: pv.HeartValve(CycleFile=os.path.join(FOLDER, "none.csv"), **table), "No such file", "none.csv"),
         (lambda: pv.HeartValve(CycleFile=bad_cycle, **table), "bad.csv, line 2", "1,full"),
+        (lambda: pv.HeartValve(PlacedValve=os.path.join(FOLDER, "none.json")), "No such file", "none.json"),
+        (lambda: pv.HeartValve(PlacedValve=bad_placed), "bad.json: unit is 'inch'", ""),
         (lambda: pv.HeartValve(Motion="heartbeat by four times", Period=0.0), "Period: is 0.0", ""),
         (lambda: pv.HeartValve(Motion="heartbeat by four times", OpensIn=-1.0), "opening_duration", "-1"),
         (lambda: pv.MarkByValve(Mesh=mesh, Valve=pv.Sphere()), "HalfThickness: it is 0", ""),
@@ -381,6 +414,7 @@ print(f"RIIS_TEST_SEED={SEED}, {servermanager.vtkSMProxyManager.GetParaViewSourc
 load()
 mesh, source, marked, expected = check_kinds()
 check_state(marked, expected)
+check_placed()
 check_leaks_of_cells()
 check_transformed()
 check_time()

@@ -168,9 +168,10 @@ class _Kept(VTKPythonAlgorithmBase):
 # ---- The source ----
 
 VALVE_DEFAULTS = {
-    "Kind": 0, "Opening": 0.0, "Motion": 0, "BeginsToOpen": 0.1, "OpensIn": 0.05, "BeginsToClose": 0.4, "ClosesIn": 0.05,
-    "Period": 0.8, "CycleFile": "", "Interpolation": 0, "NumberOfTimes": 41, "MeshUnit": 0, "RotationAxis": (0.0, 0.0, 1.0),
-    "RotationAngle": 0.0, "Translation": (0.0, 0.0, 0.0), "HalfThickness": 0.0, "Tolerance": 0.05,
+    "Kind": 0, "PlacedValve": "", "Opening": 0.0, "Motion": 0,
+    "BeginsToOpen": 0.1, "OpensIn": 0.05, "BeginsToClose": 0.4, "ClosesIn": 0.05, "Period": 0.8, "CycleFile": "",
+    "Interpolation": 0, "NumberOfTimes": 41, "MeshUnit": 0, "RotationAxis": (0.0, 0.0, 1.0), "RotationAngle": 0.0,
+    "Translation": (0.0, 0.0, 0.0), "HalfThickness": 0.0, "Tolerance": 0.05,
 }  # fmt: skip
 PARAMETERS = {kind: _parameter_names(kind) for kind in KINDS}
 
@@ -190,6 +191,10 @@ def _valve_properties():
     properties = [
         _times_of_output(),
         _choice("Kind", KINDS, "The kind of valve. Each kind has sizes of its own."),
+        f"""<StringVectorProperty name="PlacedValve" command="SetPlacedValve" number_of_elements="1" default_values="">
+          <FileListDomain name="files"/>{_documentation(
+              "A placed valve, as riis place writes it. Its kind, sizes, unit, placement and warp then count.")}
+          <Hints><FileChooser extensions="json" file_description="Placed valve"/></Hints></StringVectorProperty>""",
         _choice("Motion", MOTIONS, "Whether the valve stays at its opening, or moves in ParaView's time."),
         _numbers("Opening", 0.0, "0 is closed, 1 is open.", 0.0, 1.0, hints=_shown_if("Motion", 0)),
         _numbers("BeginsToOpen", 0.1, "The time at which the valve begins to open.", hints=by_times),
@@ -269,6 +274,10 @@ class _HeartValve(_Kept):
 
     def valve(self, opening):
         """Returns the riis.Valve. Sizes that have their defaults are not set, so they follow their rules."""
+        placed = self.placed()
+        if placed is not None:
+            placed.valve["opening"] = opening
+            return placed.valve
         kind = KINDS[self.values["Kind"]]
         valve = riis.Valve(kind, opening=opening)
         for name, property_name in PARAMETERS[kind].items():
@@ -277,15 +286,25 @@ class _HeartValve(_Kept):
                 valve[name] = value if numpy.ndim(value) == 0 else numpy.array(value)
         return valve
 
+    def placed(self):
+        """Returns the placed valve of the file, or None without a file."""
+        if not self.values["PlacedValve"]:
+            return None
+        try:
+            return riis.read_placed(self.values["PlacedValve"])
+        except OSError as error:
+            raise Refused(f"PlacedValve: {self.values['PlacedValve']}: {error.strerror}") from None
+
     def options(self):
         """Returns the options of riis.Surface."""
-        options = {
+        placed = self.placed()
+        placement = placed.placement if placed is not None else {
             "scale": list(UNITS.values())[self.values["MeshUnit"]],
             "rotation_axis": self.values["RotationAxis"],
             "rotation_angle": self.values["RotationAngle"],
             "translation": self.values["Translation"],
-            "tolerance": self.values["Tolerance"],
-        }
+        }  # fmt: skip
+        options = {**placement, "tolerance": self.values["Tolerance"]}
         if self.length("HalfThickness") > 0.0:
             options["half_thickness"] = self.values["HalfThickness"]
         return options

@@ -32,6 +32,7 @@ from riis._errors import (
 )
 from riis._fit import FitResult, Rival, fit
 from riis._place import PlaceResult, place
+from riis._placed_file import PlacedValve, read_placed
 from riis._plot import animate, plot
 from riis._records import (
     BandSums,
@@ -142,6 +143,7 @@ __all__ = [
     "Parameter",
     "Passage",
     "PlaceResult",
+    "PlacedValve",
     "Rival",
     "Surface",
     "SurfaceInfo",
@@ -164,6 +166,7 @@ __all__ = [
     "mark",
     "place",
     "plot",
+    "read_placed",
     "set_log",
     "status_name",
     "version",

@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import math
 import os
+import weakref
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +56,96 @@ def _look(plotter: Any, zoom: float) -> None:
     plotter.camera.zoom(zoom)
 
 
+def round_length(limit: float) -> float:
+    """Returns the largest length of one digit, 1, 2 or 5, that does not exceed the limit."""
+    power = 10.0 ** math.floor(math.log10(limit))
+    return next((digit * power for digit in (5.0, 2.0) if digit * power <= limit), power)
+
+
+class _ScaleBar:
+    """A line of a round length at the lower left of a picture, with its length beside it, as in the program's pictures.
+
+    The length is that in the plane through the camera's focal point across the line of sight. It is computed anew before each
+    picture, because the camera or the window may have changed.
+    """
+
+    def __init__(self) -> None:
+        from vtkmodules.vtkCommonDataModel import vtkPolyData
+        from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkPolyDataMapper2D, vtkTextActor
+
+        self.unit, self._observer = "", 0
+        self._lines, self._line, self._text = vtkPolyData(), vtkActor2D(), vtkTextActor()
+        pixels, mapper = vtkCoordinate(), vtkPolyDataMapper2D()
+        pixels.SetCoordinateSystemToViewport()
+        mapper.SetTransformCoordinate(pixels)
+        mapper.SetInputData(self._lines)
+        self._line.SetMapper(mapper)
+        for look in (self._line.GetProperty(), self._text.GetTextProperty()):
+            look.SetColor(*_GREY)
+        self._text.GetTextProperty().SetVerticalJustificationToCentered()
+
+    def add_to(self, renderer: Any) -> None:
+        """Adds the bar to a renderer, again if the renderer was cleared."""
+        self.drop_from(renderer)
+        renderer.AddViewProp(self._line)
+        renderer.AddViewProp(self._text)
+        self._observer = renderer.AddObserver("StartEvent", self.renew)
+
+    def drop_from(self, renderer: Any) -> None:
+        renderer.RemoveViewProp(self._line)
+        renderer.RemoveViewProp(self._text)
+        renderer.RemoveObserver(self._observer)
+
+    def renew(self, renderer: Any, _: str = "") -> None:
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray
+
+        width, height = renderer.GetSize()
+        camera = renderer.GetActiveCamera()
+        if camera.GetParallelProjection():
+            tall = 2.0 * camera.GetParallelScale()
+        else:
+            tall = 2.0 * camera.GetDistance() * math.tan(math.radians(camera.GetViewAngle() / 2.0))
+        if not (height > 0 and 0.0 < tall < math.inf):
+            return
+        length = round_length(0.25 * width * tall / height)
+        letter = max(8, round(0.028 * height))
+        left, middle, tick = 1.5 * letter, 1.5 * letter, 0.3 * letter
+        right = left + length * height / tall
+        points, cells = vtkPoints(), vtkCellArray()
+        for ends in (((left, middle), (right, middle)), *(((x, middle - tick), (x, middle + tick)) for x in (left, right))):
+            cells.InsertNextCell(2)
+            for x, y in ends:
+                cells.InsertCellPoint(points.InsertNextPoint(x, y, 0.0))
+        self._lines.SetPoints(points)
+        self._lines.SetLines(cells)
+        self._line.GetProperty().SetLineWidth(max(1.0, height / 400.0))
+        self._text.GetTextProperty().SetFontSize(letter)
+        self._text.SetPosition(right + 0.6 * letter, middle)
+        self._text.SetInput(f"{length:g} {self.unit or ('mesh unit' if length == 1.0 else 'mesh units')}")
+
+
+_GREY = (0.3, 0.3, 0.3)
+_BARS: weakref.WeakKeyDictionary[Any, _ScaleBar] = weakref.WeakKeyDictionary()  # by plotter, so that each has one bar
+
+
+def add_scale_bar(plotter: Any, unit: str | None) -> None:
+    """Adds a scale bar to a plotter, or gives its scale bar another unit. None or "" stands for mesh units."""
+    bar = _BARS.setdefault(plotter, _ScaleBar())
+    bar.unit = unit or ""
+    bar.add_to(plotter.renderer)
+
+
+def drop_scale_bar(plotter: Any) -> None:
+    if plotter in _BARS:
+        _BARS.pop(plotter).drop_from(plotter.renderer)
+
+
+def _check_unit(unit: Any) -> None:
+    if unit is not None and not isinstance(unit, str):
+        raise TypeError(f"unit: must be a text such as 'mm', or None, not {unit!r}")
+
+
 def coloured(data: Any, valve: int = 0) -> Any:
     """Gives a surface of to_pyvista the cell array colour. The leaflets of a second valve have the next three colours."""
     rgb = numpy.array([[int(colour[at : at + 2], 16) for at in (1, 3, 5)] for colour in COLOURS], numpy.uint8)
@@ -94,13 +186,15 @@ def plot(
     screenshot: str | os.PathLike[str] | None = None,
     plotter: Any = None,
     interactive: bool = False,
+    unit: str | None = None,
 ) -> Any:
-    """Draws a surface, coloured by leaflet, and the marked nodes, coloured by distance.
+    """Draws a surface, coloured by leaflet, the marked nodes, coloured by distance, and a scale bar.
 
     mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
     screenshot   a .png file to write; then no window opens
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
-    interactive  whether to return PyVista's widget for a notebook, in which the mouse turns the scene
+    interactive  whether to return PyVista's widget for a notebook, in which the mouse turns the scene. It has no scale bar
+    unit         of the mesh, such as "mm": it follows the number at the scale bar. None stands for "mesh units"
 
     Returns the plotter, or the widget. riis.view.scene.widget also shows a mesh around the valve.
     """
@@ -108,13 +202,17 @@ def plot(
     if (mesh is None) != (marks is None):
         raise InvalidArgumentError("marks: must be given together with mesh; one of them is None")
     _check_of_mesh(marks, mesh)
+    _check_unit(unit)
     given = plotter is not None
     if not given:
         plotter = pyvista.Plotter(off_screen=interactive or screenshot is not None, notebook=True if interactive else None)
     _draw(plotter, surface, mesh, marks)
     if not given:
         _look(plotter, 1.2)
+    if not interactive:
+        add_scale_bar(plotter, unit)
     if screenshot is not None:
+        plotter.render()  # a plotter that has drawn before would otherwise return its last picture
         plotter.screenshot(os.fspath(screenshot))
     elif not given and not interactive:
         plotter.show()
@@ -162,6 +260,7 @@ def animate(
     *,
     frame_rate: float = 12.0,
     plotter: Any = None,
+    unit: str | None = None,
 ) -> int:
     """Makes a movie of a valve that moves, and returns the number of frames.
 
@@ -171,6 +270,7 @@ def animate(
     mesh        the mesh of the marks
     frame_rate  frames per second
     plotter     a pyvista.Plotter(off_screen=True) with your own camera and objects; it is closed afterwards
+    unit        of the mesh, such as "mm", for the scale bar. None stands for "mesh units"
 
     Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an exception, no file is left. A
     movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg: pip install riis[plot].
@@ -184,6 +284,7 @@ def animate(
         raise TypeError(f"frame_rate: must be a number, not {frame_rate!r}")
     if not 0.0 < frame_rate <= 1000.0:
         raise InvalidArgumentError(f"frame_rate: is {frame_rate}; it must be above 0 and at most 1000")
+    _check_unit(unit)
     given = plotter is not None
     if not given:
         plotter = pyvista.Plotter(off_screen=True, window_size=(768, 576))  # multiples of 16, as .mp4 needs
@@ -196,6 +297,7 @@ def animate(
             if number == 0:
                 if not given:
                     _look(plotter, 1.1)
+                add_scale_bar(plotter, unit)
                 _open_movie(plotter, name, kind, float(frame_rate))
             plotter.write_frame()
             number += 1

@@ -191,6 +191,75 @@ def test_warps(kind, tmp_path):
         riis.place({**named, "attachment": [named["commissure_left_non"]]}, kind, unit="mm")
 
 
+@pytest.mark.parametrize("kind", ["trileaflet", "coapting", "aortic"])
+@pytest.mark.parametrize("warp", ["none", "exact", "smoothed"])
+def test_a_placed_valve_is_read_as_it_was_saved(kind, warp, tmp_path):
+    _, _, points = patient(7, noise=0.8)
+    found = riis.place(dict(zip(NAMES, points, strict=True)), kind, unit="mm", warp=warp)
+    path = tmp_path / "placed.json"
+    found.save(path)
+    read = riis.read_placed(path)
+    assert read.unit == "mm" and read.valve.kind == kind
+    found.valve["opening"] = read.valve["opening"] = 0.3
+    ours, theirs = (riis.Surface(one.valve, **one.placement) for one in (read, found))
+    assert numpy.array_equal(ours.vertices, theirs.vertices)
+    in_metres = riis.read_placed(path, unit="m")
+    in_metres.valve["opening"] = 0.3
+    small = riis.Surface(in_metres.valve, **in_metres.placement)
+    numpy.testing.assert_allclose(1e3 * small.vertices, ours.vertices, rtol=1e-9, atol=1e-7)
+    root = json.loads(path.read_text())
+    if warp == "exact":  # the same landmarks, stated in the valve's own frame
+        at = found.placement
+        turn = Rotation.from_rotvec(numpy.radians(at["rotation_angle"]) * numpy.array(at["rotation_axis"]))
+        local = {key: (turn.inv().apply(numpy.array(root["warp"][key]) - at["translation"]) / at["scale"]).tolist()
+                 for key in ("sources", "targets")}
+        path.write_text(json.dumps(root | {"warp": local | {"coordinates": "valve"}}))
+        same = riis.read_placed(path)
+        same.valve["opening"] = 0.3
+        numpy.testing.assert_allclose(riis.Surface(same.valve, **same.placement).vertices, ours.vertices, atol=1e-6)
+
+
+def test_refused_placed_valves(tmp_path):
+    path = tmp_path / "placed.json"
+    good = {"valve": "coapting", "unit": "mm", "rotate": [0, 0, 1, 0], "translate": [0, 0, 0], "parameters": {"gap": 0.03}}
+    path.write_text(json.dumps(good))
+    assert riis.read_placed(path).valve["gap"] == 0.03
+    warp = {"sources": [[0, 0, 0]], "targets": [[0, 0, 0]]}
+    for change, text in (
+        ("{", "placed.json is not JSON"),
+        ("[" * 100_000, "placed.json is not JSON"),
+        ("[]", "is not a placed valve"),
+        ({"valve": 3}, "is not a placed valve"),
+        ({"valve": "tricuspid"}, "placed.json: .*tricuspid"),
+        ({"unit": "inch"}, "placed.json: unit is 'inch'; it must be mm, cm, m"),
+        ({"scale": 2}, "placed.json: 'scale' is unknown; the keys are valve"),
+        ({"rotate": [0, 0, 1]}, "placed.json: rotate must be 4 finite numbers"),
+        ({"translate": [0, 0, "x"]}, "placed.json: translate must be 3 finite numbers"),
+        ({"parameters": [1]}, "placed.json: parameters is .1.; it must be an object"),
+        ({"parameters": {"gap": "wide"}}, "placed.json: gap is 'wide'; it must be a number, or numbers"),
+        ({"parameters": {"gap": [1, 2]}}, "placed.json: .*gap"),
+        ({"parameters": {"translation": [0, 0, True]}}, "placed.json: translation is .0, 0, True.; it must be a number"),
+        ({"parameters": {"gap": -1}}, "placed.json: .*gap.*-1"),
+        ({"parameters": {"gpa": 1}}, "placed.json: .*gpa"),
+        ({"warp": 1}, "placed.json: warp is 1; it must be an object"),
+        ({"warp": warp | {"open": {}}}, "placed.json: warp: 'open' is unknown; the keys are sources"),
+        ({"warp": warp | {"noise": -1}}, "placed.json: warp: noise is -1; it must be at least 0"),
+        ({"warp": warp | {"coordinates": "LPS"}}, "placed.json: warp: coordinates is 'LPS'"),
+        ({"warp": {"sources": [[0, 0, 0]]}}, "placed.json: .*targets is missing"),
+        ({"warp": warp | {"sources": [[0, 0]]}}, "placed.json: warp: sources must be points of three finite numbers each"),
+    ):
+        path.write_text(change if isinstance(change, str) else json.dumps(good | change))
+        with pytest.raises(riis.Error, match=text):
+            riis.read_placed(path)
+    path.write_text(json.dumps({key: value for key, value in good.items() if key != "rotate"}))
+    with pytest.raises(riis.InvalidArgumentError, match="placed.json: rotate is missing"):
+        riis.read_placed(path)
+    with pytest.raises(riis.InvalidArgumentError, match="unit is 'inch'; it must be mm, cm, m"):
+        riis.read_placed(path, unit="inch")
+    with pytest.raises(FileNotFoundError):
+        riis.read_placed(tmp_path / "none.json")
+
+
 def test_warps_that_fold_are_refused():
     named = dict(zip(NAMES, 10 * trileaflet(1.1, 1.05, 1.4), strict=True))
     # Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there.

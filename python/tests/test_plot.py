@@ -69,6 +69,46 @@ def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
     assert not (drawn[0].any() or drawn[-1].any() or drawn[:, 0].any() or drawn[:, -1].any())
 
 
+@pytest.mark.parametrize("parallel, zoom, unit", [(True, 1.0, "mm"), (False, 1.0, ""), (False, 3.7, "cm"), (True, 0.02, None)])
+def test_a_scale_bar_is_as_long_as_it_says(parallel, zoom, unit, surface, tmp_path):
+    """The line's length in the picture is the renderer's own projection of that length at the camera's focal point."""
+    plotter = pyvista.Plotter(off_screen=True, window_size=(700, 500))
+    plotter.camera_position = [(4.0, -7.0, 5.0), (0.3, 0.2, 0.1), (0.0, 0.0, 1.0)]
+    plotter.camera.parallel_projection = parallel
+    plotter.camera.zoom(zoom)
+    riis.plot(surface, screenshot=tmp_path / "valve.png", plotter=plotter, unit=unit)
+    bars = [prop for prop in plotter.renderer.GetViewProps() if hasattr(prop, "GetInput")]
+    assert len(bars) == 1
+    number, words = bars[0].GetInput().split(" ", 1)
+    assert words == (unit or ("mesh unit" if number == "1" else "mesh units"))
+    assert float(number) == pytest.approx(float(f"{float(number):.0e}")) and number.strip("0.")[0] in "125"
+    data = pyvista.read(tmp_path / "valve.png")
+    picture = numpy.asarray(data.active_scalars)[:, :3].astype(int).reshape(data.dimensions[1], data.dimensions[0], 3)
+    corner = picture[:50, :350]  # rows count from the lower edge; leaflets and background are not of this grey
+    is_grey = (corner.max(axis=2) - corner.min(axis=2) < 20) & (corner.max(axis=2) < 200)
+    lengths = [max((len(run) for run in "".join("x" if at else " " for at in row).split()), default=0) for row in is_grey]
+    camera = plotter.camera
+    forward = numpy.subtract(camera.focal_point, camera.position)
+    across = numpy.cross(forward, camera.up)
+    ends = []
+    for shift in (0.0, float(number)):
+        point = numpy.array(camera.focal_point) + shift * across / numpy.linalg.norm(across)
+        plotter.renderer.SetWorldPoint(*point, 1.0)
+        plotter.renderer.WorldToDisplay()
+        ends.append(plotter.renderer.GetDisplayPoint()[0])
+    assert max(lengths) == pytest.approx(ends[1] - ends[0], abs=3.0) and 50 < max(lengths) < 190
+    # Another picture by the same plotter has one bar, also after the plotter was cleared.
+    riis.plot(surface, screenshot=tmp_path / "again.png", plotter=plotter, unit=unit)
+    assert len([prop for prop in plotter.renderer.GetViewProps() if hasattr(prop, "GetInput")]) == 1
+    plotter.clear()
+    riis.plot(surface, screenshot=tmp_path / "again.png", plotter=plotter, unit="m")
+    assert [prop.GetInput().split()[-1] for prop in plotter.renderer.GetViewProps() if hasattr(prop, "GetInput")] == ["m"]
+    plotter.close()
+    with pytest.raises(TypeError, match="unit: must be a text such as 'mm', or None, not 3"):
+        riis.plot(surface, unit=3, screenshot=tmp_path / "never.png")
+    assert not (tmp_path / "never.png").exists()
+
+
 def beat(n_frames):
     """Yields a valve that opens, always as the same objects."""
     valve = riis.Valve("mitral")

@@ -14,6 +14,7 @@ import tube
 
 import riis
 from riis.view import model as view
+from riis.view import reading
 from riis.view._valves import matrix_of, rotation_of, turned
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -494,7 +495,7 @@ def test_crossing_leaflets(small):
     model.set(i, "t3_bending", 1.5)
     found = light(model, "crossing")
     crossings = riis.find_crossings(model.surface(i), depth=1e-3)
-    assert crossings.n_pairs > 300 and found.level == "bad" and found.text.startswith(f"{crossings.n_pairs} pairs")
+    assert crossings.n_pairs > 300 and found.level == "bad" and found.text.startswith(f"{crossings.n_pairs:,} pairs")
     assert numpy.array_equal(found.points, crossings.point[:300])
     first = crossings.triangle_id[0].tolist()
     corners = surface_of(model.valves[i]).vertices[model.update().surfaces[i].triangles[first]]
@@ -664,6 +665,69 @@ def test_the_program_marks_a_surface_from_a_file(tmp_path, small):
     lines = {}
     exec(model.python(), lines)
     assert numpy.array_equal(lines["marks"]["ball"].ids, model.marks_of(i)[0])
+
+
+def test_several_valves_that_move_are_what_is_seen(tmp_path, small, random):
+    """Two valves that beat, and a surface that moves by frames: case, command and Python lines at a time of the beat."""
+    pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    program = program_riis()
+    write_mesh(tmp_path / "tube.vtk", *small)
+    shape = pyvista.Sphere(radius=0.5, theta_resolution=12, phi_resolution=9)
+    shape.cell_data["riis_leaflet"] = random.integers(0, 3, shape.n_cells).astype(numpy.int32)
+    lines = ['<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1"><Collection>']
+    for k, time in enumerate((0.25, 0.5, 0.75)):
+        frame = shape.copy()
+        frame.points = frame.points * (1.0 + 0.2 * k) + (0.1 * k, 0.0, -0.9)
+        frame.save(tmp_path / f"ball_{k}.vtp")
+        lines.append(f'<DataSet timestep="{time}" part="0" file="ball_{k}.vtp"/>')
+    (tmp_path / "ball.pvd").write_text("\n".join([*lines, "</Collection></VTKFile>"]))
+    model = view.Model(*small, unit="cm", path=tmp_path / "tube.vtk")
+    for number, kind in enumerate(("coapting", "mitral")):
+        model.place(model.add(kind), (0.0, 0.0, 1.2 * number))
+    assert model.span == (0.0, 0.0)
+    model.beat(0.8, chosen="slow", valve=0)
+    assert [state.cycle.source for state in model.valves] == ["slow", "mitral"] and model.span == (0.0, 0.8)
+    model.beat(1.0, chosen="aortic", valve=0)
+    assert [(state.cycle.source, state.cycle.period) for state in model.valves] == [("aortic", 1.0), ("mitral", 1.0)]
+    ends = model.undo() and [(state.cycle.source, state.cycle.period) for state in model.valves]
+    assert ends == [("slow", 0.8), ("mitral", 0.8)]  # one step for both
+
+    def check():
+        """Compares the files with the model's marks."""
+        output = tmp_path / "marked.vtu"
+        (tmp_path / "case.json").write_text(model.case())
+        command = model.command(program=program, case=str(tmp_path / "case.json"), output=str(output))
+        is_series = ".pvd" in command
+        words = [*shlex.split(command), *["--all-cells"] * is_series]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        if is_series:
+            output = tmp_path / "marked/marked_0000.vtu"
+        made, namespace = pyvista.read(output).point_data, {}
+        exec(model.python(), namespace)
+        for k, state in enumerate(model.valves):
+            nodes, distance, leaflet = model.marks_of(k)
+            assert len(nodes) > 20 and numpy.array_equal(numpy.flatnonzero(made[f"{state.name}_marked"]), nodes), state.name
+            assert numpy.array_equal(made[f"{state.name}_distance"][nodes], distance)
+            marks = namespace["marks"][state.name]
+            assert numpy.array_equal(marks.ids, nodes) and numpy.array_equal(marks.distance, distance)
+            assert numpy.array_equal(marks.leaflet_id, leaflet)
+
+    model.at(0.61)
+    assert 0.0 < model.valves[0].opening != model.valves[1].opening > 0.0
+    check()
+    i = model.add_surface(**reading.read_surface(str(tmp_path / "ball.pvd")), path=tmp_path / "ball.pvd", half_thickness=0.1)
+    assert model.span == (0.0, 0.8) and model.period(i) == 0.5
+    model.at(0.61)
+    model.set(0, "opening", 0.123)  # by hand, beside its cycle
+    check()
+    other = model.add_surface(**reading.read_surface(str(tmp_path / "ball.pvd")), path=tmp_path / "ball.pvd")
+    with pytest.raises(riis.InvalidArgumentError, match="the surfaces are at different times, and a case has one: ball at 0.61"):
+        model.case()
+    model.remove(other)
+    for k in (1, 0):
+        model.remove(k)
+    assert model.span == (0.25, 0.75)
 
 
 def test_a_case_that_moves(tmp_path, small):

@@ -201,6 +201,46 @@ def test_a_page_loses_nothing(tmp_path):
         page.model.add_surface([numpy.eye(3), 2 * numpy.eye(3)], [[0, 1, 2]], times=[0.0, 0.5], path="leaflet.pvd")
         assert len(json.loads(page._text("case"))["times"]) == 51
 
+        # Two valves that beat: the command marks what is seen, and a saved view opens as it was.
+        page.model.remove(1)
+        page._on_add("mitral")
+        page._need_cycle()
+        page._told(page._at)(0.5)
+        text = page._text("command")
+        assert text.startswith(f"cat >{tmp_path}/valve.now.case.json <<'END'\n{{")
+        case = json.loads(text[text.index("{") : text.index("END\n")])
+        assert [valve["opening"] for valve in case["valves"]] == [valve.opening for valve in page.model.valves] != [0.0, 0.0]
+        assert "times" not in case and f"--case {tmp_path}/valve.now.case.json" in text
+        page.scene.turn_view(0.1, 0.2)
+        page.scene.cut_here((0.0, 0.1, 0.0), (0.0, 0.0, 1.0))
+        with page.state as state:
+            state.wall, state.cells, state.speed, state.replace = "clear", "marked", 0.5, True
+        seen, states, time = page._as_saved(), page.model.valves, page.model.time
+        page._on_write("view")
+        page._look("top")
+        with page.state as state:
+            state.wall, state.cells, state.speed, state.current = "cut", "none", 1.0, 0
+        page._told(page._at)(0.1)
+        assert "opened" in await tell_task(page._reopen(str(tmp_path / "valve.view.json")))
+        assert page._as_saved() == seen and seen["current"] == 1 and page.model.time == time == page.state.time
+        assert [valve.opening for valve in page.model.valves] == [valve.opening for valve in states]
+        root, before = json.loads((tmp_path / "valve.view.json").read_text()), page.model.valves
+        for name, value in (("wall", "brick"), ("cells", []), ("current", 2), ("speed", True), ("view", 3), ("view", {"up": "z"}),
+                            ("view", root["page"]["view"] | {"cut_normal": [0, 0, 0]})):
+            (tmp_path / "bad.view.json").write_text(json.dumps(root | {"page": root["page"] | {name: value}}))
+            assert "the saved view is damaged: " in await tell_task(page._reopen(str(tmp_path / "bad.view.json")))
+            assert page.model.valves == before and page._as_saved() == seen
+
+        # A person's input is refused, and a fault of the page says that it is one.
+        for name, value in (("annulus", "1 2"), ("translation", "1"), ("half_thickness", "1 2"), ("gap", "wide")):
+            page.state.current = 0
+            assert "fault of riis view" not in tell(page._on_set, name, value) and name in page.state.message
+        for error in (TypeError("a list"), KeyError("size"), ValueError("odd")):
+            def fails(error=error):
+                raise error
+
+            assert "this is a fault of riis view" in tell(fails)
+
     asyncio.run(use())
 
 

@@ -41,6 +41,8 @@ def valve_of(points: NDArray[numpy.float64]) -> riis.Valve:
     assert opening <= 1.0 and found.weights.shape == found.distances.shape
     frames: int = riis.animate("valve.gif", [riis.Surface(found.valve, **found.placement)], frame_rate=4.0)
     assert frames == 1
+    placed: riis.PlacedValve = riis.read_placed("placed.json", unit="mm")
+    assert riis.Surface(placed.valve, **placed.placement) and placed.unit == "mm"
     return found.valve
 
 

@@ -68,7 +68,12 @@ def main(folder):
     leak = tuple(round(255 * float(part)) for part in red.split(","))
     plots = colours_in(folder, "bench/report/report_text.py", r"\nCOLOURS = (\(.*?\))\n")
     sheets = colours_in(folder, "bench/figures/parameters/sheet.py", r"\nBLUE, GREEN, PURPLE, VERMILION = (.*?)\n")
-    flow = colours_in(folder, "examples/flow_fortran/plots.py", r"\nUPSTREAM = (.*?)\nFRAME_RATE")
+    examples = {
+        path: colours_in(folder, f"examples/{path}", pattern) for path, pattern in (
+            ("flow_fortran/plots.py", r"\nUPSTREAM = (.*?)\nFRAME_RATE"), ("openfoam/draw.py", r"\nCOLOURS = (.*?)\n\n"),
+            ("code_saturne/draw.py", r"\nCOLOURS = (.*?)\n\n"), ("fenicsx/check.py", r"\nLEAFLET = (.*?)\n"),
+        )
+    }  # fmt: skip
     complaints = []
     if len(palette) != 6:
         complaints.append(f"drawing.hpp has {len(palette)} colours, not 6")
@@ -76,8 +81,13 @@ def main(folder):
         complaints.append("the colours of python/riis/_plot.py are not those of drawing.hpp")
     if plots[:6] != palette:
         complaints.append("the colours of bench/report/report_text.py do not begin with those of drawing.hpp")
-    if not set(flow) <= set(palette):
-        complaints.append("examples/flow_fortran/plots.py has other colours than drawing.hpp")
+    for path, colours in examples.items():
+        if not set(colours) <= set(palette):
+            complaints.append(f"examples/{path} has other colours than drawing.hpp")
+        with open(os.path.join(folder, "examples", path), encoding="utf-8") as file:
+            names = re.findall(r"""["'](?:tab:\w+|C\d\W*|red|green|blue|orange)["']""", file.read())
+        if names:
+            complaints.append(f"examples/{path} names colours beside the palette: {', '.join(names)}")
     for name, colours in (("pictures, with leaks", [*palette, leak]), ("plots", plots), ("drawings of parameters", sheets)):
         difference, vision, a, b = closest(colours)
         print(f"{name}: the closest are {a} and {b}, {difference:.1f} apart for a {vision} eye")

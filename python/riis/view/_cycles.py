@@ -40,7 +40,7 @@ def _read_cycle(path: str) -> tuple[Reals, Reals]:
     """Reads a cycle as the program does: a time and an opening in each line, perhaps names of columns first, and comments."""
     try:
         text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
         raise refuse(f"builtin_or_csv: {path!r} is neither {', '.join(CYCLES)} nor a file that can be read: {error}") from None
     keys: list[tuple[float, float]] = []
     is_first = True

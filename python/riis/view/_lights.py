@@ -74,6 +74,11 @@ def shown(length: float) -> str:
     return f"{length:.3g}"
 
 
+def counted(n: int, noun: str) -> str:
+    """Returns a number with its noun, such as "1 node" or "12,345 nodes"."""
+    return f"{n:,} {noun}" + ("" if n == 1 else "s")
+
+
 def rounded_up(length: float) -> float:
     """Returns the next larger number with three digits."""
     step = 10.0 ** (math.floor(math.log10(length)) - 2)
@@ -160,7 +165,7 @@ def inside(scene: Scene) -> Light:
         return Light("inside", "warn", f"{100 * share:.0f} % of the leaflets lie outside the mesh",
                      "move or turn the valve, or make it smaller", points=vertices[is_out][:_MOST_DRAWN],
                      valve=scene.number)
-    text = f"{n_marked} nodes are marked"
+    text = f"{counted(n_marked, 'node')} {'is' if n_marked == 1 else 'are'} marked"
     return Light("inside", "good", text + (f"; {100 * share:.0f} % of the leaflets lie outside" if share > 0.005 else ""),
                  valve=scene.number)
 
@@ -190,7 +195,10 @@ def half_thickness(scene: Scene) -> Light:
     if leaks.n_edges == 0:
         return Light("half_thickness", "good", text, valve=scene.number)
     ends = scene.region.points[leaks.node_id]
-    text += f"; {leaks.n_edges} edges cross the leaflets between unmarked nodes, the longest {shown(leaks.longest_length)}"
+    text += (
+        f"; {counted(leaks.n_edges, 'edge')} {'crosses' if leaks.n_edges == 1 else 'cross'} the leaflets between unmarked nodes, "
+        f"the longest {shown(leaks.longest_length)}"
+    )
     better = rounded_up(1.01 * leaks.half_thickness)
     if better > _LARGEST_HALF * side:
         return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of {better:g} "
@@ -221,7 +229,8 @@ def crossing(scene: Scene) -> Light:
     edges = numpy.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
     names = [int(leaflet) for leaflet in found.deepest_leaflet_id]
     text = (
-        f"{found.n_pairs} pairs of triangles go through each other, up to {shown(found.deepest_depth)} deep, at "
+        f"{counted(found.n_pairs, 'pair')} of triangles {'goes' if found.n_pairs == 1 else 'go'} through each other, up to "
+        f"{shown(found.deepest_depth)} deep, at "
         f"{_place(found.deepest_point)} (leaflets {names[0]} and {names[1]})"
     )
     is_slight = found.deepest_depth < 0.1 * info.half_thickness

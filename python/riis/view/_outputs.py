@@ -62,10 +62,26 @@ def _law(law: OpeningTable | OpeningTimes) -> dict[str, Any]:
 # ---- The program ----
 
 
+def _times_of_surfaces(states: Iterable[ValveState]) -> list[float] | None:
+    """Returns the present time of surfaces that move, and a later one, because a series has two. None without such a surface."""
+    moving = [state for state in states if state.surface is not None and state.surface.moves]
+    if len({state.time for state in moving}) > 1:
+        places = ", ".join(f"{state.name} at {state.time!r}" for state in moving)
+        raise refuse(f"time: the surfaces are at different times, and a case has one: {places}; move them to one time first")
+    if not moving or moving[0].surface is None or moving[0].surface.times is None:
+        return None
+    now, times = moving[0].time, moving[0].surface.times
+    return [now, now + (moving[0].surface.period or float(times[-1] - times[0])) / 50.0]
+
+
 def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, times: list[float] | None) -> str:
+    """Returns a case. Without times the valves stay at their openings, and surfaces at their time."""
     _check_paths(states)
     if not states:
         raise refuse("valves: there are none; a case needs one")
+    stays = times is None
+    if times is None:
+        times = _times_of_surfaces(states)
     root: dict[str, Any] = {}
     if path is not None:
         root["mesh"] = os.path.abspath(path)
@@ -79,8 +95,6 @@ def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, 
         valve: dict[str, Any] = {"name": state.name} if len(states) > 1 else {}
         if state.surface is not None:
             valve["surface"] = os.path.abspath(str(state.surface.path))
-            if state.surface.moves and times is None:
-                raise refuse(f"valve {state.name}: its surface moves, so a case needs times")
             if state.surface.period > 0.0 and state.surface.moves:
                 valve["period"] = state.surface.period
             if with_unit:
@@ -88,8 +102,7 @@ def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, 
         else:
             valve["valve"] = state.kind
             valve["parameters"] = _nested(state.parameters)
-            is_moving = times is not None and state.cycle is not None
-            valve["opening"] = _law(state.cycle.law) if is_moving and state.cycle else state.opening
+            valve["opening"] = state.opening if stays or state.cycle is None else _law(state.cycle.law)
             if state.triangulation != "adapted":
                 valve["triangulation"] = state.triangulation
         if not with_unit:
@@ -114,6 +127,8 @@ def command_of(
         raise refuse("valves: there are none; a command needs one")
     state = states[0]
     if len(states) > 1:
+        if _times_of_surfaces(states) is not None:  # the case has times, so the program writes a series
+            output = os.path.splitext(output)[0] + ".pvd"
         return shlex.join([program, "mark", "--case", case, "--output", output])
     words = [program, "mark", os.path.abspath(path) if path is not None else "MESH.vtu"]
     with_unit = has_unit(states, unit)
@@ -161,16 +176,37 @@ def python_of(states: tuple[ValveState, ...], path: str | None) -> str:
                 lines.append("})")
             lines.append(f'valve["opening"] = {state.opening!r}')
             lines.append(f"surface = riis.Surface(valve, {options})")
-        elif state.surface.moves:
-            raise refuse(f"valve {state.name}: its surface moves by frames, for which there are no Python lines yet")
         else:
-            lines.append(f"shape = pyvista.read({os.path.abspath(str(state.surface.path))!r})")
-            lines.append("faces = shape.regular_faces.astype(numpy.int64)")
-            lines.append("vertices = numpy.array(shape.points, numpy.float64)")
-            lines.append(f"surface = riis.Surface.from_arrays(vertices, faces, {options})")
+            lines += _python_of_surface(state, options)
         lines.append(f"marks[{state.name!r}] = riis.mark(surface, mesh)")
         lines.append(f"marks[{state.name!r}].add_resistance(K, R={state.resistance!r})")
     return "\n".join(lines) + "\n"
+
+
+def _python_of_surface(state: ValveState, options: str) -> list[str]:
+    """Returns the lines that read a surface as the view does, and make it at the present time."""
+    source = state.surface
+    assert source is not None
+    path, leaflets = repr(os.path.abspath(str(source.path))), ""
+    if source.moves:
+        lines = [
+            f"reader, frames = pyvista.get_reader({path}), []",
+            "for time in reader.time_values:",
+            "    reader.set_active_time_value(time)",
+            "    frames.append(reader.read()[0].triangulate())",
+        ]
+    else:
+        lines = [f"frames = [pyvista.read({path}).triangulate()]"]
+    lines.append("faces = frames[0].regular_faces.astype(numpy.int64)")
+    lines.append("vertices = numpy.array([frame.points for frame in frames], numpy.float64)")
+    if source.leaflet_id is not None:
+        lines.append('leaflet = numpy.array(frames[0].cell_data["riis_leaflet"], numpy.int32)')
+        leaflets = ", leaflet_id=leaflet"
+    if not source.moves:
+        return [*lines, f"surface = riis.Surface.from_arrays(vertices[0], faces{leaflets}, {options})"]
+    lines.append("times = numpy.array(reader.time_values, numpy.float64)")
+    lines.append(f"keyframes = riis.Keyframes(times, vertices, faces{leaflets}, period={source.period!r})")
+    return [*lines, f"surface = riis.Surface.from_keyframes(keyframes, {state.time!r}, {options})"]
 
 
 # ---- OpenFOAM ----
@@ -233,7 +269,9 @@ def _unpacked(value: Any) -> Any:
     return numpy.frombuffer(data, numpy.dtype(value["type"])).reshape(value["shape"]).copy()
 
 
-def session_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, n_nodes: int, time: float) -> str:
+def session_of(
+    states: tuple[ValveState, ...], unit: str | None, path: str | None, n_nodes: int, time: float, page: Mapping[str, Any] | None
+) -> str:
     valves = []
     for state in states:
         valve: dict[str, Any] = {
@@ -253,9 +291,11 @@ def session_of(states: tuple[ValveState, ...], unit: str | None, path: str | Non
                 "times": None if source.times is None else _packed(source.times),
             }
         valves.append(valve)
-    root = {
+    root: dict[str, Any] = {
         "format": _FORMAT, "version": _VERSION, "mesh": path, "n_nodes": n_nodes, "unit": unit, "time": time, "valves": valves,
     }
+    if page is not None:
+        root["page"] = page
     return json.dumps(root, indent=2) + "\n"
 
 
@@ -303,7 +343,7 @@ def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
     try:
         with open(path, encoding="utf-8") as file:
             root = json.load(file)
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise refuse(f"path: {path!r} cannot be read as a session: {error}") from None
     if not isinstance(root, dict) or root.get("format") != _FORMAT:
         raise refuse(f"path: {path!r} is not a session of the view")
@@ -319,6 +359,8 @@ def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
         names = [state.name for state in states]
         if len(set(names)) < len(names):
             raise ValueError(f"the names of the valves are {', '.join(names)}; they must differ")
+        if not isinstance(root.setdefault("page", {}), dict):
+            raise ValueError(f"page is {root['page']!r}")
     except Error as error:
         raise type(error)(f"path: {path!r} is damaged: {error}") from None
     except (AttributeError, KeyError, TypeError, ValueError, zlib.error) as error:

@@ -499,6 +499,36 @@ class Model(Valves):
             self._take(self._made(states), self._unit)
             self._time = moment
 
+    def beat(self, period: float, *, chosen: str | os.PathLike[str] | None = None, valve: int = 0) -> None:
+        """Lets all valves beat with one period, as one step of undo.
+
+        chosen  a cycle as in set_cycle, for this valve alone. The others keep their cycles, and a valve without a cycle takes the
+                built-in one of its kind
+        """
+        self._at(valve)
+        with self._one_step():
+            for k, state in enumerate(self.valves):
+                if state.surface is not None:
+                    continue
+                own = "mitral" if state.kind == "mitral" else "aortic"
+                source = own if state.cycle is None else state.cycle.source
+                interpolation = getattr(None if state.cycle is None else state.cycle.law, "interpolation", "linear")
+                if k == valve and chosen is not None:
+                    source, interpolation = os.fspath(chosen), "linear"
+                self.set_cycle(source, period, valve=k, interpolation=interpolation)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The first and the last time of the motion: of the longest period, and from the first frame of surfaces that move. Both
+        are 0 if nothing moves."""
+        parts = []
+        for k, state in enumerate(self.valves):
+            source, length = state.surface, self.period(k)
+            if length > 0.0:
+                first = 0.0 if source is None or source.times is None else float(source.times[0])
+                parts.append((first, first + length))
+        return (min(part[0] for part in parts), max(part[1] for part in parts)) if parts else (0.0, 0.0)
+
     def period(self, i: int) -> float:
         """Returns the period of a valve's cycle or of a surface that moves; 0 without."""
         state = self._at(i).state
@@ -544,12 +574,13 @@ class Model(Valves):
     # ---- Files ----
 
     def case(self, times: Any = None) -> str:
-        """Returns a case file of the program (riis help cases) of the present valves, or with times of their motion."""
+        """Returns a case file of the program (riis help cases): of the valves as they are now, or with times of their motion."""
         moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
         return _outputs.case_of(self.valves, self._unit, self._path, moments)
 
     def command(self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis") -> str:
-        """Returns the command that gives the present marks. Several valves need the file of ``case()``, under the name case."""
+        """Returns the command that gives the present marks. Several valves need the file of ``case()``, under the name case. If
+        one of several is a surface that moves, the output is a .pvd file, whose first step has the present marks."""
         return _outputs.command_of(self.valves, self._unit, self._path, case, output, program)
 
     def python(self) -> str:
@@ -560,17 +591,23 @@ class Model(Valves):
         """Returns fvOptions of OpenFOAM, in metres. A mesh without a unit is taken as it is."""
         return _outputs.openfoam_of(self.valves, self._unit, density)
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the session. ``load`` opens it as it was."""
-        Path(path).write_text(_outputs.session_of(self.valves, self._unit, self._path, len(self.points), self._time))
+    def save(self, path: str | os.PathLike[str], page: Mapping[str, Any] | None = None) -> None:
+        """Writes the session. ``load`` opens it as it was. A page adds what it shows besides, such as its camera, as JSON."""
+        text = _outputs.session_of(self.valves, self._unit, self._path, len(self.points), self._time, page)
+        Path(path).write_text(text, encoding="utf-8")
 
-    def restore(self, path: str | os.PathLike[str]) -> None:
-        """Reads the valves of a session into this model, as one step of undo. The mesh must have as many nodes."""
+    def restore(self, path: str | os.PathLike[str]) -> dict[str, Any]:
+        """Reads the valves of a session into this model, as one step of undo. The mesh must have as many nodes.
+
+        Returns what the page saved besides.
+        """
         root, states = _outputs.read_session(os.fspath(path))
         if root["n_nodes"] != len(self.points):
             raise refuse(f"path: {os.fspath(path)!r} is of a mesh with {root['n_nodes']} nodes; this one has {len(self.points)}")
         self._change(states, root["unit"])
         self._time = root["time"]
+        page: dict[str, Any] = root["page"]
+        return page
 
     @classmethod
     def load(

@@ -2,7 +2,8 @@
 """The page of riis view: a server on 127.0.0.1 with the picture of a Model, its sliders, lights and files.
 
 The page is page.html, a template of Vue. Its variables are the state of this server. browser.js hands the gestures on the
-picture to the functions that begin with _on_. Everything runs on one thread, but reading a mesh has one of its own.
+picture to the functions that begin with _on_. Everything runs on one thread, but reading a mesh has one of its own. hand.py,
+heartbeat.py and saving.py have the parts of the page that change the valves, play them and write files.
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ from __future__ import annotations
 import asyncio
 import base64
 import functools
-import math
 import os
 import sys
 import time
@@ -25,19 +25,22 @@ import numpy
 import riis
 from riis._plot import COLOURS
 from riis.view import guard, reading, rows, saving
+from riis.view._lights import counted
+from riis.view._outputs import read_session
+from riis.view.hand import Hand
+from riis.view.heartbeat import Heartbeat
 from riis.view.model import CYCLES, KINDS, Model
-from riis.view.scene import LOOKS, Scene, boundary_of, check_of_graphics, colour_of
+from riis.view.scene import CELLS, LOOKS, WALLS, Scene, boundary_of, check_of_graphics, colour_of, places_of
 
 N_SLIDERS = 12
 MANY_NODES = 1_000_000  # larger meshes are marked near the valves
 REST = 0.25  # seconds without a move after which the lights and the cut are renewed
-UNSEEN = 4.0  # seconds after which a picture that no browser shows pauses a heartbeat
 
 
 _SPEEDS = [{"title": name, "value": value} for name, value in (("1/10", 0.1), ("1/4", 0.25), ("1/2", 0.5), ("as in life", 1.0))]
 
 
-class Page(saving.Files):
+class Page(Hand, Heartbeat, saving.Files):
     """A server with one model, which all its browsers share.
 
     path    the mesh to read, or None
@@ -67,13 +70,13 @@ class Page(saving.Files):
         self._clicks: list[Any] = []
         self._written: set[Path] = set()
         self._text_name = "case"
+        self._slider_values: list[float] = []
         self._orifice_at = 0.0
         self._playing: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()  # asyncio itself does not keep them
         self._busy = ""  # what takes a while now, as a sentence
         self._wanted_size: tuple[int, int] | None = None  # that a browser asked for during a movie
         self._shown: Any = None
-        self._slider_values: list[float] = []  # as the model has them
         self._build()
 
     # the page's variables and functions
@@ -98,8 +101,8 @@ class Page(saving.Files):
             "lights": [], "fresh": False, "at_rest": False, "digest": "", "n_marked": 0, "milliseconds": 0.0,
             "can_undo": False, "can_redo": False, "wall": "cut", "cells": "partly", "legend": [],
             "looks": {name: name.capitalize() for name in LOOKS},
-            "playing": False, "time": 0.0, "period": 1.0, "speed": 0.25, "speeds": _SPEEDS,
-            "cycle": "", "cycles": list(CYCLES), "curves": [],
+            "playing": False, "time": 0.0, "begin": 0.0, "end": 1.0, "curve_begin": 0.0, "period": 1.0,
+            "speed": 0.25, "speeds": _SPEEDS, "cycle": "", "cycles": list(CYCLES), "curves": [],
             "texts": saving.TEXTS, "text": "", "text_title": "", "text_shown": False,
             "writes": saving.WRITES, "file_name": "valve", "replace": False,
             "open_rows": [
@@ -214,13 +217,14 @@ class Page(saving.Files):
                         state.progress = round(100 * parts["part"]) if parts["part"] >= 0 else -1
                         state.progress_text = f"{'Reading' if parts['part'] >= 0 else 'Preparing'} {os.path.basename(path)}"
                     await asyncio.wait([work], timeout=0.2)
-                grid, wall, model = work.result()
+                grid, wall, model, shown = work.result()
             finally:
                 with self.state:
                     self.state.progress = None
             self._take(grid, wall, model, path)
+            self._show_as_saved(shown)
 
-    def _make_model(self, path: str, saved: str | None, parts: dict[str, float]) -> tuple[Any, Any, Any]:
+    def _make_model(self, path: str, saved: str | None, parts: dict[str, float]) -> tuple[Any, Any, Any, dict[str, Any]]:
         grid = reading.read_mesh(path, parts)
         parts["part"] = -1.0
         make = Model.near if grid.n_points > MANY_NODES else Model
@@ -228,9 +232,9 @@ class Page(saving.Files):
             model = make(**reading.arrays_of(grid), unit=self._unit, path=path)
         except riis.Error as error:
             raise reading.Refusal(f"{path}: {error}") from error
-        if saved is not None:
-            model.restore(saved)
-        return grid, boundary_of(grid), model
+        shown = {} if saved is None else model.restore(saved)
+        _check_of_saved(shown, len(model.valves))
+        return grid, boundary_of(grid), model, shown
 
     def _take(self, grid: Any, wall: Any, model: Any, path: str) -> None:
         if not model.valves:
@@ -260,14 +264,39 @@ class Page(saving.Files):
             await self._read(mesh, path)
         else:
             self._begin_change()
-            self.model.restore(path)
+            root, valves = read_session(path)
+            _check_of_saved(root["page"], len(valves))
+            shown = self.model.restore(path)
             self._pause()
             with self.state as state:
-                state.current, state.time = 0, float(self.model.time)
+                state.current, state.time, state.curves = 0, float(self.model.time), []
             self._refresh()
             self._look("oblique")
             self._renew_all()
+            self._show_as_saved(shown)
         self._say(f"opened {path}", "success")
+
+    def _as_saved(self) -> dict[str, Any]:
+        """Returns what the page shows besides the valves, for a saved view."""
+        state = self.state
+        return {
+            "current": state.current, "wall": state.wall, "cells": state.cells, "speed": state.speed, "view": self.scene.view(),
+        }  # fmt: skip
+
+    def _show_as_saved(self, shown: dict[str, Any]) -> None:
+        """Shows what a saved view says. A view that the library or an older release saved says nothing of this."""
+        if not shown:
+            return
+        with self.state as state:
+            for name in ("current", "wall", "cells", "speed"):
+                state[name] = shown.get(name, state[name])
+        self.scene.show_wall(self.state.wall)
+        self.scene.show_cells(self.state.cells)
+        if "view" in shown:
+            self.scene.set_view(shown["view"])
+        self._show_numbers()
+        self._show_curves()
+        self._touch()
 
     def _need_model(self) -> None:
         """Refuses if there is no mesh, or if a movie is being written, whose frames a change would spoil."""
@@ -292,7 +321,7 @@ class Page(saving.Files):
             state.valve_names = [valve.name for valve in model.valves]
             unit = model.unit or ""
             state.mesh_text = (
-                f"{os.path.basename(state.path)}: {self._grid.n_points:,} nodes, {self._grid.n_cells:,} cells, "
+                f"{os.path.basename(state.path)}: {counted(self._grid.n_points, 'node')}, {counted(self._grid.n_cells, 'cell')}, "
                 + (f"in {model.unit}" if model.unit else "unit not known")
             )
             state.is_surface = valve.surface is not None
@@ -308,8 +337,8 @@ class Page(saving.Files):
                         sliders.append(rows.slider_of(parameter, float(value)))
                     else:
                         table.append(rows.row_of(parameter, value, parameter.name in valve.parameters))
-            # The server changes no list that it has pushed: the page would not hear of it.
-            self._slider_values = [slider.pop("value") for slider in sliders]
+            # The values are not in state.sliders: trame sends a list that was changed in place to no browser.
+            self._slider_values = [float(slider.pop("value")) for slider in sliders]
             for k, value in enumerate(self._slider_values):
                 state[f"slider_{k}"] = value
             state.sliders, state.rows = sliders, table
@@ -370,9 +399,7 @@ class Page(saving.Files):
             if self._playing is not None:
                 state.time = float(self.model.time)
             state.n_marked, state.milliseconds = len(self._shown.marked), self._shown.milliseconds
-            state.marked_text = (
-                f"{len(self._shown.marked):,} nodes marked in {self._shown.milliseconds:.1f} ms"
-            )
+            state.marked_text = f"{counted(len(self._shown.marked), 'node')} marked in {self._shown.milliseconds:.1f} ms"
             state.can_undo, state.can_redo = bool(self.model.can_undo), bool(self.model.can_redo)
 
     def _show_orifice(self) -> None:
@@ -431,6 +458,7 @@ class Page(saving.Files):
             self._seen.set()
             return
         self._number += 1
+        self._seen_at = time.monotonic()  # a slow picture is no sign that the browser is gone
         self._seen.clear()
         with self.state as state:
             state.picture, state.picture_number = picture, self._number
@@ -447,295 +475,23 @@ class Page(saving.Files):
             self.scene.resize(int(width), int(height))
             self._moved.set()
 
-    # sliders and parameters
-
-    def _slid(self, k: int) -> None:
-        if self.model is None or k >= len(self.state.sliders):
-            return
-        name, value = self.state.sliders[k]["name"], float(self.state[f"slider_{k}"])
-        if math.isclose(value, self._slider_values[k], rel_tol=1e-12, abs_tol=1e-12):
-            return
-        self._slider_values[k] = value
-        self._move(lambda: self.model.set(self.state.current, name, value), ("set", self.state.current, name))
-
-    def _move(self, change: Callable[[], Any], what: Any) -> None:
-        """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo."""
-        self._need_model()
-        now = time.monotonic()
-        if self._drag is None or self._drag[0] != what or (not self._held and now - self._drag[1] > 0.7):
-            self._end_drag()
-            self._drag_stack.enter_context(self.model.dragging())
-        self._drag = (what, now)
-        change()
-        self._touch()
-
-    def _on_hold(self, held: bool) -> None:
-        self._held = bool(held)
-
-    def _end_drag(self) -> None:
-        self._drag = None
-        self._drag_stack.close()
-
-    def _begin_change(self) -> None:
-        self._need_model()
-        self._end_drag()
-
-    def _on_set(self, name: str, value: Any) -> None:
-        self._begin_change()
-        if value is None:
-            self.model.unset(self.state.current, name)
-        else:
-            numbers = [reading.number_of(part, name) for part in str(value).replace(",", " ").split()]
-            if not numbers:
-                raise reading.Refusal(f"{name}: is empty; it must be a number")
-            self.model.set(self.state.current, name, numbers if len(numbers) > 1 else numbers[0])
-        self._renew_all()
-
-    def _changed_kind(self) -> None:
-        if self.model is None or self.state.is_surface or self.state.kind == self._valve().kind:
-            return
-        self._begin_change()
-        self.model.change_kind(self.state.current, self.state.kind)
-        self._renew_all()
-
-    def _changed_current(self) -> None:
-        if self.model is not None:
-            self._end_drag()
-            self._renew_all()
-
-    def _on_add(self, kind: str) -> None:
-        self._begin_change()
-        self.model.add(kind)
-        self.state.current = len(self.model.valves) - 1
-        self._renew_all()
-
-    def _on_remove(self) -> None:
-        self._need_model()
-        if len(self.model.valves) < 2:
-            raise reading.Refusal("the last valve stays; choose another kind of valve instead")
-        self._end_drag()
-        self.model.remove(self.state.current)
-        self._renew_all()
-
-    def _on_undo(self) -> None:
-        self._begin_change()
-        if self.model.can_undo:
-            self.model.undo()
-            self._renew_all()
-
-    def _on_redo(self) -> None:
-        self._begin_change()
-        if self.model.can_redo:
-            self.model.redo()
-            self._renew_all()
-
-    def _on_cure(self, name: str) -> None:
-        self._begin_change()
-        self.model.cure(name)
-        if name in ("unit", "inside"):  # the valve is elsewhere
-            self._refresh()
-            self._look("oblique")
-        self._renew_all()
-
-    # placement
-
-    def _on_place(self, field: str, k: int, value: Any) -> None:
-        self._begin_change()
-        valve = self._valve()
-        place = {name: list(getattr(valve, name)) for name in ("origin", "axis", "reference")} | {"scale": [valve.scale]}
-        if field in ("axis", "reference"):
-            place[field] = [reading.number_of(part, field) for part in str(value).replace(",", " ").split()]
-        else:
-            place[field][int(k)] = reading.number_of(value, field)
-        self.model.place(self.state.current, **place | {"scale": place["scale"][0]})
-        self._renew_all()
-
-    def _on_flip(self) -> None:
-        self._begin_change()
-        self.model.flip(self.state.current)
-        self._renew_all()
-
-    def _on_click_three(self) -> None:
-        self._need_model()
-        self._clicks = []
-        self.scene.show_points([])
-        with self.state as state:
-            state.tool, state.n_clicks, state.message = ("look" if state.tool == "click" else "click"), 0, ""
-        self._moved.set()
-
-    def _on_click(self, x: float, y: float) -> None:
-        if self.scene is None or self.state.tool != "click":
-            return
-        self._need_model()
-        point = self.scene.pick(x, y)
-        if point is None:
-            raise reading.Refusal("the click met no wall of the mesh; click on the wall where the annulus is")
-        self._clicks.append(point)
-        self.scene.show_points(self._clicks)
-        with self.state as state:
-            state.n_clicks, state.message = len(self._clicks), ""
-        if len(self._clicks) == 3:
-            points, self._clicks = self._clicks, []
-            with self.state as state:
-                state.tool, state.n_clicks = "look", 0
-            self._end_drag()
-            self.scene.show_points([])
-            self.model.place_by_clicks(self.state.current, points)
-            self._renew_all()
-        self._moved.set()
-
-    def _changed_tool(self) -> None:
-        if self.scene is not None and self.state.tool != "click" and self._clicks:
-            self._clicks = []
-            self.scene.show_points([])
-            with self.state as state:
-                state.n_clicks = 0
-            self._moved.set()
-
-    def _on_gesture(self, kind: str, dx: float, dy: float, shift: bool) -> None:
-        if self.scene is None or self._busy == saving.FILMING:
-            return
-        tool = self.state.tool if kind == "tool" else kind
-        if tool == "zoom":
-            self.scene.zoom(dy)
-        elif tool == "pan":
-            self.scene.move_view(dx, dy)
-        elif tool in ("look", "click"):
-            self.scene.turn_view(dx, dy)
-        else:
-            self._held = True
-            valve = self._valve()
-            place = rows.dragged(self.scene, tool, valve, dx, dy, shift)
-            self._move(lambda: self.model.place(self.state.current, *place), ("place", self.state.current, tool))
-            valve = self._valve()
-            self.scene.show_handle(valve.origin, valve.axis, 1.2 * self._reach())
-        self._moved.set()
-
-    def _on_gesture_ends(self) -> None:
-        self._held = False
-        if self.scene is None:
-            return
-        if self.state.tool in ("move", "turn", "size"):
-            self._end_drag()
-            self._show_placement()
-        self._touch()
-
-    # the view
-
-    def _changed_wall(self) -> None:
-        if self.scene is not None:
-            self.scene.show_wall(self.state.wall)
-            self._moved.set()
-
-    def _changed_cells(self) -> None:
-        if self.scene is not None:
-            self.scene.show_cells(self.state.cells)
-            self._moved.set()
-
-    def _on_look(self, how: str) -> None:
-        self._need_model()
-        self._look(how)
-        self._moved.set()
-
-    def _look(self, how: str) -> None:
-        valve = self._valve()
-        centre, reach = numpy.asarray(valve.origin, float), self._reach()
-        if self._shown is not None and len(self._shown.surfaces) > self.state.current:
-            points = self._shown.surfaces[self.state.current].points
-            centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
-            reach = float(numpy.linalg.norm(points - centre, axis=1).max())
-        self.scene.look(how, centre, valve.axis, valve.reference, 1.45 * reach)
-        self.scene.cut_here(valve.origin, valve.axis)
-
-    # the heartbeat
-
-    def _show_curves(self) -> None:
-        """Draws a heartbeat's curves. A valve without a cycle has none."""
-        i, model = self.state.current, self.model
-        with self.state as state:
-            state.curves = []
-            if model.period(i) <= 0.0:
-                return
-            state.period = float(model.period(i))
-            cycle = model.valves[i].cycle
-            state.cycle = cycle.source if cycle is not None else ""
-            curve = model.curve(41, i)
-            times, unit = curve["time"], f"{model.unit}²" if model.unit else "square units"
-            state.curves = [
-                rows.line_of("Opening, from 0 to 1", times, curve["opening"], COLOURS[0], top=1.0),
-                rows.line_of("Orifice area", times, curve["orifice"], COLOURS[1], unit),
-                rows.line_of("Marked nodes", times, curve["marked"], COLOURS[2], "nodes"),
-            ]
-
-    def _on_cycle(self, cycle: str | None, period: Any) -> None:
-        self._begin_change()
-        seconds = reading.number_of(self.state.period if period is None else period, "period")
-        name = str(self.state.cycle if cycle is None else cycle or "").strip()
-        if not name:
-            name = "mitral" if self._valve().kind == "mitral" else "aortic"
-        self.model.set_cycle(name if name in CYCLES else str(self.folder / os.path.expanduser(name)), seconds)
-        with self.state as state:
-            state.cycle, state.time = name, 0.0
-        self._renew_all()
-
-    def _need_cycle(self) -> None:
-        if not any(self.model.period(k) > 0.0 for k in range(len(self.model.valves))):
-            self._on_cycle(None, None)
-        elif self.model.period(self.state.current) > 0.0:
-            self.state.period = float(self.model.period(self.state.current))
-
-    def _changed_time(self) -> None:
-        if self.model is None or self.state.playing or math.isclose(float(self.state.time), self.model.time, abs_tol=1e-12):
-            return
-        self._need_model()
-        seconds = float(self.state.time)
-        self._need_cycle()  # a new cycle begins at 0
-        self._at(seconds)
-        with self.state as state:
-            state.time = seconds
-
-    def _at(self, seconds: float) -> None:
-        self._end_drag()
-        self.model.at(seconds)
-        self._touch()
-
-    def _on_play(self) -> None:
-        self._need_model()
-        if self._playing is not None:
-            self._pause()
-        else:
-            self._need_cycle()
-            self._playing = asyncio.ensure_future(self._play())
-
-    def _pause(self) -> None:
-        if self._playing is not None:
-            self._playing.cancel()
-            self._playing = None
-        with self.state as state:
-            state.playing = False
-
-    async def _play(self) -> None:
-        with self.state as state:
-            state.playing = True
-        self._seen_at = time.monotonic()
-        last = time.monotonic()
-        while True:
-            await asyncio.sleep(0.02)
-            now = time.monotonic()
-            if now - self._seen_at > UNSEEN:  # the browser is gone
-                break
-            if self._moved.is_set() or not self._seen.is_set():
-                continue  # the last picture is still under way
-            seconds = (self.model.time + (now - last) * float(self.state.speed)) % float(self.state.period)
-            last = now
-            self._told(self._at)(seconds)
-        self._playing = None
-        with self.state as state:
-            state.playing = False
-
     # the server
 
     def serve(self, *, port: int = 0, browser: bool = True) -> None:
         """Serves the page on 127.0.0.1 until Ctrl C. A port of 0 takes a free one."""
         with guard.Guard(self.server) as gate:
             gate.start(port, browser)
+
+
+def _check_of_saved(shown: dict[str, Any], n_valves: int) -> None:
+    """Refuses a saved view whose words about the page do not fit."""
+    choices = {"current": range(n_valves), "wall": WALLS, "cells": CELLS, "speed": [speed["value"] for speed in _SPEEDS]}
+    for name, value in shown.items():
+        fits = isinstance(value, dict) if name == "view" else isinstance(value, (int, float, str)) and not isinstance(value, bool)
+        if not fits or (name in choices and value not in choices[name]):
+            raise reading.Refusal(f"the saved view is damaged: {name} is {value!r}")
+    if "view" in shown:
+        try:
+            places_of(shown["view"])
+        except riis.Error as error:
+            raise reading.Refusal(f"the saved view is damaged: {error}") from None

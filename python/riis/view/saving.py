@@ -13,6 +13,7 @@ import numpy
 
 import riis
 from riis.view import reading
+from riis.view._part import Part
 
 TEXTS = {"case": "Case file", "command": "Command", "python": "Python", "openfoam": "OpenFOAM"}
 _TEXT_ENDINGS = {"case": ".case.json", "command": ".sh", "python": ".py", "openfoam": ".foam.txt"}
@@ -21,36 +22,20 @@ _WRITE_ENDINGS = {"view": ".view.json", "mesh": ".vtu", "picture": ".png", "movi
 FILMING = "a movie is being written"
 _NO_FILMS = "a movie needs imageio and imageio-ffmpeg: pip install imageio imageio-ffmpeg"
 
-# Errors that a person's input causes. Their message goes to the page. Other exceptions go to stderr as well.
-REFUSALS = (riis.Error, OSError, ValueError, TypeError, KeyError, ImportError, reading.Refusal)
+# Errors that a person's input causes. Their message goes to the page. Other exceptions are faults of the page itself.
+REFUSALS = (riis.Error, OSError, ImportError, reading.Refusal)
 
 
 def text_of(error: BaseException) -> str:
-    text = str(error.args[0]) if isinstance(error, KeyError) and error.args else str(error)
-    return text or type(error).__name__
+    return str(error) or type(error).__name__
 
 
-class Files:
-    """The part of a Page that writes files. Its attributes are those of the Page."""
+class Files(Part):
+    """The part of a Page that writes files."""
 
-    model: Any
-    scene: Any
-    state: Any
-    folder: Path
-    _grid: Any
-    _written: set[Path]
-    _text_name: str
-    _wanted_size: tuple[int, int] | None
-    _alone: Any
-    _begin_task: Any
-    _need_idle: Any
-    _need_model: Any
     _need_cycle: Any
     _pause: Any
-    _refresh: Any
-    _say: Any
-    _show_orifice: Any
-    _touch: Any
+    _as_saved: Any
 
     def _on_text(self, name: str) -> None:
         self._need_model()
@@ -63,17 +48,20 @@ class Files:
         if name not in TEXTS:
             raise reading.Refusal(f"text: '{name}' is not one of {', '.join(TEXTS)}")
         if name == "case" and any(self.model.period(k) > 0.0 for k in range(len(self.model.valves))):
-            return str(self.model.case(numpy.linspace(0.0, float(self.state.period), 51)))
+            return str(self.model.case(numpy.linspace(*self.model.span, 51)))
         if name == "command":
             base = str(self.folder / self._name())
-            words = shlex.split(self.model.command(case=base + _TEXT_ENDINGS["case"], output=base + ".vtu"))
+            case, before = base + ".now.case.json", ""
+            words = shlex.split(self.model.command(case=case, output=base + ".vtu"))
+            if len(self.model.valves) > 1:  # the case file that the page writes may be one of a heartbeat
+                before = f"cat >{shlex.quote(case)} <<'END'\n{self.model.case()}END\n"
             lines = [shlex.join(words[: words.index("mark") + 1])]
             for word in words[words.index("mark") + 1 :]:
                 if lines[-1].startswith("--") and not word.startswith("--") and "=" not in lines[-1]:
                     lines[-1] += " " + shlex.quote(word)
                 else:
                     lines.append(shlex.quote(word))
-            return " \\\n  ".join(lines) + "\n"
+            return before + " \\\n  ".join(lines) + "\n"
         return str(getattr(self.model, name)())
 
     def _on_write_text(self) -> None:
@@ -108,7 +96,7 @@ class Files:
             self._begin_task(self._movie(path))
             return
         if name == "view":
-            self.model.save(str(path))
+            self.model.save(str(path), self._as_saved())
         elif name == "mesh":
             reading.write_marked(self._grid, self.model, str(path))
         else:
@@ -131,8 +119,9 @@ class Files:
                 self.scene.resize(*(length // 16 * 16 for length in size))  # as .mp4 needs
                 self.scene.sharpen()
                 with self.model.kept(), imageio.get_writer(str(part), fps=24) as writer:
+                    begin, end = self.model.span
                     for k in range(n_frames):
-                        self.model.at(k / n_frames * float(self.state.period))
+                        self.model.at(begin + k / n_frames * (end - begin))
                         self._refresh()
                         self._show_orifice()
                         self.scene.rest()

@@ -11,11 +11,13 @@ import ctypes
 import math
 import os
 import time
+from collections.abc import Mapping
 from typing import Any
 
 import numpy
 
-from riis._plot import COLOURS, _pyvista, coloured, widget_of
+from riis._plot import COLOURS, _pyvista, add_scale_bar, coloured, drop_scale_bar, widget_of
+from riis.view._valves import point, refuse
 
 WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000", "#cc00aa", "#111111", "#333333"
 WALLS = ("cut", "clear", "none")
@@ -70,6 +72,17 @@ def colour_of(valve: int, leaflet: int) -> str:
     return COLOURS[(3 * valve + leaflet) % len(COLOURS)]
 
 
+def places_of(view: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns the places of Scene.view(). Refuses places that are not three numbers, and directions that are zero."""
+    names = ["position", "focal_point", "up"] + ["cut_origin", "cut_normal"] * ("cut_normal" in view)
+    places = {name: point(view.get(name), name) for name in names}
+    directions = places | {"position": places["position"] - places["focal_point"]}
+    for name in ("position", "up", "cut_normal"):
+        if name in directions and not directions[name].any():
+            raise refuse(f"{name}: is {view[name]!r}, which gives no direction")
+    return places
+
+
 class Scene:
     """The picture of a riis.view.Model.
 
@@ -122,7 +135,11 @@ class Scene:
             self._actors["riis cut"].SetVisibility(self._how == "cut")
 
     def freeze(self) -> None:
-        """Cuts the wall itself, where otherwise a plane hides the half towards the camera. vtk.js knows no such plane."""
+        """Cuts the wall itself, where otherwise a plane hides the half towards the camera. vtk.js knows no such plane.
+
+        It knows no scale bar either.
+        """
+        drop_scale_bar(self.plotter)
         if self._plane is not None:
             rest = self._wall.clip(normal=self._plane.GetNormal(), origin=self._plane.GetOrigin(), invert=False)
             self.plotter.remove_actor("riis wall", reset_camera=False)
@@ -133,7 +150,7 @@ class Scene:
     def show_wall(self, how: str) -> None:
         """Shows the mesh's boundary cut open ("cut"), see-through ("clear") or not at all ("none")."""
         if how not in WALLS:
-            raise ValueError(f"wall: is '{how}'; it must be one of {', '.join(WALLS)}")
+            raise refuse(f"wall: is '{how}'; it must be one of {', '.join(WALLS)}")
         self._how = how
         self._show_wall()
         self.show_cut()
@@ -200,6 +217,7 @@ class Scene:
     def show(self, shown: Any, quick: bool = False) -> None:
         """Draws the leaflets, and the cells around them, of Model.update(). In a quick show, very many cells wait for rest()."""
         self._shown = shown
+        add_scale_bar(self.plotter, self.model.unit)
         self._waiting = quick and len(shown.cells_marked) + len(shown.cells_partly) > MANY_MARKED
         for k, surface in enumerate(shown.surfaces):
             faces = numpy.full((len(surface.triangles), 4), 3, numpy.int64)
@@ -227,7 +245,7 @@ class Scene:
     def show_cells(self, which: str) -> None:
         """Shows the cells with a marked node ("partly"), only the cells with all nodes marked ("marked"), or none."""
         if which not in CELLS:
-            raise ValueError(f"cells: is '{which}'; it must be one of {', '.join(CELLS)}")
+            raise refuse(f"cells: is '{which}'; it must be one of {', '.join(CELLS)}")
         self._cells_shown = which
         if self._shown is not None:
             self._show_cells()
@@ -315,7 +333,7 @@ class Scene:
     def look(self, how: str, origin: Any = None, axis: Any = None, reference: Any = None, reach: float | None = None) -> None:
         """Looks at the valve obliquely, from downstream ("top") or from the side. Without a valve, looks at everything."""
         if how not in LOOKS:
-            raise ValueError(f"look: is '{how}'; it must be one of {', '.join(LOOKS)}")
+            raise refuse(f"look: is '{how}'; it must be one of {', '.join(LOOKS)}")
         z = numpy.array([0.0, 0.0, 1.0]) if axis is None else numpy.asarray(axis, float)
         x = numpy.array([1.0, 0.0, 0.0]) if reference is None else numpy.asarray(reference, float)
         y = numpy.cross(z, x)
@@ -329,6 +347,25 @@ class Scene:
             camera.focal_point = tuple(origin)
             camera.position = tuple(numpy.asarray(origin) + distance * direction)
             self.plotter.renderer.ResetCameraClippingRange()
+
+    def view(self) -> dict[str, list[float]]:
+        """Returns the camera and the plane of the cut as plain numbers, which set_view takes."""
+        camera = self.plotter.camera
+        places = {"position": camera.position, "focal_point": camera.focal_point, "up": camera.up}
+        if self._plane is not None:
+            places |= {"cut_origin": self._plane.GetOrigin(), "cut_normal": self._plane.GetNormal()}
+        return {name: [float(x) for x in place] for name, place in places.items()}
+
+    def set_view(self, view: Mapping[str, Any]) -> None:
+        """Looks and cuts as view() said."""
+        places = places_of(view)
+        for name in ("position", "focal_point", "up"):
+            setattr(self.plotter.camera, name, tuple(places[name].tolist()))
+        self.plotter.renderer.ResetCameraClippingRange()
+        if self._plane is not None and "cut_normal" in places:
+            self._plane.SetOrigin(*places["cut_origin"].tolist())
+            self._plane.SetNormal(*places["cut_normal"].tolist())
+            self._placed = None
 
     def turn_view(self, dx: float, dy: float) -> None:
         """Turns the camera about its focal point. dx and dy are parts of the picture's height."""
