@@ -83,8 +83,7 @@ Value hexahedron_shape(std::size_t n_nodes, const Place &node, const Place &at) 
     along.slope[k] = -2 * at[k];
     v = product(v, along);
   }
-  if (n_nodes == 20 && !is_middle)
-    v = product(v, {node[0] * at[0] + node[1] * at[1] + node[2] * at[2] - 2, node});
+  if (n_nodes == 20 && !is_middle) v = product(v, {node[0] * at[0] + node[1] * at[1] + node[2] * at[2] - 2, node});
   const double share = is_middle ? 0.25 : 0.125;
   v.value *= share;
   for (double &slope : v.slope) slope *= share;

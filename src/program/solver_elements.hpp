@@ -12,7 +12,7 @@ namespace riis::program {
 
 // Values of all shape functions at one point, and their derivatives there.
 struct ShapeFunctions {
-  std::vector<double> values;                  // by node
+  std::vector<double> values;                 // by node
   std::vector<std::array<double, 3>> slopes;  // by node, in the coordinates of the reference element
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -61,7 +62,9 @@ std::vector<Face> faces_near(const SolverMesh &mesh, const Region &region, const
   std::vector<Face> faces;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
     for (std::size_t f = 0; f < mesh.element->faces.size(); ++f) {
-      std::array<std::int64_t, 4> corners{-1, -1, -1, -1};
+      // A triangle has no fourth corner, and the last number sorts behind the others.
+      constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+      std::array<std::int64_t, 4> corners{none, none, none, none};
       std::size_t n = 0;
       bool is_near = true;
       for (const std::size_t a : mesh.element->faces[f]) {
@@ -70,7 +73,7 @@ std::vector<Face> faces_near(const SolverMesh &mesh, const Region &region, const
         is_near = is_near && view(region.position)[corners[n++]] >= 0;
       }
       if (!is_near) continue;
-      std::sort(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(n));
+      std::sort(corners.begin(), corners.end());
       faces.push_back({{corners[0], corners[1], corners[2]}, e, f, is_inside[at(e)] != 0});
     }
   }
@@ -79,7 +82,7 @@ std::vector<Face> faces_near(const SolverMesh &mesh, const Region &region, const
 }
 
 // Finds the walls, and the two sides of the region's cut through the mesh. Returns whether there are two sides.
-bool find_sides(const SolverMesh &mesh, const SolverDistances &distances, const std::vector<char> &is_inside,
+bool find_sides(const SolverMesh &mesh, const SolverDistances &sides, const std::vector<char> &is_inside,
                 Region &region) {
   const std::vector<Face> faces = faces_near(mesh, region, is_inside);
   Groups groups(region.nodes.size());
@@ -109,14 +112,14 @@ bool find_sides(const SolverMesh &mesh, const SolverDistances &distances, const 
   std::vector<std::int64_t> balance(region.nodes.size(), 0), size(region.nodes.size(), 0);
   for (std::size_t i = 0; i < region.nodes.size(); ++i) {
     if (!is_cut[i]) continue;
-    balance[groups.root(i)] += view(distances.to_leaflets)[region.nodes[i]] < 0 ? 1 : -1;
+    balance[groups.root(i)] += view(sides.to_leaflets)[region.nodes[i]] < 0 ? 1 : -1;
     ++size[groups.root(i)];
   }
   bool has_before = false, has_behind = false;
   for (std::size_t i = 0; i < region.nodes.size(); ++i) {
     if (size[i] == 0) continue;
     // A piece with many nodes on each side leads around the valve.
-    if (std::abs(balance[i]) < 0.5 * static_cast<double>(size[i])) return false;
+    if (2 * std::abs(balance[i]) < size[i]) return false;
     (balance[i] > 0 ? has_before : has_behind) = true;
   }
   for (std::size_t i = 0; i < region.nodes.size(); ++i)
@@ -290,12 +293,10 @@ struct Solved {
   std::int64_t n_iterations = 0;
 };
 
-// GMRES with restarts, and with the incomplete factors from the left.
-Solved solve(const Matrix &m, const Vector &right) {
+// GMRES with restarts, and with incomplete factors from the left.
+Solved solve(const Matrix &m, const Vector &right, const Matrix &factors) {
   constexpr std::int64_t n_restart = 80, most = 2400;
   constexpr double tolerance = 1e-8;
-  Matrix factors = m;
-  factorize(factors);
   Solved solved{Vector(right.size(), 0.0)};
   const auto preconditioned = [&factors](Vector v) {
     apply_factors(factors, v);
@@ -353,19 +354,21 @@ Solved solve(const Matrix &m, const Vector &right) {
 // ---- The solver's equations ----
 
 // The share of R / eps^2 that resists the flow everywhere. It replaces the inertia, without which the equations outside the band
-// would have next to no terms of velocity. It adds a thousandth to the drop.
-constexpr double share_everywhere = 1e-4;
+// would have next to no terms of velocity. It adds a thousandth to the drop. The matrix of the incomplete factors has a larger
+// share, without which the factors may be nearly singular.
+constexpr double share_everywhere = 1e-4, share_in_factors = 2e-3;
 // The constant of the solver's stabilisation.
 constexpr double viscous_constant = 36;
 
 struct Equations {
   Matrix matrix;
   Vector right;
-  std::vector<std::array<double, 3>> outward;  // the integral of a shape function over the cut, times the outward normal
+  std::vector<std::array<double, 3>>
+      outward;  // the integral of a shape function over the cut, times the outward normal
 };
 
 void add_element(const SolverMesh &mesh, const Region &region, std::int64_t e, const SolverDistances &distances,
-                 double half_thickness, const SolverFluid &fluid, Equations &equations) {
+                 double half_thickness, const SolverFluid &fluid, double share, Equations &equations) {
   const SolverElement &element = *mesh.element;
   const std::size_t n = element.n_nodes;
   // Velocities are in units in which a drop of 1 over R / eps gives 1, so that all terms have about the same size.
@@ -384,7 +387,7 @@ void add_element(const SolverMesh &mesh, const Region &region, std::int64_t e, c
     const double tau = 1 / (fluid.density * std::sqrt(4 / (fluid.time_step * fluid.time_step) + K * K +
                                                       viscous_constant * nu * nu * metric_square));
     const double tau_div = 1 / (tau * map.metric_trace) / unit;
-    const double resistance = (K + share_everywhere * fluid.resistance / (half_thickness * half_thickness)) / unit;
+    const double resistance = (K + share * fluid.resistance / (half_thickness * half_thickness)) / unit;
     for (std::size_t a = 0; a < n; ++a) {
       const std::array<double, 3> &da = map.gradients[a];
       std::array<double, 3> &outward = view(equations.outward)[view(region.position)[mesh.nodes_of(e)[a]]];
@@ -413,18 +416,17 @@ void add_element(const SolverMesh &mesh, const Region &region, std::int64_t e, c
 }
 
 Equations equations_of(const SolverMesh &mesh, const Region &region, const SolverDistances &distances,
-                       double half_thickness, const SolverFluid &fluid) {
+                       double half_thickness, const SolverFluid &fluid, double share) {
   Equations equations{empty_matrix(mesh, region), Vector(n_unknowns * region.nodes.size(), 0.0), {}};
   equations.outward.assign(region.nodes.size(), {});
   for (const std::int64_t e : region.elements)
-    add_element(mesh, region, e, distances, half_thickness, fluid, equations);
+    add_element(mesh, region, e, distances, half_thickness, fluid, share, equations);
   Matrix &m = equations.matrix;
   for (std::int64_t i = 0; i < m.n(); ++i) {
     if (!view(region.is_wall)[i]) {
       // The pressure outside the region is 1 before the valve and 0 behind it.
       if (view(region.is_before)[i])
-        for (std::int64_t k = 0; k < 3; ++k)
-          view(equations.right)[width * i + k] = -view(equations.outward)[i][at(k)];
+        for (std::int64_t k = 0; k < 3; ++k) view(equations.right)[width * i + k] = -view(equations.outward)[i][at(k)];
       continue;
     }
     for (std::int64_t p = view(m.begin)[i]; p < view(m.begin)[i + 1]; ++p)
@@ -436,8 +438,8 @@ Equations equations_of(const SolverMesh &mesh, const Region &region, const Solve
 
 }  // namespace
 
-ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const std::vector<double> &near,
-                       double reach, double half_thickness, const SolverFluid &fluid) {
+ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const SolverDistances &sides,
+                       const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid) {
   ClosedDrop drop;
   Region region;
   region.position.assign(at(mesh.n_nodes), -1);
@@ -453,11 +455,13 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   region.is_wall.assign(region.nodes.size(), 0);
   region.is_before.assign(region.nodes.size(), 0);
   drop.n_nodes = view(region.nodes).size();
-  drop.is_separated = drop.n_nodes > 0 && find_sides(mesh, distances, is_inside, region);
+  drop.is_separated = drop.n_nodes > 0 && find_sides(mesh, sides, is_inside, region);
   if (!drop.is_separated) return drop;
   order_by_layers(mesh, region);
-  const Equations equations = equations_of(mesh, region, distances, half_thickness, fluid);
-  const Solved solved = solve(equations.matrix, equations.right);
+  Matrix factors = equations_of(mesh, region, distances, half_thickness, fluid, share_in_factors).matrix;
+  factorize(factors);
+  const Equations equations = equations_of(mesh, region, distances, half_thickness, fluid, share_everywhere);
+  const Solved solved = solve(equations.matrix, equations.right, factors);
   drop.is_solved = solved.is_solved;
   drop.n_iterations = solved.n_iterations;
   for (std::int64_t i = 0; i < drop.n_nodes; ++i)

@@ -24,8 +24,8 @@ struct ClosedDrop {
 
 // Solves the solver's own discrete equations for a slow and steady flow near the closed valve: equal-order elements, its
 // stabilisation, and no slip at the mesh's boundary. `near` has the exact distance of each node or infinity. Nodes up to `reach`
-// belong to the region.
-ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const std::vector<double> &near,
-                       double reach, double half_thickness, const SolverFluid &fluid);
+// belong to the region. `sides` has distances with the right sign up to that reach, also outside the solver's box.
+ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const SolverDistances &sides,
+                       const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid);
 
 }  // namespace riis::program

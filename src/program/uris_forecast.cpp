@@ -20,9 +20,8 @@ namespace riis::program {
 namespace {
 
 // The solver's bands of pressure end at this many half thicknesses.
-constexpr double end_of_bands = 5;
-// The share of (R / eps) u that counts as enough, and the largest half thickness, over the given one, that is tried for it. The
-// solver's box still has all nodes that matter at twice the half thickness.
+constexpr double band_end = 5;
+// The share of (R / eps) u that counts as enough, and the largest half thickness, over the given one, that is tried for it.
 constexpr double enough = 0.95, most_thickness = 2;
 
 class Forecaster {
@@ -41,18 +40,21 @@ class Forecaster {
         ", median edge " + shown(median_edge_));
     check_closed(motion.closing.back());
     check_open(motion.opening.back());
+    find_drop(motion.closing.back());
     const std::size_t n = motion.opening.size() + motion.closing.size();
     StepProgress progress("reading frames as the solver does", n, options_.quiet);
     std::string &table = forecast_.table;
     table =
         "motion,frame,opening,lower_x,lower_y,lower_z,upper_x,upper_y,upper_z,nodes_in_box,solver_area,library_area,"
-        "nodes_before,volume_before,nodes_behind,volume_behind\n";
+        "nodes_before,volume_before,nodes_behind,volume_behind,leaflet_speed,node_speed\n";
     for (std::size_t i = 0; i < n; ++i) {
       progress.begin(i);
       const bool is_closing = i >= motion.opening.size();
       const std::size_t frame = is_closing ? i - motion.opening.size() : i;
       add_row(is_closing, frame, (is_closing ? motion.closing : motion.opening)[frame]);
     }
+    say("largest speed of a leaflet " + shown(fastest_.of_leaflets) + ", and of a node that the solver moves with it " +
+        shown(fastest_.of_nodes));
     return std::move(forecast_);
   }
 
@@ -60,17 +62,18 @@ class Forecaster {
   void say(const std::string &line) { forecast_.lines.push_back(line); }
 
   SolverDistances distances_at(double opening, bool is_closing) {
-    return solver_distances(mesh_, leaflets_, leaflets_.vertices_at(opening), is_closing, half_thickness_);
+    vertices_ = leaflets_.vertices_at(opening);
+    return solver_distances(mesh_, leaflets_, vertices_, is_closing, half_thickness_);
   }
   std::vector<double> near_nodes(double limit) const {
     return exact_distances(mesh_.n_nodes, mesh_.xyz, leaflets_.surface(), limit, options_.n_threads);
   }
   SolverBand band_before(const SolverDistances &distances, bool is_closing) const {
-    const double far = is_closing ? end_of_bands * half_thickness_ : std::numeric_limits<double>::infinity();
+    const double far = is_closing ? band_end * half_thickness_ : std::numeric_limits<double>::infinity();
     return solver_band(mesh_, distances, -far, -half_thickness_, leaflets_.forward());
   }
   SolverBand band_behind(const SolverDistances &distances) const {
-    return solver_band(mesh_, distances, half_thickness_, end_of_bands * half_thickness_, leaflets_.forward());
+    return solver_band(mesh_, distances, half_thickness_, band_end * half_thickness_, leaflets_.forward());
   }
 
   static std::string text_of(const SolverBand &band) {
@@ -91,18 +94,22 @@ class Forecaster {
   void check_closed(double opening) {
     const SolverDistances distances = distances_at(opening, true);
     const SolverBand before = band_before(distances, true), behind = band_behind(distances);
-    const std::string from_to = " from " + shown(half_thickness_) + " to " + shown(end_of_bands * half_thickness_);
+    const std::string from_to = " from " + shown(half_thickness_) + " to " + shown(band_end * half_thickness_);
     if (before.n_nodes == 0)
       refuse_motion("open", "no node is before the closed leaflets at a distance" + from_to +
                                 ", where the solver takes the pressure");
     if (behind.n_nodes == 0)
       refuse_motion("open", "no node is behind the closed leaflets at a distance" + from_to +
                                 ", where the solver takes the pressure");
+    std::int64_t n_triangles = 0;
+    for (const UrisLeaflet &leaflet : leaflets_.leaflets())
+      if (!leaflet.is_scaffold) n_triangles += view(leaflet.triangles).size();
+    say("each marking of the closed valve measures " +
+        shown(static_cast<double>(distances.n_in_box) * static_cast<double>(n_triangles)) + " distances, from " +
+        counted(distances.n_in_box, "node") + " of its box to every triangle");
     say("it opens once the pressure before it exceeds the pressure behind it");
     say("  before: " + text_of(before));
     say("  behind: " + text_of(behind));
-    find_drop(distances);
-    warn_of_negative_shapes(distances);
   }
 
   void check_open(double opening) {
@@ -115,12 +122,12 @@ class Forecaster {
   }
 
   // Returns the expected drop over (R / eps) u, or nothing if the closed leaflets let the flow past.
-  std::optional<double> drop_at(double half_thickness, const SolverDistances &distances,
+  std::optional<double> drop_at(double half_thickness, const SolverDistances &distances, const SolverDistances &wide,
                                 const std::vector<double> &near, double &area) {
     const double reach = std::max(2.5 * half_thickness, half_thickness + 2 * median_edge_);
-    const ClosedDrop drop = closed_drop(
-        mesh_, distances, near, reach, half_thickness,
-        {options_.resistance, options_.density, options_.viscosity, options_.time_step});
+    const ClosedDrop drop =
+        closed_drop(mesh_, distances, wide, near, reach, half_thickness,
+                    {options_.resistance, options_.density, options_.viscosity, options_.time_step});
     if (!drop.is_separated) return std::nullopt;
     if (!drop.is_solved) {
       throw Refusal{exit_bad_data, options_.mesh + ": the drop across the closed valve was not found in " +
@@ -130,34 +137,39 @@ class Forecaster {
     return area / drop.flow;
   }
 
-  void find_drop(const SolverDistances &distances) {
+  void find_drop(double opening) {
     const Stage stage("computing the drop across the closed valve", options_.quiet);
+    const SolverDistances distances = distances_at(opening, true);
+    warn_of_negative_shapes(distances);
     const std::vector<double> near =
-        near_nodes(std::max(end_of_bands * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
+        near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
     const double seen = solver_area(mesh_, distances, half_thickness_);
+    // The export of a larger half thickness has a larger box, and the sides must be known up to the reach.
+    const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
+                                                  band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     double area = 0;
-    const std::optional<double> drop = drop_at(half_thickness_, distances, near, area);
+    const std::optional<double> drop = drop_at(half_thickness_, distances, wide, near, area);
     if (!drop) {
       say("expected drop: none, because the closed leaflets do not separate two sides of this mesh");
       warn("svMultiPhysics will not hold the pressure: the closed leaflets do not separate two sides of " +
            options_.mesh);
       return;
     }
-    say("expected drop of the closed valve: " + with_four_decimals(*drop) + " of (R/eps) u, with eps = " + shown(half_thickness_) +
-        ", " + shown(half_thickness_ / median_edge_) + " edges");
-    say("  u is the flow over the area of the leaflets in the mesh, " + shown(area) + "; the solver's sum of delta is " +
-        shown(seen / area) + " of the exact sum");
+    say("expected drop of the closed valve: " + with_four_decimals(*drop) + " of (R/eps) u, with eps = " +
+        shown(half_thickness_) + ", " + shown(half_thickness_ / median_edge_) + " edges");
+    say("  u is the flow over the area of the leaflets in the mesh, " + shown(area) +
+        "; the solver's sum of delta is " + shown(seen / area) + " of the exact sum");
     if (*drop >= enough) return;
-    const std::string needed = thickness_for(distances, near);
+    const std::string needed = thickness_for(wide, near);
     say("  " + needed);
     warn("svMultiPhysics will drop " + shown(*drop) + " of (R/eps) u across the closed valve; " + needed);
   }
 
   // Finds the half thickness by steps of a quarter, and then by halving the last step three times.
-  std::string thickness_for(const SolverDistances &distances, const std::vector<double> &near) {
+  std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     const auto is_enough = [&](double factor) {
       double area = 0;
-      const std::optional<double> drop = drop_at(factor * half_thickness_, distances, near, area);
+      const std::optional<double> drop = drop_at(factor * half_thickness_, wide, wide, near, area);
       return drop && *drop >= enough;
     };
     double below = 1, above = 1;
@@ -198,6 +210,7 @@ class Forecaster {
   }
 
   void add_row(bool is_closing, std::size_t frame, double opening) {
+    const std::vector<double> vertices_before = vertices_;
     const SolverDistances distances = distances_at(opening, is_closing);
     const SolverBand before = band_before(distances, is_closing), behind = band_behind(distances);
     const std::vector<double> near = near_nodes(3 * half_thickness_ + 2 * median_edge_);
@@ -206,11 +219,16 @@ class Forecaster {
     for (const std::array<double, 3> *corner : {&distances.lower, &distances.upper})
       for (const double x : *corner) row += ',' + shortest(x);
     row += ',' + std::to_string(distances.n_in_box) + ',' + shortest(solver_area(mesh_, distances, half_thickness_)) +
-           ',' +
-           shortest(exact_area(mesh_, leaflets_.surface(), near, half_thickness_, options_.n_threads, true));
+           ',' + shortest(exact_area(mesh_, leaflets_.surface(), near, half_thickness_, options_.n_threads, true));
     for (const SolverBand *band : {&before, &behind})
       row += ',' + std::to_string(band->n_nodes) + ',' + shortest(band->volume);
-    row += '\n';
+    // The first frame of a motion is at rest.
+    const SolverSpeeds speeds = frame == 0 ? SolverSpeeds{}
+                                           : solver_speeds(mesh_, leaflets_, distances, vertices_, vertices_before,
+                                                           options_.time_step, half_thickness_);
+    row += ',' + shortest(speeds.of_leaflets) + ',' + shortest(speeds.of_nodes) + '\n';
+    fastest_.of_leaflets = std::max(fastest_.of_leaflets, speeds.of_leaflets);
+    fastest_.of_nodes = std::max(fastest_.of_nodes, speeds.of_nodes);
   }
 
   const ExportOptions &options_;
@@ -218,6 +236,8 @@ class Forecaster {
   MeshFile file_;
   SolverMesh mesh_;
   double half_thickness_, median_edge_ = 0;
+  std::vector<double> vertices_;  // of the last frame that was read
+  SolverSpeeds fastest_;
   UrisForecast forecast_;
 };
 

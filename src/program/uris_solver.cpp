@@ -53,9 +53,8 @@ class PointTree {
     if (end - begin < 2) return;
     const std::size_t middle = (begin + end) / 2;
     const auto at = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [this, axis](std::size_t a, std::size_t b) {
-      return points_[a][axis] < points_[b][axis];
-    });
+    std::nth_element(at(begin), at(middle), at(end),
+                     [this, axis](std::size_t a, std::size_t b) { return points_[a][axis] < points_[b][axis]; });
     split(begin, middle, (axis + 1) % 3);
     split(middle + 1, end, (axis + 1) % 3);
   }
@@ -84,6 +83,7 @@ class PointTree {
 struct FrameTriangles {
   Point lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
   std::vector<Point> middles, normals;
+  std::vector<Corners> corners;  // as vertices of the frame
 };
 
 Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
@@ -110,6 +110,8 @@ FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<doub
         u[k] = b[k] - a[k];
         v[k] = c[k] - a[k];
       }
+      frame.corners.push_back(
+          {view(leaflet.nodes)[corners[0]], view(leaflet.nodes)[corners[1]], view(leaflet.nodes)[corners[2]]});
       frame.middles.push_back(middle);
       frame.normals.push_back({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
     }
@@ -170,8 +172,7 @@ std::vector<double> node_volumes(const SolverMesh &mesh) {
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
       if (g == 0 || !element.has_one_gradient) map_element(mesh, e, element.at_gauss[g], map);
       for (std::size_t a = 0; a < element.n_nodes; ++a)
-        view(volume)[mesh.nodes_of(e)[a]] +=
-            element.gauss[g].weight * map.determinant * element.at_gauss[g].values[a];
+        view(volume)[mesh.nodes_of(e)[a]] += element.gauss[g].weight * map.determinant * element.at_gauss[g].values[a];
     }
   }
   return volume;
@@ -217,8 +218,8 @@ void map_element(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &f
   double to[3][3] = {};  // first index: coordinate in space; second index: coordinate in the reference element
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) to[i][k] += mesh.xyz[3 * nodes[a] + static_cast<std::int64_t>(i)] *
-                                                      functions.slopes[a][k];
+      for (std::size_t k = 0; k < 3; ++k)
+        to[i][k] += mesh.xyz[3 * nodes[a] + static_cast<std::int64_t>(i)] * functions.slopes[a][k];
   map.determinant = determinant(to);
   double back[3][3];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -239,25 +240,31 @@ void map_element(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &f
 }
 
 SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
-                                 bool is_closing, double half_thickness) {
+                                 bool is_closing, double half_thickness, double margin) {
   SolverDistances distances;
   const double far = far_in_half_thicknesses * half_thickness;
-  const auto node = [&mesh](std::int64_t i) { return Point{mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}; };
+  const auto node = [&mesh](std::int64_t i) {
+    return Point{mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]};
+  };
   const FrameTriangles frame = triangles_of(leaflets, xyz, false);
-  distances.lower = frame.lower;
-  distances.upper = frame.upper;
+  for (std::size_t k = 0; k < 3; ++k) {
+    distances.lower[k] = frame.lower[k] - margin;
+    distances.upper[k] = frame.upper[k] + margin;
+  }
   distances.to_leaflets.assign(static_cast<std::size_t>(mesh.n_nodes), far);
+  distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
   const PointTree middles(frame.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     const Point p = node(i);
-    if (!is_within(p, frame.lower, frame.upper)) continue;
+    if (!is_within(p, distances.lower, distances.upper)) continue;
     ++distances.n_in_box;
     double distance = 0;
     const std::size_t nearest = middles.nearest(p, distance);
     const Point off = difference(p, frame.middles[nearest]);
-    const bool is_before = product(off, frame.normals[nearest]) < 0 &&
-                           (!is_closing || product(off, leaflets.forward()) < 0);
+    const bool is_before =
+        product(off, frame.normals[nearest]) < 0 && (!is_closing || product(off, leaflets.forward()) < 0);
     view(distances.to_leaflets)[i] = is_before ? -distance : distance;
+    view(distances.nearest)[i] = static_cast<std::int64_t>(nearest);
   }
   const FrameTriangles scaffold = triangles_of(leaflets, xyz, true);
   if (scaffold.middles.empty()) return distances;
@@ -301,6 +308,38 @@ SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances,
     band.to = std::max(band.to, place);
   }
   return band;
+}
+
+SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets, const SolverDistances &distances,
+                           const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
+                           double half_thickness) {
+  SolverSpeeds speeds;
+  const auto velocity_of = [&](std::int64_t vertex) {
+    Point v = difference(vertex_of(xyz, vertex), vertex_of(before, vertex));
+    for (double &x : v) x /= time_step;
+    return v;
+  };
+  const auto length = [](const Point &v) { return std::sqrt(product(v, v)); };
+  for (const UrisLeaflet &leaflet : leaflets.leaflets())
+    if (!leaflet.is_scaffold && leaflet.name != "box")
+      for (const std::int64_t vertex : leaflet.nodes)
+        speeds.of_leaflets = std::max(speeds.of_leaflets, length(velocity_of(vertex)));
+  const FrameTriangles frame = triangles_of(leaflets, xyz, false);
+  for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
+    if (!(std::abs(view(distances.to_leaflets)[i]) < half_thickness)) continue;
+    const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];
+    const Point a = vertex_of(xyz, corners[0]), u = difference(vertex_of(xyz, corners[1]), a),
+                v = difference(vertex_of(xyz, corners[2]), a),
+                p = difference({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, a);
+    // The part of p across the plane drops out of the products, so p needs no projection.
+    const double uu = product(u, u), uv = product(u, v), vv = product(v, v), pu = product(p, u), pv = product(p, v);
+    const double xi = (vv * pu - uv * pv) / (uu * vv - uv * uv), eta = (uu * pv - uv * pu) / (uu * vv - uv * uv);
+    const Point va = velocity_of(corners[0]), vb = velocity_of(corners[1]), vc = velocity_of(corners[2]);
+    Point velocity;
+    for (std::size_t k = 0; k < 3; ++k) velocity[k] = (1 - xi - eta) * va[k] + xi * vb[k] + eta * vc[k];
+    speeds.of_nodes = std::max(speeds.of_nodes, length(velocity));
+  }
+  return speeds;
 }
 
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness) {
@@ -352,9 +391,9 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
     for (std::size_t a = 0; a < element.n_nodes; ++a) {
       const std::int64_t node = mesh.nodes_of(e)[a], first = mesh.nodes_of(e)[0];
       nearest = std::min(nearest, view(near)[node]);
-      size = std::max(size, std::hypot(mesh.xyz[3 * node] - mesh.xyz[3 * first],
-                                       mesh.xyz[3 * node + 1] - mesh.xyz[3 * first + 1],
-                                       mesh.xyz[3 * node + 2] - mesh.xyz[3 * first + 2]));
+      size = std::max(
+          size, std::hypot(mesh.xyz[3 * node] - mesh.xyz[3 * first], mesh.xyz[3 * node + 1] - mesh.xyz[3 * first + 1],
+                           mesh.xyz[3 * node + 2] - mesh.xyz[3 * first + 2]));
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     for (std::size_t g = 0; g < points.size(); ++g) {

@@ -39,7 +39,7 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path);
 struct ElementMap {
   std::vector<std::array<double, 3>> gradients;  // by node
   double determinant = 0;
-  double metric[3][3];      // the sum of grad(xi_k) grad(xi_k)^T
+  double metric[3][3];  // the sum of grad(xi_k) grad(xi_k)^T
   double metric_trace = 0;
 };
 void map_element(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions, ElementMap &map);
@@ -51,10 +51,13 @@ struct SolverDistances {
   // (n_nodes): signed distances to the leaflets, and distances to the scaffold. Far nodes have the solver's large number. The
   // list of the scaffold is empty if there is none.
   std::vector<double> to_leaflets, to_scaffold;
+  std::vector<std::int64_t>
+      nearest;  // (n_nodes): the leaflets' triangle with the nearest middle, or -1 outside the box
 };
-// `xyz` has all vertices of the frame. A closing valve also uses the direction of forward flow for the sign.
+// `xyz` has all vertices of the frame. A closing valve also uses the direction of forward flow for the sign. `margin` widens the
+// box on each side beyond the solver's own box.
 SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
-                                 bool is_closing, double half_thickness);
+                                 bool is_closing, double half_thickness, double margin = 0);
 
 // Returns the solver's delta, which is K / R, from the absolute distances at the nodes of element e.
 double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
@@ -69,6 +72,17 @@ struct SolverBand {
 };
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
                        const std::array<double, 3> &forward);
+
+// The largest speeds of a frame, from the vertices of this frame and of the frame before.
+struct SolverSpeeds {
+  double of_leaflets = 0;  // of the leaflets' vertices
+  // The largest velocity that the solver gives to a node within the half thickness. It extrapolates the velocity in the plane of
+  // the nearest triangle.
+  double of_nodes = 0;
+};
+SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets, const SolverDistances &distances,
+                           const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
+                           double half_thickness);
 
 // Returns half thickness times the integral of delta: the area of the leaflets as the flow meets it.
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);

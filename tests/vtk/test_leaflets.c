@@ -302,10 +302,8 @@ static void test_named_marks(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_arrays),
-      cmocka_unit_test(test_median_edge), cmocka_unit_test(test_cells),
-      cmocka_unit_test(test_named_marks),
+      cmocka_unit_test(test_pieces), cmocka_unit_test(test_arrays),      cmocka_unit_test(test_median_edge),
+      cmocka_unit_test(test_cells),  cmocka_unit_test(test_named_marks),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }
