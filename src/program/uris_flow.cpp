@@ -295,7 +295,7 @@ struct Solved {
 
 // GMRES with restarts, and with incomplete factors from the left.
 Solved solve(const Matrix &m, const Vector &right, const Matrix &factors) {
-  constexpr std::int64_t n_restart = 80, most = 2400;
+  constexpr std::int64_t n_restart = 80, most = 640;
   constexpr double tolerance = 1e-8;
   Solved solved{Vector(right.size(), 0.0)};
   const auto preconditioned = [&factors](Vector v) {
@@ -355,8 +355,8 @@ Solved solve(const Matrix &m, const Vector &right, const Matrix &factors) {
 
 // The share of R / eps^2 that resists the flow everywhere. It replaces the inertia, without which the equations outside the band
 // would have next to no terms of velocity. It adds a thousandth to the drop. The matrix of the incomplete factors has a larger
-// share, without which the factors may be nearly singular.
-constexpr double share_everywhere = 1e-4, share_in_factors = 2e-3;
+// share, because the factors may otherwise be nearly singular. If the first one is too small, a later one may do.
+constexpr double share_everywhere = 1e-4, shares_in_factors[] = {2e-3, 2e-2, 0.2};
 // The constant of the solver's stabilisation.
 constexpr double viscous_constant = 36;
 
@@ -458,12 +458,16 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   drop.is_separated = drop.n_nodes > 0 && find_sides(mesh, sides, is_inside, region);
   if (!drop.is_separated) return drop;
   order_by_layers(mesh, region);
-  Matrix factors = equations_of(mesh, region, distances, half_thickness, fluid, share_in_factors).matrix;
-  factorize(factors);
   const Equations equations = equations_of(mesh, region, distances, half_thickness, fluid, share_everywhere);
-  const Solved solved = solve(equations.matrix, equations.right, factors);
+  Solved solved;
+  for (const double share : shares_in_factors) {
+    Matrix factors = equations_of(mesh, region, distances, half_thickness, fluid, share).matrix;
+    factorize(factors);
+    solved = solve(equations.matrix, equations.right, factors);
+    drop.n_iterations += solved.n_iterations;
+    if (solved.is_solved) break;
+  }
   drop.is_solved = solved.is_solved;
-  drop.n_iterations = solved.n_iterations;
   for (std::int64_t i = 0; i < drop.n_nodes; ++i)
     if (view(region.is_before)[i])
       for (std::int64_t k = 0; k < 3; ++k)

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
-#include <optional>
 
 #include "common/array_view.hpp"
 #include "program/mesh_reading.hpp"
@@ -121,20 +120,25 @@ class Forecaster {
     say("  before: " + text_of(before));
   }
 
-  // Returns the expected drop over (R / eps) u, or nothing if the closed leaflets let the flow past.
-  std::optional<double> drop_at(double half_thickness, const SolverDistances &distances, const SolverDistances &wide,
-                                const std::vector<double> &near, double &area) {
+  // The expected drop over (R / eps) u.
+  struct Expected {
+    enum { separated, let_past, not_found } state = separated;
+    double drop = 0, area = 0;
+  };
+  Expected expected_at(double half_thickness, const SolverDistances &distances, const SolverDistances &wide,
+                       const std::vector<double> &near) const {
     const double reach = std::max(2.5 * half_thickness, half_thickness + 2 * median_edge_);
     const ClosedDrop drop =
         closed_drop(mesh_, distances, wide, near, reach, half_thickness,
                     {options_.resistance, options_.density, options_.viscosity, options_.time_step});
-    if (!drop.is_separated) return std::nullopt;
-    if (!drop.is_solved) {
-      throw Refusal{exit_bad_data, options_.mesh + ": the drop across the closed valve was not found in " +
-                                       counted(drop.n_iterations, "iteration")};
-    }
-    area = exact_area(mesh_, leaflets_.surface(), near, half_thickness, options_.n_threads, false);
-    return area / drop.flow;
+    Expected expected;
+    expected.state = !drop.is_separated ? Expected::let_past
+                     : drop.is_solved   ? Expected::separated
+                                        : Expected::not_found;
+    if (expected.state != Expected::separated) return expected;
+    expected.area = exact_area(mesh_, leaflets_.surface(), near, half_thickness, options_.n_threads, false);
+    expected.drop = expected.area / drop.flow;
+    return expected;
   }
 
   void find_drop(double opening) {
@@ -143,34 +147,37 @@ class Forecaster {
     warn_of_negative_shapes(distances);
     const std::vector<double> near =
         near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
-    const double seen = solver_area(mesh_, distances, half_thickness_);
     // The export of a larger half thickness has a larger box, and the sides must be known up to the reach.
     const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
-    double area = 0;
-    const std::optional<double> drop = drop_at(half_thickness_, distances, wide, near, area);
-    if (!drop) {
+    const Expected expected = expected_at(half_thickness_, distances, wide, near);
+    if (expected.state == Expected::let_past) {
       say("expected drop: none, because the closed leaflets do not separate two sides of this mesh");
       warn("svMultiPhysics will not hold the pressure: the closed leaflets do not separate two sides of " +
            options_.mesh);
       return;
     }
-    say("expected drop of the closed valve: " + with_four_decimals(*drop) + " of (R/eps) u, with eps = " +
+    if (expected.state == Expected::not_found) {
+      say("expected drop: not found, because the equations were not solved");
+      warn("the drop across the closed valve was not found, because the equations were not solved");
+      return;
+    }
+    say("expected drop of the closed valve: " + with_four_decimals(expected.drop) + " of (R/eps) u, with eps = " +
         shown(half_thickness_) + ", " + shown(half_thickness_ / median_edge_) + " edges");
-    say("  u is the flow over the area of the leaflets in the mesh, " + shown(area) +
-        "; the solver's sum of delta is " + shown(seen / area) + " of the exact sum");
-    if (*drop >= enough) return;
+    say("  u is the flow over the area of the leaflets in the mesh, " + shown(expected.area) +
+        "; the solver's sum of delta is " + shown(solver_area(mesh_, distances, half_thickness_) / expected.area) +
+        " of the exact sum");
+    if (expected.drop >= enough) return;
     const std::string needed = thickness_for(wide, near);
     say("  " + needed);
-    warn("svMultiPhysics will drop " + shown(*drop) + " of (R/eps) u across the closed valve; " + needed);
+    warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
   }
 
   // Finds the half thickness by steps of a quarter, and then by halving the last step three times.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     const auto is_enough = [&](double factor) {
-      double area = 0;
-      const std::optional<double> drop = drop_at(factor * half_thickness_, wide, wide, near, area);
-      return drop && *drop >= enough;
+      const Expected expected = expected_at(factor * half_thickness_, wide, wide, near);
+      return expected.state == Expected::separated && expected.drop >= enough;
     };
     double below = 1, above = 1;
     do {
