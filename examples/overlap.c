@@ -225,7 +225,7 @@ static void print_clocks(const char *name, const clocks *of, int n_steps) {
 
 int main(int argc, char **argv) {
   const int n = argc > 1 ? atoi(argv[1]) : 37, n_sweeps = argc > 2 ? atoi(argv[2]) : 4;
-  const int n_steps = argc > 3 ? atoi(argv[3]) : 10;
+  const int n_steps = argc > 3 ? atoi(argv[3]) : 4;
   if (n < 3 || n > 400 || n_sweeps < 1 || n_steps < 1) {
     fprintf(stderr, "usage: overlap [3 to 400 nodes on a side] [sweeps] [steps]\n");
     return EXIT_FAILURE;
