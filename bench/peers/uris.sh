@@ -60,7 +60,7 @@ uris_drop() {
 END
   printf '\n| elements | eps / h | drop over (R/eps) u | sum of delta over the exact sum |\n|---|---|---|---|\n'
   for elements in hex tet; do
-    for ratio in 1 1.2 1.5 2 2.5; do
+    for ratio in 1 1.2 1.5 2; do
       edge=$(awk "BEGIN { print 0.2 / $ratio }")
       path=$build/uris/duct_${elements}_$ratio
       duct_of_edge $elements "$edge" "$path"

@@ -173,7 +173,7 @@ class Forecaster {
     warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
   }
 
-  // Finds the half thickness by steps of a quarter, and then by halving the last step three times.
+  // Finds the half thickness by steps of a quarter, and then by halving the last step twice.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     const auto is_enough = [&](double factor) {
       const Expected expected = expected_at(factor * half_thickness_, wide, wide, near);
@@ -187,7 +187,7 @@ class Forecaster {
         return "even a half thickness of " + shown(most_thickness * half_thickness_) + " does not drop " +
                shown(enough) + "; the mesh needs shorter edges, or the export finer triangles";
     } while (!is_enough(above));
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
       const double middle = (below + above) / 2;
       (is_enough(middle) ? above : below) = middle;
     }
