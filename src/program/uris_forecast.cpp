@@ -167,6 +167,10 @@ class Forecaster {
     say("  u is the flow over the area of the leaflets in the mesh, " + shown(expected.area) +
         "; the solver's sum of delta is " + shown(solver_area(mesh_, distances, half_thickness_) / expected.area) +
         " of the exact sum");
+    if (expected.drop > 1 / enough) {
+      warn("svMultiPhysics will drop " + shown(expected.drop) +
+           " of (R/eps) u across the closed valve: its stabilisation needs a density of about 1, as in grams and cm");
+    }
     if (expected.drop >= enough) return;
     const std::string needed = thickness_for(wide, near);
     say("  " + needed);
