@@ -15,8 +15,83 @@ export_of_size() {
     --opening-seconds 0.01 --closing-seconds 0.01 "${size[@]}" >"$folder.xml"
 }
 
+# ---- ./run uris drop ----
+
+# Writes a duct of 2 cm x 2 cm, from z = -1.3 to 1.3, with edges of about $2 cm, as $3.msh.
+duct_of_edge() { # arguments: hex|tet, edge, path without ending
+  if [[ $1 == hex ]]; then
+    cat >"$3.geo" <<'END'
+Point(1) = {-1, -1, -1.3};
+Extrude {2, 0, 0} { Point{1}; Layers{Round(2 / h)}; Recombine; }
+Extrude {0, 2, 0} { Curve{1}; Layers{Round(2 / h)}; Recombine; }
+Extrude {0, 0, 2.6} { Surface{5}; Layers{Round(2.6 / h)}; Recombine; }
+END
+  else
+    cat >"$3.geo" <<'END'
+SetFactory("OpenCASCADE");
+Box(1) = {-1, -1, -1.3, 2, 2, 2.6};
+Mesh.MeshSizeMin = h;
+Mesh.MeshSizeMax = h;
+END
+  fi
+  cat >>"$3.geo" <<'END'
+Physical Volume(1) = {1};
+END
+  gmsh -3 -format msh2 -setnumber h "$2" -o "$3.msh" "$3.geo" >"$3.log" || { cat "$3.log" >&2; return 1; }
+}
+
+# Prints the expected drop and the share of the sum of delta for a flat valve that is moved along the duct.
+drop_in_duct() { # arguments: path without ending, half thickness, shift along the duct
+  rm -rf "$1"
+  "$build/bin/riis" export "$1" "$1.msh" --valve "$build/uris/flat.json" --resistance 1e4 --time-step 0.002 \
+    --opening-seconds 0.002 --closing-seconds 0.002 --half-thickness "$2" --largest-edge 0.03 --translate "0,0,$3" \
+    2>/dev/null | sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p; s/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' | tr '\n' ' '
+}
+
+# A flat valve in a duct: the drop that the solver will have, beside its sum of delta.
+uris_drop() {
+  local elements ratio edge shift path
+  cat >"$build/uris/flat.json" <<'END'
+{"curves": {"a": [[-1, -1, 0], [1, -1, 0]], "b": [[-1, 1, 0], [1, 1, 0]],
+            "c": [[-1, -1, 0], [-1, 1, 0]], "d": [[1, -1, 0], [1, 1, 0]]},
+ "patches": [{"v0": "a", "v1": "b", "u0": "c", "u1": "d"}],
+ "open": {"curves": {"a": [[-1, -1, 0], [1, -1, 0]], "b": [[-1, -0.9, 0.9], [1, -0.9, 0.9]],
+                     "c": [[-1, -1, 0], [-1, -0.9, 0.9]], "d": [[1, -1, 0], [1, -0.9, 0.9]]}}}
+END
+  printf '\n| elements | eps / h | drop over (R/eps) u | sum of delta over the exact sum |\n|---|---|---|---|\n'
+  for elements in hex tet; do
+    for ratio in 1 1.2 1.5 2; do
+      edge=$(awk "BEGIN { print 0.2 / $ratio }")
+      path=$build/uris/duct_${elements}_$ratio
+      duct_of_edge $elements "$edge" "$path"
+      for shift in 0 0.25 0.5; do
+        drop_in_duct "$path" 0.2 "$(awk "BEGIN { print $edge * $shift }")"
+        echo
+      done | awk -v name=$elements -v ratio=$ratio '
+        NF == 2 { d[++n] = $1; s[n] = $2 }
+        END {
+          if (n != 3) exit 1
+          low_d = d[1]; high_d = d[1]; low_s = s[1]; high_s = s[1]
+          for (i = 2; i <= n; ++i) {
+            if (d[i] < low_d) low_d = d[i]; if (d[i] > high_d) high_d = d[i]
+            if (s[i] < low_s) low_s = s[i]; if (s[i] > high_s) high_s = s[i]
+          }
+          printf "| %s | %s | %.2f to %.2f | %.2f to %.2f |\n", name, ratio, low_d, high_d, low_s, high_s
+        }'
+    done
+  done
+}
+
 uris() {
   local kind edge blocks
+  if [[ ${1-} == drop && $# == 1 ]]; then
+    install_missing
+    step "configure" cmake --preset default
+    step "build the program" cmake --build --preset default --parallel "$n_jobs" --target riis_program
+    mkdir -p "$build/uris"
+    uris_drop
+    return
+  fi
   (($# == 0)) || { echo "./run uris: '$*' is not an argument of this command" >&2; exit 2; }
   install_missing
   step "configure" cmake --preset default

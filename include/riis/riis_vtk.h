@@ -78,6 +78,17 @@ RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, i
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
+/* Copies the cells in the file's order. Call it twice: the last offset of the first call is the number of node ids.
+ *   n_cells     the number of cells, as riis_vtk_mesh_get_nodes gives it
+ *   offsets     (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not
+ *               wanted
+ *   types       (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted
+ *   n_node_ids  the last offset; 0 if node_ids is NULL
+ *   node_ids    (n_node_ids), from 0, in VTK's order; NULL if not wanted. A polyhedron has its points, each once
+ * Errors: RIIS_INVALID_ARGUMENT for other numbers than the mesh has, and for a mesh of centres. */
+RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
+                                              uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
+
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
  * edges that are longer than a given length and whose bounding box meets that of the surface. It borrows nothing. Use
  * it only for riis_find_leaks: a search along so few edges would not get far from its start.

@@ -181,6 +181,10 @@ ExportOptions finish_export(const Command &, ExportOptions options) {
   finish_units(options);
   if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
     refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
+  // Blood has 1060 kg/m3 and 0.004 Pa s. The solver's units are those of the mesh, with grams beside cm and mm.
+  const Unit unit = options.unit.value_or(Unit::centimetre);
+  if (options.density == 0) options.density = unit == Unit::metre ? 1060 : unit == Unit::centimetre ? 1.06 : 1.06e-3;
+  if (options.viscosity == 0) options.viscosity = unit == Unit::centimetre ? 0.04 : 0.004;
   return options;
 }
 

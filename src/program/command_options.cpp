@@ -427,6 +427,7 @@ void declare_states(Command command, StatesOptions &options) {
 
 void declare_export(Command command, ExportOptions &options) {
   command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
+  command.text("MESH", "FILE", "The mesh of the solver's run: say what the solver will do in it", options.mesh);
   const auto time = [&](const char *name, const char *help, std::optional<double> &to) {
     return command.value(name, "T", help,
                          [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
@@ -456,6 +457,11 @@ void declare_export(Command command, ExportOptions &options) {
   command.value(
       "--largest-edge", "L", "Cut triangles until no edge is longer in any frame",
       [&options](const std::string &text) { options.largest_edge = parse_positive_finite(text, "--largest-edge"); });
+  command.positive("--density", "RHO", "Density of the fluid, for MESH (default that of blood: 1.06 with cm)",
+                   options.density);
+  command.positive("--viscosity", "MU", "Viscosity of the fluid, for MESH (default that of blood: 0.04 with cm)",
+                   options.viscosity);
+  for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
   declare_valve(command, options);
   declare_open_state(command, options);

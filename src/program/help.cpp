@@ -46,6 +46,7 @@ riis help leaks explains what counts.)"},
   riis check leaks mesh.vtu --between 0,0,2 0,0,-2)"},
     {"export", R"(Examples:
   riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4
+  riis export valve mesh.vtu --valve trileaflet --time-step 0.002 --opening-seconds 0.04 --closing-seconds 0.04 --resistance 1e4
 riis help export explains the files.)"},
     {"params", R"(Examples:
   riis params > valve.json
@@ -277,6 +278,12 @@ least opening to the next key of its largest opening. It closes from the last ke
 its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of
 triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area
 in some frame are left out, and a line on stderr says so.
+
+riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
+interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the
+closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.95, a line on stderr names the
+half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver could never open
+or never close is refused. The drop depends a little on --density and --viscosity, in the solver's units.
 )"},
     {"meshing", "the edge lengths of riis size-field",
      R"(

@@ -120,7 +120,9 @@ struct TimeSpan {
 // The options of riis export.
 struct ExportOptions : ValveOptions {
   std::string folder;
+  std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
   double time_step = 0, resistance = 0;
+  double density = 0, viscosity = 0;  // of the fluid, for the forecast; 0: those of blood, in the unit of the mesh
   std::optional<double> opening_duration, closing_duration;  // used without a cycle
   std::string cycle;                                         // a file
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;

@@ -18,6 +18,7 @@
 #include "program/refusal.hpp"
 #include "program/report.hpp"
 #include "program/text.hpp"
+#include "program/uris_forecast.hpp"
 #include "program/uris_leaflets.hpp"
 #include "program/uris_motion.hpp"
 #include "program/valve_file.hpp"
@@ -115,7 +116,8 @@ void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, c
   for (TextFile &file : files) file.close();
 }
 
-void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets) {
+void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets,
+                  const UrisForecast &forecast) {
   const UnbrokenWrite unbroken;
   WholeFolder folder(options.folder, "FOLDER");
   StepProgress progress("writing", motion.opening.size() + motion.closing.size(), options.quiet);
@@ -129,6 +131,7 @@ void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLe
   std::string normal;
   append_point({leaflets.forward().begin(), leaflets.forward().end()}, 0, normal);
   write_small("normal.dat", normal);
+  if (!forecast.table.empty()) write_small("forecast.csv", forecast.table);
   std::size_t step = 0;
   write_frames(leaflets, motion.opening, "_open.dat", folder, progress, step);
   write_frames(leaflets, motion.closing, "_close.dat", folder, progress, step);
@@ -145,7 +148,8 @@ std::string block_name(const ExportOptions &options) {
   return name;
 }
 
-std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets) {
+std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
+                       const UrisForecast &forecast) {
   const std::string folder = in_xml(options.folder) + (options.folder.back() == '/' ? "" : "/");
   const auto element = [](const std::string &name, const std::string &value) {
     return "<" + name + "> " + value + " </" + name + ">\n";
@@ -166,6 +170,7 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
             shown(fine_edges * leaflets.half_thickness());
   }
+  for (const std::string &line : forecast.lines) text += "\n     " + line;
   text += " -->\n";
   text += "<Add_URIS_mesh name=\"" + block_name(options) + "\">\n";
   std::string scaffold;
@@ -202,8 +207,9 @@ void export_uris(const ExportOptions &options) {
          " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
   }
   check_shape(options, leaflets.valve(), !options.params_open.empty());
-  write_export(options, motion, leaflets);
-  if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets));
+  const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);
+  write_export(options, motion, leaflets, forecast);
+  if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets, forecast));
 }
 
 // ---- Uris files ----

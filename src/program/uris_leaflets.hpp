@@ -102,6 +102,8 @@ class UrisLeaflets {
   UrisLeaflets(const ExportOptions &options, const UrisMotion &motion);
 
   const riis_valve *valve() const { return valve_.get(); }
+  // Returns the library's surface at the last opening of vertices_at.
+  const riis_surface *surface() const { return surface_.get(); }
   const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
   // Returns all vertices at an opening, xyz(3, n). They are multiples of a power of two, so that the solver's sums of them are
   // exact.

@@ -369,6 +369,31 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
   });
 }
 
+RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
+                                              uint8_t *types, int64_t n_node_ids, int64_t *node_ids) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    if (mesh->centers) refuse_argument("mesh has centres of cells as nodes, and centres have no cells");
+    vtkUnstructuredGrid *const grid = mesh->grid;
+    const int64_t n_all = grid->GetNumberOfCells();
+    if (n_cells != n_all) refuse_argument("n_cells is ", n_cells, "; the mesh has ", n_all, " cells");
+    const int64_t n_ids = n_all > 0 ? grid->GetCells()->GetNumberOfConnectivityIds() : 0;
+    if (node_ids && n_node_ids != n_ids)
+      refuse_argument("n_node_ids is ", n_node_ids, "; the cells have ", n_ids, " node ids");
+    int64_t n = 0;
+    for (int64_t i = 0; i < n_cells; ++i) {
+      if (offsets) offsets[i] = n;
+      if (types) types[i] = static_cast<uint8_t>(grid->GetCellType(i));
+      vtkIdType n_points = 0;
+      const vtkIdType *points = nullptr;
+      grid->GetCellPoints(i, n_points, points);
+      if (node_ids) std::copy(points, points + n_points, node_ids + n);
+      n += n_points;
+    }
+    if (offsets) offsets[n_cells] = n;
+  });
+}
+
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length) {
   return guarded([&](const CaughtOutput &) {
     require(mesh, "mesh");

@@ -807,6 +807,8 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_mesh_set_fields, int32_t, (riis_vtk_mesh *, const riis_marks *, int32_t, const char *));
   SIGNATURE(riis_vtk_mesh_set_point_array, int32_t, (riis_vtk_mesh *, const char *, int64_t, int64_t, const double *));
   SIGNATURE(riis_vtk_mesh_has_point_array, int32_t, (const riis_vtk_mesh *, const char *, int32_t *));
+  SIGNATURE(riis_vtk_mesh_copy_cells, int32_t,
+            (const riis_vtk_mesh *, int64_t, int64_t *, uint8_t *, int64_t, int64_t *));
   SIGNATURE(riis_vtk_mesh_get_median_edge, int32_t, (const riis_vtk_mesh *, double *));
   SIGNATURE(riis_vtk_mesh_extract, int32_t, (const riis_vtk_mesh *, int64_t, const int64_t *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_get_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));

@@ -27,9 +27,10 @@ fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
 # All examples except those of MPI, which check_mpi_example.sh runs. After them come the flags that a compiler needs for them
 # besides riis.
-all_examples=(first_marking prosthesis opening_valve cell_centres quadrature_points csr_from_elements openmp_caller)
+all_examples=(first_marking prosthesis opening_valve cell_centres quadrature_points csr_from_elements openmp_caller
+  overlap)
 few_examples=(first_marking openmp_caller)
-declare -A more_flags=([openmp_caller]=-fopenmp)
+declare -A more_flags=([openmp_caller]=-fopenmp [overlap]=-pthread)
 expected=$source/tests/install/expected
 
 # The installed Fortran sources, in the order in which they use each other.
@@ -50,6 +51,11 @@ configure_consumer() { # arguments: source directory, build directory, prefix, m
 
 library_dir() { # argument: prefix
   dirname "$(dirname "$(find "$1" -name riis.pc)")"
+}
+
+# Whether an example also has a program in Fortran, and Fortran was built.
+has_fortran_of() { # argument: name
+  has Fortran && [ -e "$source/examples/$1.f90" ]
 }
 
 # An example must print the same however it was built, and in C and in Fortran.
@@ -92,7 +98,7 @@ check_by_cmake() { # arguments: prefix, all|few
   quietly "$CMAKE" --build "$work/cmake" "${targets[@]}"
   for example in "${examples[@]}"; do
     check_example "$example" "$work/cmake/$example"
-    ! has Fortran || check_example "$example" "$work/cmake/${example}_fortran"
+    ! has_fortran_of "$example" || check_example "$example" "$work/cmake/${example}_fortran"
   done
   check_example first_marking "$work/cmake/first_marking_cpp"
 
@@ -157,7 +163,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
     # The flags stand without quotes, because they must split into words.
     # shellcheck disable=SC2046,SC2086
     quietly "$CC" "${c_flags[@]}" "$file.c" -o "$out/$example" $more $(flags --cflags --libs "${@:3}" riis)
-    if has Fortran; then
+    if has_fortran_of "$example"; then
       # shellcheck disable=SC2046,SC2086
       quietly "$FC" "${fortran_flags[@]}" "$file.f90" -o "$out/${example}_fortran" $more \
         $(flags --cflags --libs "${@:3}" riis-fortran)
@@ -170,7 +176,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   LD_LIBRARY_PATH=$(library_dir "$1")
   for example in "${examples[@]}"; do
     check_example "$example" "$out/$example"
-    if has Fortran; then
+    if has_fortran_of "$example"; then
       check_example "$example" "$out/${example}_fortran"
       check_example "$example" "$out/${example}_source"
     fi

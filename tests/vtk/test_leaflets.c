@@ -186,6 +186,57 @@ static void test_median_edge(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
+/* VTK reads the same cells. */
+static void expect_cells(const char *path, int type) {
+  riis_vtk_mesh *mesh = NULL;
+  int64_t n_cells = 0;
+  expect_fine(riis_vtk_mesh_read(path, &mesh));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, &n_cells, NULL));
+  const int64_t n = shim_read_corners(path, NULL);
+  int64_t *offsets = calloc((size_t)n_cells + 1, sizeof *offsets), *ids = calloc((size_t)n, sizeof *ids),
+          *expected = calloc((size_t)n, sizeof *expected);
+  uint8_t *types = calloc((size_t)n_cells, sizeof *types);
+  assert_true(shim_read_corners(path, expected) == n && n > 0);
+  expect_fine(riis_vtk_mesh_copy_cells(mesh, n_cells, offsets, types, 0, NULL));
+  assert_true(offsets[0] == 0 && offsets[n_cells] == n);
+  expect_fine(riis_vtk_mesh_copy_cells(mesh, n_cells, NULL, NULL, n, ids));
+  assert_memory_equal(ids, expected, (size_t)n * sizeof *ids);
+  int n_of_type = 0;
+  for (int64_t i = 0; i < n_cells; ++i) {
+    assert_true(offsets[i + 1] > offsets[i]);
+    n_of_type += types[i] == type;
+  }
+  assert_true(n_of_type > 0);
+  char text[80];
+  snprintf(text, sizeof text, "n_cells is 3; the mesh has %lld cells", (long long)n_cells);
+  expect_refused(riis_vtk_mesh_copy_cells(mesh, 3, offsets, NULL, 0, NULL), RIIS_INVALID_ARGUMENT, text);
+  snprintf(text, sizeof text, "n_node_ids is 5; the cells have %lld node ids", (long long)n);
+  expect_refused(riis_vtk_mesh_copy_cells(mesh, n_cells, NULL, NULL, 5, ids), RIIS_INVALID_ARGUMENT, text);
+  expect_refused(riis_vtk_mesh_copy_cells(NULL, n_cells, NULL, NULL, 0, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+  riis_vtk_mesh_destroy(&mesh);
+  free(offsets);
+  free(ids);
+  free(expected);
+  free(types);
+}
+
+static void test_cells(void **state) {
+  (void)state;
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 7};
+  int64_t n_cells = 0;
+  riis_vtk_mesh *mesh = NULL;
+  assert_true(shim_write_zoo(scratch_path("zoo.vtu")));
+  expect_cells(scratch_path("zoo.vtu"), 24);
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 5, lower, upper, 0), 1);
+  expect_cells(scratch_path("box.vtu"), 10);
+  expect_fine(riis_vtk_mesh_read(scratch_path("box.vtu"), &mesh));
+  expect_fine(riis_vtk_mesh_use_centers(mesh));
+  expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, &n_cells, NULL));
+  expect_refused(riis_vtk_mesh_copy_cells(mesh, n_cells, NULL, NULL, 0, NULL), RIIS_INVALID_ARGUMENT,
+                 "mesh has centres of cells as nodes, and centres have no cells");
+  riis_vtk_mesh_destroy(&mesh);
+}
+
 static void expect_array(const riis_vtk_mesh *mesh, const char *name, int expected) {
   int32_t has = -1;
   expect_fine(riis_vtk_mesh_has_point_array(mesh, name, &has));
@@ -251,10 +302,8 @@ static void test_named_marks(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_arrays),
-      cmocka_unit_test(test_median_edge),
-      cmocka_unit_test(test_named_marks),
+      cmocka_unit_test(test_pieces), cmocka_unit_test(test_arrays),      cmocka_unit_test(test_median_edge),
+      cmocka_unit_test(test_cells),  cmocka_unit_test(test_named_marks),
   };
   return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
 }

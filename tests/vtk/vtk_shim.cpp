@@ -359,6 +359,14 @@ int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges) {
   return n;
 }
 
+int shim_shape_functions(int cell_type, const double point[3], double *values, double *derivatives) {
+  vtkNew<vtkGenericCell> cell;
+  cell->SetCellType(cell_type);
+  cell->InterpolateFunctions(point, values);
+  cell->InterpolateDerivs(point, derivatives);
+  return static_cast<int>(cell->GetNumberOfPoints());
+}
+
 int shim_write_delaunay(const char *path, int64_t n, const double *xyz) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
