@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# debian.sh ROWS [12] [13]: builds Debian's packages of the last commit in a Debian of each version, twice with the same bytes. It installs them in a bare Debian, tests there what was installed, and removes it again. The packages are left in
-# out/packages. Appends a line for each package to the file ROWS, with tabs between: package, built, installed, tested, size.
+# debian.sh ROWS [12] [13]: builds Debian's packages of the last commit in a Debian of each version, twice with the same bytes.
+# Installs them in a bare Debian, tests what was installed, and removes it again. Leaves the packages in out/packages. Appends a
+# line for each package to the file ROWS, with tabs between: package, built, installed, tested, size.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 (($# > 0)) || { echo "usage: packaging/debian.sh ROWS [12] [13]" >&2; exit 2; }

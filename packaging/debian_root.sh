@@ -57,10 +57,9 @@ build() {
   logged build-dependencies apt-get build-dep -y --no-install-recommends ${profiles:+-P "$profiles"} "$work/1/riis-$version"
   (umask 022 && TZ=UTC0 LC_ALL=C.UTF-8 && export TZ LC_ALL && logged build build_once "$work/1")
   cp "$work"/1/riis_* "$work"/1/*.deb out/packages
-  logged lintian lintian --allow-root --no-cfg --show-overrides --info --tag-display-limit 0 --fail-on error,warning \
+  logged lintian lintian --allow-root --no-cfg --show-overrides --tag-display-limit 0 --fail-on error,warning \
     "$work"/1/riis_*.changes
   cp "$logs/lintian.log" out/packages/lintian.txt
-  grep -c '^[EWIPON]:' out/packages/lintian.txt || true
   (umask 027 && TZ=XYZ-13 LC_ALL=C && export TZ LC_ALL && logged build-again build_once "$work/2")
   diff <(sums "$work/1") <(sums "$work/2") || { echo "the second build has other bytes" >&2; exit 1; }
   say "built twice in different folders, with the same bytes"
@@ -119,7 +118,7 @@ try() {
     done
     [[ $passed ]] || { echo "$name: no test uses it" >&2; exit 1; }
     size=$(numfmt --to=si --suffix=B --format=%.1f "$(stat -c %s "$deb")")
-    printf 'Debian %s %s\ttwice, same bytes\tand removed\t%s\t%s\n' "$debian" "$name" "$passed" "$size" >>"$out/rows.tsv"
+    printf 'Debian %s %s\ttwice, same bytes\tbare, and removed\t%s\t%s\n' "$debian" "$name" "$passed" "$size" >>"$out/rows.tsv"
   done
   logged purge apt-get purge -y "${packages[@]}"
   logged strip-after strip_root

@@ -31,7 +31,7 @@ section() { awk -v heading="## $version" 'index($0, "## ") == 1 { inside = index
 notes() {
   local heading
   heading=$(grep -m 1 -F "## $version" CHANGELOG.md)
-  printf '# riis %s\n' "${heading### }"
+  printf '# riis %s\n' "${heading:3}"
   section
   # shellcheck disable=SC2016 # code of the page
   printf '\n## The archive\n\n| file | bytes | SHA-256 |\n|---|---|---|\n| %s | %s | `%s` |\n' \
