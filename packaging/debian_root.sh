@@ -38,7 +38,7 @@ unpack() {
 build_once() {
   cd "$1/riis-$version"
   CCACHE_DIR=$work/ccache CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1 PATH=/usr/lib/ccache:$PATH \
-    DEB_BUILD_OPTIONS="nocheck parallel=$(nproc)" DEB_BUILD_PROFILES=$profiles nice -n "${RIIS_NICE:-10}" dpkg-buildpackage -us -uc
+    DEB_BUILD_OPTIONS="nocheck parallel=$(nproc)" DEB_BUILD_PROFILES=$profiles nice -n 5 dpkg-buildpackage -us -uc
 }
 
 # sums: prints the checksums of the files that must be the same. The other files describe the machine.
