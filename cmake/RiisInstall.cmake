@@ -47,8 +47,13 @@ if(RIIS_WITH_FORTRAN)
   list(FILTER riis_fortran_sources EXCLUDE REGEX "^riis_f77") # leaves out the external subroutines
   list(TRANSFORM riis_fortran_sources REPLACE "(.*)\\.f90"
     "$<TARGET_PROPERTY:riis_fortran,Fortran_MODULE_DIRECTORY>/\\1.mod" OUTPUT_VARIABLE riis_fortran_modules)
-  install(FILES ${riis_fortran_files} ${riis_fortran_modules} ${PROJECT_SOURCE_DIR}/fortran/generated/riisf.h
+  install(FILES ${riis_fortran_files} ${PROJECT_SOURCE_DIR}/fortran/generated/riisf.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+  set(riis_module_dir ${RIIS_INSTALL_MODULE_DIR})
+  if(NOT riis_module_dir)
+    set(riis_module_dir ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+  endif()
+  install(FILES ${riis_fortran_modules} DESTINATION ${riis_module_dir})
 endif()
 
 if(RIIS_BUILD_PROGRAM)
@@ -148,6 +153,12 @@ endif()
 # VTK has no pkg-config files to which a static riis_vtk could refer. So a static riis_vtk can be found only by CMake.
 if(RIIS_WITH_VTK AND BUILD_SHARED_LIBS)
   list(APPEND riis_pc_names riis-vtk)
+endif()
+set(riis_pc_modules "")
+if(RIIS_INSTALL_MODULE_DIR)
+  set(riis_pc_modules "\${prefix}")
+  cmake_path(APPEND riis_pc_modules ${RIIS_INSTALL_MODULE_DIR})
+  string(PREPEND riis_pc_modules " -I")
 endif()
 foreach(name IN LISTS riis_pc_names)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)

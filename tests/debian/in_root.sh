@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # in_root.sh SUITE FOLDER WORD...: runs ./run WORD... on a bare Debian of the given suite (trixie, bookworm). The system's root is
 # FOLDER/root, which debootstrap makes on the first call. Every call copies the working tree's tracked files there. Packages and
-# build folders stay for the next call.
+# build folders stay for the next call. If RIIS_ROOT_INPUT names a folder, its files are copied to /riis.input in the root.
 #
 # Mounts are in a namespace of their own, which ends with the last process in it. So nothing stays mounted, however this script
 # ends, and FOLDER can be removed at any time.
@@ -178,8 +178,9 @@ copy_tree() {
   for file in "$root"/riis/build* "$root"/riis/out; do
     [[ ! -e $file ]] || "${as_root[@]}" mv -- "$file" "$fresh/"
   done
-  remove "$root/riis"
+  remove "$root/riis" "$root/riis.input"
   "${as_root[@]}" mv -- "$fresh" "$root/riis"
+  [[ ! ${RIIS_ROOT_INPUT:-} ]] || "${as_root[@]}" cp -R -- "$RIIS_ROOT_INPUT" "$root/riis.input"
 }
 
 # This script runs inside the namespace. /dev has no graphics or compute devices, so only the processor is used.

@@ -4,8 +4,9 @@
 # Installs a build tree to a fresh prefix and uses it as an outside project would. Examples are built outside the tree by CMake
 # and by pkg-config, and run. Each example must print the same in C and in Fortran. The prefix is then moved, and the examples are
 # built again. After the last move all examples are built, before that only two. A staged (DESTDIR) install must hold the same
-# files and no path of its stage. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, and TEST_PLUGIN, the path of the program
-# test_plugin
+# files and no path of its stage. The programs of stranger/, one in each language, must mark the same bits as the C program that
+# the build tree has. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the program test_plugin, and STRANGER,
+# the path of that C program
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -190,6 +191,29 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   fi
 }
 
+check_bits() { # argument: prefix
+  local pkg_config_path out=$work/bits sources=$source/tests/install/stranger program programs=(c cpp)
+  pkg_config_path=$(library_dir "$1")/pkgconfig
+  rm -rf "$out"
+  mkdir -p "$out"
+  # The flags stand without quotes, because they must split into words.
+  # shellcheck disable=SC2046
+  quietly "$CC" "${c_flags[@]}" "$sources/marks.c" -o "$out/c" $(flags --cflags --libs riis)
+  # shellcheck disable=SC2046
+  quietly "$CXX" -std=c++17 -Wall -Wextra -Werror "$sources/marks.cpp" -o "$out/cpp" $(flags --cflags --libs riis)
+  if has Fortran; then
+    programs+=(fortran)
+    # shellcheck disable=SC2046
+    quietly "$FC" "${fortran_flags[@]}" "$sources/marks.f90" -o "$out/fortran" $(flags --cflags --libs riis-fortran)
+  fi
+  # shellcheck disable=SC2153
+  "$STRANGER" >"$out/expected.txt"
+  (($(wc -l <"$out/expected.txt") > 1000)) || problem "$STRANGER marks too few nodes"
+  for program in "${programs[@]}"; do
+    LD_LIBRARY_PATH=$(library_dir "$1") "$out/$program" | cmp "$out/expected.txt" - || problem "$out/$program marks other bits"
+  done
+}
+
 # A plug-in that contains the static library exports only its own names. It can be unloaded after it has marked nodes.
 check_plugin() { # argument: prefix
   local pkg_config_path plugin=$work/plugin.so exported
@@ -265,6 +289,7 @@ if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
 fi
 
 check_prefix "$prefix" few
+check_bits "$prefix"
 mv "$prefix" "$work/moved"
 check_prefix "$work/moved" "$examples_of_moved"
 

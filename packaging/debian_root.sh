@@ -1,0 +1,149 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# debian_root.sh build|try VERSION: the steps of debian.sh inside a Debian of this version, as root.
+#   build  builds the packages twice from the archive in /riis.input, compares the bytes, and checks them by lintian; leaves them
+#          in out/packages
+#   try    installs the packages in /riis.input, runs their tests, removes them, and looks for traces; leaves a table's lines, and
+#          the marks of a program, in out/tried
+set -euo pipefail
+cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
+input=/riis.input debian=$2
+export DEBIAN_FRONTEND=noninteractive
+
+say() { printf '==> %s\n' "$*"; }
+# logged NAME COMMAND...: runs the command with its output in a log, whose end it shows if the command fails.
+logged() {
+  local log=$logs/$1.log start=$SECONDS
+  shift
+  "$@" >"$log" 2>&1 </dev/null || { tail -n 40 "$log" >&2 && exit 1; }
+  say "$(basename "$log" .log): $((SECONDS - start)) s"
+}
+install_packages() { logged install apt-get install -y --no-install-recommends "$@"; }
+
+# The archive in a folder, beside Debian's folder. The version for Debian 12 is older than that for Debian 13.
+unpack() {
+  local folder=$1 entry=''
+  mkdir -p "$folder"
+  cp "$input/riis-$version.tar.xz" "$folder/riis_$version.orig.tar.xz"
+  tar -xJf "$folder/riis_$version.orig.tar.xz" -C "$folder"
+  cp -R debian "$folder/riis-$version/debian"
+  if [[ $debian == 12 ]]; then
+    entry=$(sed -n "1s/^riis (\(.*\)) [a-z]*;/riis (\1~bpo12+1) bookworm-backports;/p" debian/changelog)
+    printf '%s\n\n  * Rebuild for bookworm-backports.\n\n%s\n\n' "$entry" "$(grep -m 1 '^ -- ' debian/changelog)" |
+      cat - debian/changelog >"$folder/riis-$version/debian/changelog"
+  fi
+}
+
+# build_once FOLDER: runs dpkg-buildpackage in the folder. C and C++ are compiled once for both times; all other steps run again.
+build_once() {
+  cd "$1/riis-$version"
+  CCACHE_DIR=$work/ccache CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1 PATH=/usr/lib/ccache:$PATH \
+    DEB_BUILD_OPTIONS="nocheck parallel=$(nproc)" DEB_BUILD_PROFILES=$profiles nice -n 5 dpkg-buildpackage -us -uc
+}
+
+# sums: prints the checksums of the files that must be the same. The other files describe the machine.
+sums() { (cd "$1" && sha256sum ./*.deb ./*.dsc ./*.debian.tar.xz); }
+
+build() {
+  work=$PWD/build-deb logs=$PWD/build-deb/logs profiles=''
+  version=$(echo "$input"/riis-*.tar.xz | sed 's/.*riis-\(.*\)\.tar\.xz/\1/')
+  [[ $debian != 12 ]] || profiles=nopython # Debian 12 has no nanobind
+  rm -rf "$work/1" "$work/2" "$logs" out/packages
+  mkdir -p "$logs" out/packages
+  logged update apt-get update
+  install_packages dpkg-dev debhelper lintian ccache
+  (umask 022 && unpack "$work/1")
+  (umask 027 && unpack "$work/2")
+  logged build-dependencies apt-get build-dep -y --no-install-recommends ${profiles:+-P "$profiles"} "$work/1/riis-$version"
+  (umask 022 && TZ=UTC0 LC_ALL=C.UTF-8 && export TZ LC_ALL && logged build build_once "$work/1")
+  cp "$work"/1/riis_* "$work"/1/*.deb out/packages
+  logged lintian lintian --allow-root --no-cfg --show-overrides --tag-display-limit 0 --fail-on error,warning \
+    "$work"/1/riis_*.changes
+  cp "$logs/lintian.log" out/packages/lintian.txt
+  (umask 027 && TZ=XYZ-13 LC_ALL=C && export TZ LC_ALL && logged build-again build_once "$work/2")
+  diff <(sums "$work/1") <(sums "$work/2") || { echo "the second build has other bytes" >&2; exit 1; }
+  say "built twice in different folders, with the same bytes"
+  rm -rf "$work/2"
+}
+
+# strip_root: removes the packages that the bare root did not have.
+strip_root() {
+  local list=/var/lib/riis-bare-packages others
+  [[ -e $list ]] || installed >"$list"
+  mapfile -t others < <(installed | comm -13 "$list" -)
+  ((${#others[@]} == 0)) || apt-get purge -y --allow-remove-essential "${others[@]}"
+}
+installed() { dpkg-query -W -f='${binary:Package}\n' | LC_ALL=C sort; }
+
+# tests_of PACKAGE: prints the tests that use the package.
+tests_of() {
+  case $1 in
+    libriis1) echo bits pkg-config ;;
+    libriis-dev) echo pkg-config cmake bits ;;
+    libriis-fortran-dev) echo fortran cmake bits ;;
+    libriis-vtk*) echo cmake ;;
+    python3-riis) echo python ;;
+    riis) echo program ;;
+    riis-doc) echo doc ;;
+  esac
+}
+
+try() {
+  local out=$PWD/out/tried tree=/tmp/riis-tree deb name packages=() debs=() test size passed
+  logs=$PWD/out/tried/logs
+  rm -rf "$out" "$tree"
+  mkdir -p "$logs"
+  logged update apt-get update
+  logged strip-before strip_root
+  for deb in "$input"/*.deb; do
+    [[ $deb != *-dbgsym_* ]] || continue
+    debs+=("$deb") packages+=("$(dpkg-deb -f "$deb" Package)")
+  done
+  logged install-riis apt-get install -y --no-install-recommends "${debs[@]}"
+  dpkg -L "${packages[@]}" | grep -v '^$' | LC_ALL=C sort -u >"$out/files.txt"
+  install_packages autopkgtest dpkg-dev
+  logged source dpkg-source -x "$input"/riis_*.dsc "$tree"
+  local status=0
+  nice autopkgtest --no-built-binaries --output-dir "$out/autopkgtest" "$tree" -- null >"$logs/tests.log" 2>&1 </dev/null ||
+    status=$?
+  cat "$out/autopkgtest/summary"
+  # 2: a test was skipped, that of python3-riis where there is no such package
+  ((status == 0 || (status == 2 && debian == 12))) || { tail -n 60 "$logs/tests.log" >&2 && exit 1; }
+  find "$out/autopkgtest" -name marks.txt -exec cp -- {} "$out/marks.txt" \;
+  for name in "${packages[@]}"; do
+    deb=$(echo "$input/${name}"_*.deb) passed=
+    for test in $(tests_of "$name"); do
+      grep -q -E "^$test +PASS" "$out/autopkgtest/summary" || { echo "$name: its test $test did not pass" >&2; exit 1; }
+      passed+="${passed:+, }$test"
+    done
+    [[ $passed ]] || { echo "$name: no test uses it" >&2; exit 1; }
+    size=$(numfmt --to=si --suffix=B --format=%.1f "$(stat -c %s "$deb")")
+    printf 'Debian %s %s\ttwice, same bytes\tbare, and removed\t%s\t%s\n' "$debian" "$name" "$passed" "$size" >>"$out/rows.tsv"
+  done
+  logged purge apt-get purge -y "${packages[@]}"
+  logged strip-after strip_root
+  look_for_traces "$out/files.txt"
+  say "installed, tested and removed without a trace: ${packages[*]}"
+}
+
+# look_for_traces FILE: no file of the packages may be left, and no file of their name.
+look_for_traces() {
+  local path left=()
+  while IFS= read -r path; do
+    [[ ! -e $path || -d $path ]] || left+=("$path")
+  done <"$1"
+  mapfile -t -O "${#left[@]}" left < <(find / -xdev \( -path /riis -o -path /riis.input -o -path /tmp -o -path /var/cache/apt \
+    -o -path /var/log -o -path /proc -o -path /sys -o -path /dev \) -prune -o -name '*riis*' ! -name riis-bare-packages -print)
+  ! dpkg-query -W -f='${Package} ${db:Status-Status}\n' '*riis*' 2>/dev/null | grep . || left+=("dpkg knows it")
+  diff /var/lib/riis-bare-packages <(installed) || left+=("other packages")
+  ((${#left[@]} == 0)) || { printf 'left after removal: %s\n' "${left[@]}" >&2; exit 1; }
+}
+
+case $1 in
+  build) build ;;
+  try) try ;;
+  *)
+    echo "debian_root.sh: '$1' is not build or try" >&2
+    exit 2
+    ;;
+esac
