@@ -73,7 +73,7 @@ class _ScaleBar:
         from vtkmodules.vtkCommonDataModel import vtkPolyData
         from vtkmodules.vtkRenderingCore import vtkActor2D, vtkCoordinate, vtkPolyDataMapper2D, vtkTextActor
 
-        self.unit, self._observer = "", 0
+        self.unit, self.lift, self._observer = "", 0.0, 0
         self._lines, self._line, self._text = vtkPolyData(), vtkActor2D(), vtkTextActor()
         pixels, mapper = vtkCoordinate(), vtkPolyDataMapper2D()
         pixels.SetCoordinateSystemToViewport()
@@ -110,7 +110,7 @@ class _ScaleBar:
             return
         length = round_length(0.25 * width * tall / height)
         letter = max(8, round(0.028 * height))
-        left, middle, tick = 1.5 * letter, 1.5 * letter, 0.3 * letter
+        left, middle, tick = 1.5 * letter, 1.5 * letter + self.lift * height, 0.3 * letter
         right = left + length * height / tall
         points, cells = vtkPoints(), vtkCellArray()
         for ends in (((left, middle), (right, middle)), *(((x, middle - tick), (x, middle + tick)) for x in (left, right))):
@@ -129,10 +129,11 @@ _GREY = (0.3, 0.3, 0.3)
 _BARS: weakref.WeakKeyDictionary[Any, _ScaleBar] = weakref.WeakKeyDictionary()  # by plotter, so that each has one bar
 
 
-def add_scale_bar(plotter: Any, unit: str | None) -> None:
-    """Adds a scale bar to a plotter, or gives its scale bar another unit. None or "" stands for mesh units."""
+def add_scale_bar(plotter: Any, unit: str | None, lift: float = 0.0) -> None:
+    """Adds a scale bar to a plotter, or gives its scale bar another unit. None or "" stands for mesh units. The bar is lifted by
+    this part of the picture's height."""
     bar = _BARS.setdefault(plotter, _ScaleBar())
-    bar.unit = unit or ""
+    bar.unit, bar.lift = unit or "", lift
     bar.add_to(plotter.renderer)
 
 

@@ -354,6 +354,9 @@ def several_valves(browser, folder, program):
     differ = [name for name in names if browser.get(name) != shown[name]]
     assert not differ, f"reopened, two valves differ in {differ}"
     say("the saved view of two valves opens again as it was, with the same picture")
+    browser.driver.execute_script("window.trame.state.set('current', 0)")  # the coapting valve again
+    browser.wait(lambda: browser.get("kind") == "coapting", "the first valve")
+    browser.rest()
 
 
 def bad_input(browser, folder):

@@ -217,7 +217,7 @@ class Scene:
     def show(self, shown: Any, quick: bool = False) -> None:
         """Draws the leaflets, and the cells around them, of Model.update(). In a quick show, very many cells wait for rest()."""
         self._shown = shown
-        add_scale_bar(self.plotter, self.model.unit)
+        add_scale_bar(self.plotter, self.model.unit, lift=0.03)  # above the page's legend
         self._waiting = quick and len(shown.cells_marked) + len(shown.cells_partly) > MANY_MARKED
         for k, surface in enumerate(shown.surfaces):
             faces = numpy.full((len(surface.triangles), 4), 3, numpy.int64)
