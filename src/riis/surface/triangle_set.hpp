@@ -45,7 +45,7 @@ struct TriangleSet {
   Vector<VerticesOfPatch> patches;   // ascending by first vertex; empty for surfaces from arrays
   std::uint64_t connectivity = 0;    // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
   Grouping grouping;                 // empty if the triangles were made without groups
-  Vector<LevelledGrid> moved_grids;  // grids of triangles with velocities from patches
+  Vector<LevelledGrid> grids;        // the grids of the patches, with their lines; empty for surfaces from arrays
 
   // Empties the set and keeps its memory for the next triangles.
   void clear() {
@@ -55,7 +55,7 @@ struct TriangleSet {
     for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
     patches.clear();
-    moved_grids.clear();
+    grids.clear();
     n_zero_area = 0;
     error_bound = 0;
     connectivity = 0;
