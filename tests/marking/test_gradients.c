@@ -6,7 +6,6 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -126,7 +125,8 @@ static placed_valve random_valve(int kind, int fixed, double *shifts) {
       for (int64_t k = 0; k < parameter.n_values; ++k) values[k] *= between(0.96, 1.04);
       riis_valve_set(made.valve, parameter.name, parameter.n_values, values);
     }
-    CHECK_OK(riis_valve_set_scalar(made.valve, "opening", between(0.03, 0.97)));
+    /* Closed leaflets touch. At the end of its range, the opening is no direction of this test. */
+    CHECK_OK(riis_valve_set_scalar(made.valve, "opening", one_in(4) ? 0 : between(0.03, 0.97)));
     if (kind != 3 && kind != 5 && one_in(3)) CHECK_OK(riis_valve_set_scalar(made.valve, "skirt_length", 0.3));
     memcpy(shifts, no_shifts, sizeof no_shifts);
     if (kind != 3 && one_in(3)) {
@@ -136,7 +136,7 @@ static placed_valve random_valve(int kind, int fixed, double *shifts) {
       shifts[0] = NAN; /* no warp */
     }
     made.options.triangulation = fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-    made.options.tolerance = random_power_of_ten(&rng, -2, -1);
+    made.options.tolerance = random_power_of_ten(&rng, is_long_test() ? -2 : -1.5, -1);
     made.options.scale = random_power_of_ten(&rng, -2, 1);
     made.options.rotation_angle = between(-180, 180);
     for (int x = 0; x < 3; ++x) {
@@ -261,7 +261,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
 static void derivatives_are_central_differences(void **state_) {
   (void)state_;
   static double xyz[3 * n_points], gradient[n_points], K_gradient[n_points];
-  const int n_trials = is_long_test() ? 40 : is_sanitized() ? 1 : 2;
+  const int n_trials = is_long_test() ? 20 : 1;
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
       tally t = {0, 0, 0, 0, 0, 0};
@@ -575,7 +575,7 @@ static void bad_directions_are_refused(void **state) {
   riis_valve *skirted = new_valve("aortic"), *wrong = new_valve("aortic");
   warp_valve(warped, no_shifts);
   CHECK_OK(riis_valve_set_scalar(skirted, "skirt_length", 0.2));
-  CHECK_OK(riis_valve_set_scalar(wrong, "root_radius", 9));
+  CHECK_OK(riis_valve_set_scalar(wrong, "leaflet_height", 30));
   riis_surface *surface = new_surface(valve, NULL);
 #define REFUSED(status, parts, after, before, dp, options) \
   CHECK_REFUSED(status, parts, riis_surface_add_direction(surface, after, before, dp, options, NULL))
@@ -587,7 +587,7 @@ static void bad_directions_are_refused(void **state) {
   REFUSED(RIIS_INVALID_PARAMETER, "valve_before is of the kind coapting", valve, coapting, 1, NULL);
   REFUSED(RIIS_INVALID_PARAMETER, "valve_after has a warp, but the surface's valve has none", warped, valve, 1, NULL);
   REFUSED(RIIS_INVALID_PARAMETER, "valve_before has|patches, the surface's valve has", valve, skirted, 1, NULL);
-  REFUSED(RIIS_INVALID_PARAMETER, "in valve_after: |root_radius", wrong, valve, 1, NULL);
+  REFUSED(RIIS_INVALID_PARAMETER, "in valve_after: |leaflet_height is 30", wrong, valve, 1, NULL);
   riis_surface_options options = surface_options();
   options.scale = -1;
   REFUSED(RIIS_INVALID_ARGUMENT, "options_after.scale is -1", valve, valve, 1, &options);
