@@ -242,6 +242,7 @@ contains
     call result%get_list(RIIS_LIST_MARKED, list)
     call check(list%n_nodes > 100 .and. all(shape(list%distance_gradient) == [2_int64, list%n_nodes]) .and. &
       all(shape(list%K_gradient) == [2_int64, list%n_nodes]), 'two directions for every node')
+    allocate (along_z(list%n_nodes))
     along_z = (xyz(3, list%node_id + 1) - list%point(3, :)) / max(list%distance, tiny(1d0))
     call check(all(abs(list%distance_gradient(1, :) + along_z) < 1d-9 .or. list%distance < 1d-6), 'minus n.V')
     call check(all(abs(list%distance_gradient(2, :) + list%distance_gradient(1, :)) < 1d-9), 'the opposite direction')

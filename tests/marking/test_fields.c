@@ -585,7 +585,7 @@ static void fields_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_marks_get_list(result, RIIS_LIST_MARKED, NULL, sizeof f));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL",
                 riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
-  static const int64_t sizes[] = {0, -8, sizeof f - 8, sizeof f + 8};
+  static const int64_t sizes[] = {0, -8, offsetof(riis_mark_list, patch_id), sizeof f + 8};
   for (int i = 0; i < 4; ++i) {
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_MARKED, &f, sizes[i]));
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &f, sizes[i]));

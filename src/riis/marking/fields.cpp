@@ -178,8 +178,8 @@ class TriangleFields {
     }
   }
 
-  // Writes the derivatives of the distances: -n.V in each direction, with the unit vector n from the closest point to the node and
-  // the rate V of the closest point.
+  // Writes the derivatives of the distances: -n.V in each direction, with the unit vector n from the closest point to the node
+  // and the rate V of the closest point.
   void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
     double *to = made_.distance_gradient.data() + n_directions() * first;
     for (std::int64_t lane = 0; lane < n; ++lane) {

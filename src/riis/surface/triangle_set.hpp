@@ -41,11 +41,11 @@ struct TriangleSet {
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // number of triangles that were left out
   double error_bound = 0;                 // bounds the distance to the smooth valve, placed; 0 for surfaces from arrays
-  Vector<std::uint8_t> rim_sides;    // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
-  Vector<VerticesOfPatch> patches;   // ascending by first vertex; empty for surfaces from arrays
-  std::uint64_t connectivity = 0;    // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
-  Grouping grouping;                 // empty if the triangles were made without groups
-  Vector<LevelledGrid> grids;        // the grids of the patches, with their lines; empty for surfaces from arrays
+  Vector<std::uint8_t> rim_sides;   // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
+  Vector<VerticesOfPatch> patches;  // ascending by first vertex; empty for surfaces from arrays
+  std::uint64_t connectivity = 0;   // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
+  Grouping grouping;                // empty if the triangles were made without groups
+  Vector<LevelledGrid> grids;       // the grids of the patches, with their lines; empty for surfaces from arrays
 
   // Empties the set and keeps its memory for the next triangles.
   void clear() {
