@@ -586,9 +586,11 @@ contains
     list%patch_id => no_int32
     if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, list%patch_id, [made%n_nodes])
     list%distance_gradient => no_gradients
-    if (c_associated(made%distance_gradient)) call c_f_pointer(made%distance_gradient, list%distance_gradient, [made%n_directions, made%n_nodes])
+    if (c_associated(made%distance_gradient)) &
+      call c_f_pointer(made%distance_gradient, list%distance_gradient, [made%n_directions, made%n_nodes])
     list%K_gradient => no_gradients
-    if (c_associated(made%K_gradient)) call c_f_pointer(made%K_gradient, list%K_gradient, [made%n_directions, made%n_nodes])
+    if (c_associated(made%K_gradient)) &
+      call c_f_pointer(made%K_gradient, list%K_gradient, [made%n_directions, made%n_nodes])
     call finish(code, status)
   end subroutine marks_get_list
 

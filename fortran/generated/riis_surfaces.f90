@@ -222,10 +222,10 @@ contains
     class(riis_surface), intent(inout) :: this              !< Must be created.
     class(riis_valve), intent(in) :: valve_after            !< The valve with the parameter a little larger than in the surface.
                                                             !! Read during the call only.
-    class(riis_valve), intent(in) :: valve_before           !< The valve with the parameter a little smaller. If only the placement
-                                                            !! changes, the same valve. Read during the call only.
-    real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after, 1e-30 to
-                                                            !! 1e30 in magnitude.
+    class(riis_valve), intent(in) :: valve_before           !< The valve with the parameter a little smaller. If only the
+                                                            !! placement changes, the same valve. Read during the call only.
+    real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after,
+                                                            !! 1e-30 to 1e30 in magnitude.
     real(c_double), intent(in), optional :: scale_after     !< For the state after, like the next three. Default: as the surface.
     real(c_double), intent(in), optional :: rotation_axis_after(:) !< (3), of any length.
     real(c_double), intent(in), optional :: rotation_angle_after !< Degrees.
