@@ -146,8 +146,8 @@ REFUSED = {
     "dp": (Argument, "dp is 0", lambda o: riis.Surface(o.valve).add_direction(o.valve, o.valve, 0.0)),
     "valve_after": (TypeError, "valve_after: must be a riis.Valve",
                     lambda o: riis.Surface(o.valve).add_direction(o.mesh, o.valve, 1.0)),
-    "kind of valve_before": (riis.InvalidParameterError, "valve_before is of the kind mitral", lambda o: riis.Surface(
-        o.valve).add_direction(o.valve, riis.Valve("mitral"), 1.0)),
+    "kind of valve_before": (riis.InvalidParameterError, "valve_before is of the kind coapting", lambda o: riis.Surface(
+        o.valve).add_direction(o.valve, riis.Valve("coapting"), 1.0)),
     "placement_after": (TypeError, "placement_after: 'tolerance' is not an option; the options are scale",
                         lambda o: riis.Surface(o.valve).add_direction(o.valve, o.valve, 1.0, placement_after={"tolerance": 1})),
     "direction of arrays": (Argument, "surface was made from arrays", lambda o: riis.Surface.from_arrays(
