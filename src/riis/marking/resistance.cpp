@@ -21,11 +21,11 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance.
-double slope_at(const Resistance &resistance, double distance) {
-  const double eps = resistance.half_thickness;
-  if (!(distance < eps)) return 0;
-  return -resistance.factor * (pi / eps) * std::sin(pi * (distance / eps)) / (2 * eps);
+// Returns the derivative of K with respect to the distance, from K alone: sin is the root of (1 + cos) (1 - cos). Two roots do
+// not overflow.
+double slope_at(const Resistance &resistance, double k) {
+  const double most = resistance.factor / resistance.half_thickness;
+  return -(pi / resistance.half_thickness) * (std::sqrt(k) * std::sqrt(std::max(0.0, most - k)));
 }
 
 // Returns K at entry i of a list.
@@ -173,7 +173,7 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
         for (std::int64_t at = 3 * i; at < 3 * i + 3; ++at)
           view(list.k_u_surface)[at] = k * view(list.fields.velocity)[at];
       if (!data.k_gradient) continue;
-      const double slope = k > 0 ? slope_at(*resistance, view(list.nodes.distance)[i]) : 0;
+      const double slope = slope_at(*resistance, k);
       for (std::int64_t at = data.n_directions * i; at < data.n_directions * (i + 1); ++at)
         view(list.k_gradient)[at] = slope * view(list.fields.distance_gradient)[at];
     }
