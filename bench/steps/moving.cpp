@@ -39,7 +39,12 @@ Valve opening_valve(const char *kind) {
 class MovingSteps {
  public:
   MovingSteps(const char *kind, const CylinderNodes &nodes)
-      : valve_(opening_valve(kind)), before_(opening_valve(kind)), mesh_(mesh_over(nodes)), n_nodes_(nodes.n_nodes()) {
+      : valve_(opening_valve(kind)),
+        before_(opening_valve(kind)),
+        after_(opening_valve(kind)),
+        earlier_(opening_valve(kind)),
+        mesh_(mesh_over(nodes)),
+        n_nodes_(nodes.n_nodes()) {
     move();
     riis_surface_options of_surface;
     check(riis_surface_options_init(&of_surface, sizeof of_surface));
@@ -82,6 +87,14 @@ class MovingSteps {
     marking_.fields = fields;
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
+  // Directions of the opening. All parameters cost the same.
+  void add_directions(int n) {
+    riis_valve *const after = after_.get(), *const earlier = earlier_.get();
+    check(riis_valve_set_scalar(after, "opening", opening_ + 1e-4));
+    check(riis_valve_set_scalar(earlier, "opening", opening_ - 1e-4));
+    for (int i = 0; i < n; ++i)
+      check(riis_surface_add_direction(surface_.get(), after, earlier, 2e-4, nullptr, nullptr));
+  }
   void add_resistance() { bench::add_resistance(result_.get(), resistance_, coefficient_, momentum_.data()); }
   riis_mark_stats stats() const { return stats_of(result_.get()); }
   double n_triangles() const { return n_triangles_of(surface_.get()); }
@@ -98,7 +111,7 @@ class MovingSteps {
   }
 
  private:
-  Valve valve_, before_;
+  Valve valve_, before_, after_, earlier_;
   Mesh mesh_;
   std::int64_t n_nodes_;
   Surface surface_, fixed_;
@@ -293,6 +306,12 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
     steps.update_moving();
     steps.mark(all_fields);
   });
+  for (const int n : {1, 4, 10})
+    add(contest, name("step with ") + std::to_string(n) + " directions", steps, [&steps, n] {
+      steps.update();
+      steps.add_directions(n);
+      steps.mark(RIIS_FIELD_GRADIENT);
+    });
   // This contender comes last, because the caller's arrays push the mesh out of the caches.
   add(contest, name("step with velocity, K and K u"), steps, [&] {
     steps.update_moving();
@@ -320,6 +339,7 @@ void measure(Contest &contest, Bars &bars, int valve, std::int64_t about_n_nodes
       "%.2f %% if they are adapted, %.2f %% if they are fixed.\n",
       100 * jump.motion, 100 * jump.with_adapted, 100 * jump.with_fixed);
   ratio("step with all fields", "step", 1.5);
+  for (const int n : {1, 4, 10}) ratio(("step with " + std::to_string(n) + " directions").c_str(), "step", 1 + 0.3 * n);
 }
 
 }  // namespace

@@ -100,6 +100,7 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_FIELD_UV = 32
   integer(c_int32_t), parameter :: RIIS_FIELD_VELOCITY = 64
   integer(c_int32_t), parameter :: RIIS_FIELD_PATCH = 128
+  integer(c_int32_t), parameter :: RIIS_FIELD_GRADIENT = 256
 
   integer(c_int32_t), parameter :: RIIS_RIM_ROUND = 0
   integer(c_int32_t), parameter :: RIIS_RIM_CUT = 1
@@ -436,21 +437,26 @@ module riis_c
   !> c_null_ptr for arrays that were not requested or have no nodes
   type, bind(c) :: riis_mark_list
     integer(c_int64_t) :: n_nodes
-    type(c_ptr) :: node_id     !< integer(c_int64_t), (n_nodes), ascending, from 0
-    type(c_ptr) :: distance    !< real(c_double), (n_nodes)
-    type(c_ptr) :: triangle_id !< integer(c_int64_t), (n_nodes), from 0
-    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_nodes)
-    type(c_ptr) :: K           !< real(c_double), (n_nodes), by the resistance of the options
-    type(c_ptr) :: K_u_surface !< real(c_double), (3, n_nodes), by the resistance of the options
-    type(c_ptr) :: point       !< real(c_double), (3, n_nodes), the closest point of the surface
-    type(c_ptr) :: normal      !< real(c_double), (3, n_nodes), the unit normal of its triangle
-    type(c_ptr) :: barycentric !< real(c_double), (3, n_nodes), the point's barycentric coordinates
-    type(c_ptr) :: uv          !< real(c_double), (2, n_nodes), the point's u and v on its patch
-    type(c_ptr) :: velocity    !< real(c_double), (3, n_nodes), the surface's velocity at the point
-    type(c_ptr) :: side        !< integer(c_int32_t), (n_nodes), 1 downstream, -1 upstream, 0 on the surface or level
-                               !! with its rim
-    type(c_ptr) :: rim         !< integer(c_int32_t), (n_nodes), 1 if the point lies on the rim of the surface, else 0
-    type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_nodes), from 0
+    type(c_ptr) :: node_id           !< integer(c_int64_t), (n_nodes), ascending, from 0
+    type(c_ptr) :: distance          !< real(c_double), (n_nodes)
+    type(c_ptr) :: triangle_id       !< integer(c_int64_t), (n_nodes), from 0
+    type(c_ptr) :: leaflet_id        !< integer(c_int32_t), (n_nodes)
+    type(c_ptr) :: K                 !< real(c_double), (n_nodes), by the resistance of the options
+    type(c_ptr) :: K_u_surface       !< real(c_double), (3, n_nodes), by the resistance of the options
+    type(c_ptr) :: point             !< real(c_double), (3, n_nodes), the closest point of the surface
+    type(c_ptr) :: normal            !< real(c_double), (3, n_nodes), the unit normal of its triangle
+    type(c_ptr) :: barycentric       !< real(c_double), (3, n_nodes), the point's barycentric coordinates
+    type(c_ptr) :: uv                !< real(c_double), (2, n_nodes), the point's u and v on its patch
+    type(c_ptr) :: velocity          !< real(c_double), (3, n_nodes), the surface's velocity at the point
+    type(c_ptr) :: side              !< integer(c_int32_t), (n_nodes), 1 downstream, -1 upstream, 0 on the surface or
+                                     !! level with its rim
+    type(c_ptr) :: rim               !< integer(c_int32_t), (n_nodes), 1 if the point lies on the rim of the surface,
+                                     !! else 0
+    type(c_ptr) :: patch_id          !< integer(c_int32_t), (n_nodes), from 0
+    integer(c_int64_t) :: n_directions
+    type(c_ptr) :: distance_gradient !< real(c_double), (n_directions, n_nodes), the derivative of the distance in each
+                                     !! direction
+    type(c_ptr) :: K_gradient        !< real(c_double), (n_directions, n_nodes), the derivative of K in each direction
   end type riis_mark_list
 
   !> c_null_ptr for arrays that are not wanted
@@ -1051,6 +1057,19 @@ module riis_c
       type(riis_surface_options), intent(in), optional :: options
       integer(riis_status) :: status
     end function riis_surface_update_from_keyframes
+
+    !>   options_after   if left out: the surface's own options
+    !!   options_before  if left out: the surface's own options
+    function riis_surface_add_direction(surface, valve_after, valve_before, dp, options_after, options_before) &
+        result(status) bind(c, name='riis_surface_add_direction')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: valve_after, valve_before
+      real(c_double), value :: dp
+      type(riis_surface_options), intent(in), optional :: options_after, options_before
+      integer(riis_status) :: status
+    end function riis_surface_add_direction
 
     subroutine riis_surface_destroy(surface) bind(c, name='riis_surface_destroy')
       import :: c_ptr

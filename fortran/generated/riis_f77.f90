@@ -331,6 +331,55 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
     before)
 end subroutine riisf_surface_place_moving
 
+!> Adds a direction in which the surface of a valve changes, as riis_surface_add_direction does with the surface's placement.
+!! Marking with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K. The directions count from 1, in the order of
+!! the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp out of range;
+!! RIIS_INVALID_PARAMETER for a state of another kind or with other patches; RIIS_LIMIT_EXCEEDED for more than 1000.
+subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_add_direction
+  use riis_support, only: c_handle_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
+  integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller.
+  real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp)
+end subroutine riisf_surface_add_direction
+
+!> Adds a direction like riisf_surface_add_direction, in which the placement changes, too.
+subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
+    rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
+    translation_before, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_status, riis_surface_options, RIIS_AUTO, RIIS_OK, riis_surface_add_direction
+  use riis_support, only: c_handle_of, get_placement
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
+  integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller, or the same valve.
+  real(c_double), intent(in) :: dp                        !< The parameter's difference from the state before to the state after.
+  real(c_double), intent(in) :: scale_after               !< For the state after, like the next three arguments.
+  real(c_double), intent(in) :: rotation_axis_after(3)    !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle_after      !< Degrees.
+  real(c_double), intent(in) :: translation_after(3)      !< Mesh units.
+  real(c_double), intent(in) :: scale_before              !< For the state before, like the next three arguments.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
+  real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: after, before
+  status = get_placement(RIIS_AUTO, 0.05d0, scale_after, rotation_axis_after, rotation_angle_after, translation_after, after)
+  if (status == RIIS_OK) status = get_placement(RIIS_AUTO, 0.05d0, scale_before, rotation_axis_before, &
+    rotation_angle_before, translation_before, before)
+  if (status /= RIIS_OK) return
+  status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp, after, &
+    before)
+end subroutine riisf_surface_add_placed
+
 !> Destroys the surface and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr

@@ -37,20 +37,22 @@ end subroutine riisf_mark_with_fields
 
 !> Copies a field of the nodes that are marked into the caller's array,
 !! in the order of riisf_marked. RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three
-!! values per node, RIIS_FIELD_UV two. Errors: RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is
-!! then written.
+!! values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one for each direction. Errors: RIIS_INVALID_ARGUMENT for another
+!! field, or if the array is too short; only n is then written.
 subroutine riisf_marked_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED, &
-    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
+    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, &
+    RIIS_FIELD_UV, RIIS_FIELD_VELOCITY, RIIS_FIELD_GRADIENT
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of nodes for which the array has room.
   integer(int32), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
-  real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: fields
@@ -74,9 +76,12 @@ subroutine riisf_marked_reals(marks, field, length, n, values, status)
   case (RIIS_FIELD_VELOCITY)
     location = fields%velocity
     n_values = 3 * fields%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = fields%distance_gradient
+    n_values = fields%n_directions * fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY')
+      '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int32)
@@ -96,14 +101,16 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_MARKED, &
-    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
+    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, &
+    RIIS_FIELD_UV, RIIS_FIELD_VELOCITY, RIIS_FIELD_GRADIENT
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of nodes for which the array has room.
   integer(int64), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
-  real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: fields
@@ -127,9 +134,12 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   case (RIIS_FIELD_VELOCITY)
     location = fields%velocity
     n_values = 3 * fields%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = fields%distance_gradient
+    n_values = fields%n_directions * fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY')
+      '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int64)
@@ -176,7 +186,7 @@ subroutine riisf_marked_integers(marks, field, length, n, values, status)
     n_values = fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH')
+      '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int32)
@@ -223,7 +233,7 @@ subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
     n_values = fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH')
+      '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int64)
@@ -240,20 +250,22 @@ end subroutine riisf_marked_integers_64
 
 !> Copies a field of the nodes within the distance limit into the caller's array,
 !! in the order of riisf_within_limit. RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three
-!! values per node, RIIS_FIELD_UV two. Errors: RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is
-!! then written.
+!! values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one for each direction. Errors: RIIS_INVALID_ARGUMENT for another
+!! field, or if the array is too short; only n is then written.
 subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT, &
-    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
+    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, &
+    RIIS_FIELD_UV, RIIS_FIELD_VELOCITY, RIIS_FIELD_GRADIENT
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of nodes for which the array has room.
   integer(int32), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
-  real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: fields
@@ -277,9 +289,12 @@ subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   case (RIIS_FIELD_VELOCITY)
     location = fields%velocity
     n_values = 3 * fields%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = fields%distance_gradient
+    n_values = fields%n_directions * fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY')
+      '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int32)
@@ -299,14 +314,16 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_mark_list, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_marks_get_list, RIIS_LIST_WITHIN_LIMIT, &
-    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY
+    RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, &
+    RIIS_FIELD_UV, RIIS_FIELD_VELOCITY, RIIS_FIELD_GRADIENT
   use riis_support, only: c_handle_of, fail, text_of
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of nodes for which the array has room.
   integer(int64), intent(inout) :: n                      !< The number of nodes, even if the array is too short.
-  real(c_double), intent(inout) :: values(*)              !< (3, length), or (2, length) for RIIS_FIELD_UV; written up to n.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
   real(c_double), pointer :: kept(:)
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: fields
@@ -330,9 +347,12 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   case (RIIS_FIELD_VELOCITY)
     location = fields%velocity
     n_values = 3 * fields%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = fields%distance_gradient
+    n_values = fields%n_directions * fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_POINT, RIIS_FIELD_NORMAL, RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_UV, RIIS_FIELD_VELOCITY')
+      '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int64)
@@ -379,7 +399,7 @@ subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
     n_values = fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH')
+      '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int32)
@@ -426,7 +446,7 @@ subroutine riisf_within_limit_integers_64(marks, field, length, n, values, statu
     n_values = fields%n_nodes
   case default
     status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
-      '; it must be one of RIIS_FIELD_SIDE, RIIS_FIELD_RIM, RIIS_FIELD_PATCH')
+      '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
     return
   end select
   n = int(min(fields%n_nodes, int(huge(n), int64)), int64)

@@ -33,6 +33,10 @@ module riis_marking
                                                             !! with its rim.
     integer(int32), pointer :: rim(:) => null()             !< (n_nodes): 1 if the point lies on the rim of the surface, else 0.
     integer(int32), pointer :: patch_id(:) => null()        !< (n_nodes), from 0, as in riis_triangles.
+    real(c_double), pointer :: distance_gradient(:, :) => null() !< (n_directions, n_nodes): the derivative of the distance in
+                                                            !! each direction of the surface.
+    real(c_double), pointer :: K_gradient(:, :) => null()   !< (n_directions, n_nodes): the derivative of K, if the marking had
+                                                            !! R.
   end type riis_mark_list
 
   !> The nodes that a marking found, with their distances. It is empty before riis_mark_nodes and after %destroy, which must be
@@ -76,7 +80,7 @@ module riis_marking
   end interface riis_mark_nodes
 
   ! A pointer without entries gets one of these targets, because size() of a null pointer is not defined.
-  real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0)
+  real(c_double), target, save :: no_reals(0), no_vectors(3, 0), no_uv(2, 0), no_gradients(0, 0)
   integer(int32), target, save :: no_int32(0)
   integer(int64), target, save :: no_int64(0)
 
@@ -234,7 +238,7 @@ contains
     type(c_mark_list), intent(out) :: list
     integer(riis_status) :: code
     list = c_mark_list(0, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, &
-      c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr)
+      c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, 0, c_null_ptr, c_null_ptr)
     code = check_created(this%handle, 'the object marks')
     if (code == RIIS_OK) code = riis_marks_get_list(this%handle, which, list, c_sizeof(list))
   end function c_list
@@ -581,6 +585,12 @@ contains
     if (c_associated(made%rim)) call c_f_pointer(made%rim, list%rim, [made%n_nodes])
     list%patch_id => no_int32
     if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, list%patch_id, [made%n_nodes])
+    list%distance_gradient => no_gradients
+    if (c_associated(made%distance_gradient)) &
+      call c_f_pointer(made%distance_gradient, list%distance_gradient, [made%n_directions, made%n_nodes])
+    list%K_gradient => no_gradients
+    if (c_associated(made%K_gradient)) &
+      call c_f_pointer(made%K_gradient, list%K_gradient, [made%n_directions, made%n_nodes])
     call finish(code, status)
   end subroutine marks_get_list
 

@@ -50,6 +50,7 @@ module riis_surfaces
                                                                !< Makes a surface from the caller's triangles or quads.
     procedure, non_overridable :: update => surface_update              !< Replaces the surface when the valve has moved.
     procedure, non_overridable :: update_moving => surface_update_moving !< Updates with the velocity of every vertex.
+    procedure, non_overridable :: add_direction => surface_add_direction !< Adds a direction for the derivatives of distances.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
                                                                !< Replaces it when the triangles or quads have moved.
     procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes a surface from frames, at a
@@ -210,6 +211,51 @@ contains
     end if
     call finish(code, status)
   end subroutine surface_update_moving
+
+  !> Adds a direction in which the surface of a valve changes: with a parameter, with a landmark, or with the placement. Marking
+  !! with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K in all directions. The directions count from 1, in
+  !! the order of the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp out of
+  !! range; RIIS_INVALID_PARAMETER for a state of another kind or with other patches; RIIS_LIMIT_EXCEEDED for more than 1000.
+  subroutine surface_add_direction(this, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
+      rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
+      translation_before, status)
+    class(riis_surface), intent(inout) :: this              !< Must be created.
+    class(riis_valve), intent(in) :: valve_after            !< The valve with the parameter a little larger than in the surface.
+                                                            !! Read during the call only.
+    class(riis_valve), intent(in) :: valve_before           !< The valve with the parameter a little smaller. If only the
+                                                            !! placement changes, the same valve. Read during the call only.
+    real(c_double), intent(in) :: dp                        !< The parameter's difference from valve_before to valve_after,
+                                                            !! 1e-30 to 1e30 in magnitude.
+    real(c_double), intent(in), optional :: scale_after     !< For the state after, like the next three. Default: as the surface.
+    real(c_double), intent(in), optional :: rotation_axis_after(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle_after !< Degrees.
+    real(c_double), intent(in), optional :: translation_after(:) !< (3), mesh units.
+    real(c_double), intent(in), optional :: scale_before    !< For the state before, like the next three. Default: as the surface.
+    real(c_double), intent(in), optional :: rotation_axis_before(:) !< (3), of any length.
+    real(c_double), intent(in), optional :: rotation_angle_before !< Degrees.
+    real(c_double), intent(in), optional :: translation_before(:) !< (3), mesh units.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_surface_options) :: after, before
+    integer(riis_status) :: code
+    code = RIIS_OK
+    call update_options(this, after, code)
+    if (code == RIIS_OK) code = check_created(valve_after%c_handle(), 'valve_after')
+    if (code == RIIS_OK) code = check_created(valve_before%c_handle(), 'valve_before')
+    if (code == RIIS_OK) then
+      before = after
+      if (present(scale_after)) after%scale = scale_after
+      if (present(rotation_angle_after)) after%rotation_angle = rotation_angle_after
+      call set_vector(rotation_axis_after, 'rotation_axis_after', after%rotation_axis, code)
+      call set_vector(translation_after, 'translation_after', after%translation, code)
+      if (present(scale_before)) before%scale = scale_before
+      if (present(rotation_angle_before)) before%rotation_angle = rotation_angle_before
+      call set_vector(rotation_axis_before, 'rotation_axis_before', before%rotation_axis, code)
+      call set_vector(translation_before, 'translation_before', before%translation, code)
+      if (code == RIIS_OK) code = riis_surface_add_direction(this%handle, valve_after%c_handle(), valve_before%c_handle(), &
+        dp, after, before)
+    end if
+    call finish(code, status)
+  end subroutine surface_add_direction
 
   !> Makes a surface from the caller's triangles or quads, which are read during the call only. Sections of vertex_ids and
   !! leaflet_id that are not contiguous are copied. The normal follows from the order of the corners by the right-hand rule. A

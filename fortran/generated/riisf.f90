@@ -21,6 +21,8 @@ module riisf
   public :: riisf_surface_triangulate
   public :: riisf_surface_update_moving
   public :: riisf_surface_place_moving
+  public :: riisf_surface_add_direction
+  public :: riisf_surface_add_placed
   public :: riisf_surface_destroy
   public :: riisf_mesh_create
   public :: riisf_mesh_create_64
@@ -331,6 +333,40 @@ module riisf
       real(c_double), intent(in) :: translation_before(3)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_place_moving
+
+    subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: valve_after
+      integer(int64), intent(in) :: valve_before
+      real(c_double), intent(in) :: dp
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_add_direction
+
+    subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
+      rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
+      translation_before, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: valve_after
+      integer(int64), intent(in) :: valve_before
+      real(c_double), intent(in) :: dp
+      real(c_double), intent(in) :: scale_after
+      real(c_double), intent(in) :: rotation_axis_after(3)
+      real(c_double), intent(in) :: rotation_angle_after
+      real(c_double), intent(in) :: translation_after(3)
+      real(c_double), intent(in) :: scale_before
+      real(c_double), intent(in) :: rotation_axis_before(3)
+      real(c_double), intent(in) :: rotation_angle_before
+      real(c_double), intent(in) :: translation_before(3)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_add_placed
 
     subroutine riisf_surface_destroy(handle)
       use, intrinsic :: iso_fortran_env, only: int64

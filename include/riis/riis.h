@@ -432,6 +432,24 @@ RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *ke
 RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
                                                         double time, double dt,
                                                         const riis_surface_options *options);
+/* Adds a direction in which the surface of a valve changes: with a parameter, with a landmark, or with the placement. A
+ * marking with RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory.md,
+ * "Sensitivities"). The first call makes direction 0, the next call direction 1. An update removes all directions.
+ *   valve_after, valve_before  the valve with the parameter a little larger and a little smaller than in the surface: two
+ *                   copies of the surface's valve. If only the placement changes, pass the same valve twice
+ *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
+ *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: those
+ *                   of the surface
+ * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. If the surface is
+ * midway between the states, the error of the derivative is of second order in dp, otherwise of first order. A dp of 1e-4 of
+ * the parameter's size suits most parameters. The triangles may have any triangulation, whose limits hold for the surface only.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
+ * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000
+ * directions. */
+RIIS_API riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *valve_after,
+                                                const riis_valve *valve_before, double dp,
+                                                const riis_surface_options *options_after,
+                                                const riis_surface_options *options_before);
 /* Destroys the surface. Marks stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
@@ -879,7 +897,9 @@ enum {
   RIIS_FIELD_RIM = 16,       /* riis_mark_list.rim */
   RIIS_FIELD_UV = 32,        /* riis_mark_list.uv; refused for surfaces from arrays */
   RIIS_FIELD_VELOCITY = 64,  /* riis_mark_list.velocity; refused unless the last update gave velocities */
-  RIIS_FIELD_PATCH = 128     /* riis_mark_list.patch_id */
+  RIIS_FIELD_PATCH = 128,    /* riis_mark_list.patch_id */
+  RIIS_FIELD_GRADIENT = 256  /* riis_mark_list.distance_gradient, and K_gradient with a resistance; refused unless the
+                                surface has directions (riis_surface_add_direction) */
 };
 
 /* How the band around the surface ends at its rim. */
@@ -959,6 +979,13 @@ typedef struct riis_mark_list {
                                  that coincide when closed are not rim. The rim of a surface from arrays has the edges
                                  that only one triangle has; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
+  int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
+                                 unit vector n points from the closest point to the node, whatever the side, and V is the
+                                 rate of the closest point on the triangle of triangle_id. 0 on the surface, where the
+                                 distance has a kink. If several places are equally near, the distance has a kink, too */
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
+                                 where K is 0; NULL without a resistance */
 } riis_mark_list;
 /* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
  *   which  RIIS_LIST_* */

@@ -107,6 +107,7 @@ _NAMES = {
     "riis_mark_nodes": "riis.mark",
     "riis_marks_get_band_sums": "Marks.band_sums",
     "riis_mesh_set_adjacency": "Mesh.set_adjacency",
+    "riis_surface_add_direction": "Surface.add_direction",
     "riis_surface_options": "riis.Surface",
     "riis_surface_update_moving": "Surface.update_moving",
     "riis_valve_get_parameter": "Valve.parameters",
@@ -132,7 +133,7 @@ WORDS = {
     "search": ("auto", "exhaustive", "neighbor", "paper", "clusters"),
     "triangulation": ("adapted", "fixed"),
 }
-FIELDS = ("point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id")
+FIELDS = ("point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id", "distance_gradient")
 
 
 def _word_of(match: re.Match[str]) -> str:
@@ -147,7 +148,7 @@ def _constant_of(match: re.Match[str]) -> str:
     group, word = match[1].lower(), match[2].lower()
     if word == "*":
         return f"the words of {group}"
-    word = {"patch": "patch_id"}.get(word, word)
+    word = {"patch": "patch_id", "gradient": "distance_gradient"}.get(word, word)
     return f"rim={word!r}" if group == "rim" else repr(word)
 
 

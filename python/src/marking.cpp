@@ -16,6 +16,8 @@ struct Field {
   const char *text;
 };
 
+constexpr std::size_t per_direction = 0;  // as many components as the surface had directions
+
 #define RIIS_REALS(name) "def " name "(self) -> numpy.typing.NDArray[numpy.float64]"
 #define RIIS_INTEGERS(name) "def " name "(self) -> numpy.typing.NDArray[numpy.int32]"
 
@@ -36,9 +38,15 @@ const Field fields[] = {
      "(n, 3): the surface's velocities at the closest points, from its last update. Needs fields='velocity'. A view."},
     {"patch_id", RIIS_FIELD_PATCH, nullptr, &riis_mark_list::patch_id, 1, RIIS_INTEGERS("patch_id"),
      "(n,): the patches of the closest points. Needs fields='patch_id'. A view."},
+    {"distance_gradient", RIIS_FIELD_GRADIENT, &riis_mark_list::distance_gradient, nullptr, per_direction,
+     RIIS_REALS("distance_gradient"),
+     "(n, directions): the derivatives of the distances in the directions of Surface.add_direction. Needs "
+     "fields='distance_gradient'. A view."},
     {"K", 0, &riis_mark_list::K, nullptr, 1, RIIS_REALS("K"), "(n,): K of the nodes. Needs R=. A view."},
     {"K_u_surface", 0, &riis_mark_list::K_u_surface, nullptr, 3, RIIS_REALS("K_u_surface"),
      "(n, 3): K u_surface of the nodes. Needs R= and a surface with velocities. A view."},
+    {"K_gradient", 0, &riis_mark_list::K_gradient, nullptr, per_direction, RIIS_REALS("K_gradient"),
+     "(n, directions): the derivatives of K in these directions. Needs R= and fields='distance_gradient'. A view."},
 };
 
 std::int32_t field_of(const std::string &name) {
@@ -165,7 +173,13 @@ nb::object field_view(nb::handle self) {
   if (!data && found.n_nodes > 0)
     field.bit ? refuse_value(field.name, "the marking did not request it; mark with fields='", field.name, "'")
               : refuse_value(field.name, "the marking did not make it; mark with R=",
-                             field.n_components == 3 ? " and a surface with velocities" : "");
+                             field.n_components == 3               ? " and a surface with velocities"
+                             : field.n_components == per_direction ? " and fields='distance_gradient'"
+                                                                   : "");
+  if (field.n_components == per_direction)
+    return view_of(found.*field.reals,
+                   {static_cast<std::size_t>(found.n_nodes), static_cast<std::size_t>(found.n_directions)},
+                   reader.result->share());
   return field.reals ? reader.view(found.*field.reals, found.n_nodes, field.n_components)
                      : reader.view(found.*field.integers, found.n_nodes);
 }
@@ -312,7 +326,7 @@ far_distance  distance of nodes beyond the limit: any value outside [0, distance
 
 into            a Marks to fill, whose memory is reused; if None, a new one
 fields          'normal, velocity' or ['normal', 'velocity']: fields that the result keeps, of 'point', 'normal',
-                'barycentric', 'side', 'rim', 'uv', 'velocity' and 'patch_id'
+                'barycentric', 'side', 'rim', 'uv', 'velocity', 'patch_id' and 'distance_gradient'
 distance_limit  nodes get their distance up to this limit, mesh units; None: the half thickness
 mask            (n_nodes,) bool or uint8: other nodes are left out
 search          all but 'paper' find the same nodes; 'neighbor' and 'paper' need an adjacency

@@ -91,6 +91,20 @@ void update_moving(Surface &self, nb::handle valve_, nb::handle valve_before_, n
   });
 }
 
+void add_direction(Surface &self, nb::handle valve_after_, nb::handle valve_before_, nb::handle dp_,
+                   nb::handle placement_after, nb::handle placement_before) {
+  Valve &after = object<Valve>(valve_after_, "valve_after"), &before = object<Valve>(valve_before_, "valve_before");
+  const Writing writing(self.usage, "surface");
+  const Reading reading_after(after.usage, "valve_after"), reading_before(before.usage, "valve_before");
+  const double dp = number(dp_, "dp");
+  riis_surface_options of_after = self.options, of_before = self.options;
+  set_placement(of_after, placement_after, "placement_after");
+  set_placement(of_before, placement_before, "placement_before");
+  call_to_write(self.usage, [&] {
+    return riis_surface_add_direction(self.handle, after.handle, before.handle, dp, &of_after, &of_before);
+  });
+}
+
 Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
                      nb::handle index_base, const nb::kwargs &keywords) {
   if (faces.is_none()) refuse_type("faces", "must be a numpy array of int32 or int64, not NoneType");
@@ -287,6 +301,22 @@ placement_before  a dict of scale, rotation_axis, rotation_angle and translation
                   entries have their present values
 
 The velocity is the mean over the step, in mesh units divided by the unit of dt.)")
+      .def("add_direction", &add_direction, nb::arg("valve_after").none(), nb::arg("valve_before").none(),
+           nb::arg("dp").none(), nb::kw_only(), nb::arg("placement_after").none() = nb::none(),
+           nb::arg("placement_before").none() = nb::none(),
+           nb::sig(
+               "def add_direction(self, valve_after: Valve, valve_before: Valve, dp: float, *, placement_after: "
+               "dict[str, typing.Any] | None = None, placement_before: dict[str, typing.Any] | None = None) -> None"),
+           R"(Adds a direction in which the surface of a valve changes, for fields='distance_gradient' of riis.mark.
+
+valve_after       a copy of the surface's valve with a parameter or a landmark a little larger
+valve_before      the same with a little smaller value; for a change of the placement alone, the same valve
+dp                difference of the parameter from valve_before to valve_after
+placement_after, placement_before
+                  dicts of scale, rotation_axis, rotation_angle and translation of both states; missing entries have the
+                  surface's values
+
+An update of the surface removes its directions.)")
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),

@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_the_programs_of_the_document_run(xyz):
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    assert len(programs) == 5  # test_plot.py, test_place.py and test_fit.py cover the last three programs
+    assert len(programs) == 6  # test_plot.py, test_place.py and test_fit.py cover the last three programs
     assert programs[0] in (ROOT / "README.md").read_text(encoding="utf-8")
     names = {"xyz": xyz, "n_steps": 6, "dt": 0.125}
     exec(programs[0], names)
@@ -25,6 +25,9 @@ def test_the_programs_of_the_document_run(xyz):
     exec(programs[1], names)
     # The last step goes from 0.625 s to 0.75 s, where the valve is open and at rest.
     assert names["valve"]["opening"] == 1.0 and not names["K_u"].any() and names["K"].any()
+    exec(programs[2], names)
+    slopes = names["marks"].K_gradient[:, 0]
+    assert len(slopes) == len(names["marks"]) > 100 and slopes.min() < 0.0 < slopes.max()
 
 
 def test_the_notebook_is_committed_without_outputs():

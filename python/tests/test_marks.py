@@ -54,6 +54,42 @@ def test_marks_equal_those_of_c(c_marks, xyz, tmp_path):
     assert numpy.count_nonzero(momentum) > 0
 
 
+def test_derivatives_are_central_differences():
+    valve = riis.Valve("trileaflet", opening=0.4)
+    placement = {"scale": 10.0, "rotation_axis": (1, 2, 3), "rotation_angle": 40.0, "translation": (3, 4, 5)}
+    surface = riis.Surface(valve, triangulation="fixed", **placement)
+    h = 1e-4
+
+    def opened(by):
+        made = valve.copy()
+        made["opening"] = valve["opening"] + by
+        return made
+
+    surface.add_direction(opened(h), opened(-h), 2 * h)
+    surface.add_direction(valve, valve, 2 * h, placement_after={"translation": (3 + h, 4, 5)},
+                          placement_before={"translation": (3 - h, 4, 5)})
+    points = surface.vertices + numpy.random.default_rng(7).uniform(-0.5, 0.5, surface.vertices.shape)
+    marks = riis.mark(surface, riis.Mesh(points), fields="distance_gradient", distance_limit=2.0, R=3.0)
+    n = len(marks.within_limit)
+    assert n == len(points)
+    assert marks.within_limit.distance_gradient.shape == marks.within_limit.K_gradient.shape == (n, 2)
+    assert marks.distance_gradient.shape == (len(marks), 2)
+    # The surface keeps its triangles while the valve opens and moves.
+    sides = []
+    for sign in (-1, 1):
+        surface.update(opened(sign * 1e-6))
+        of_opening = surface.closest_points(points).distance
+        surface.update(valve, translation=(3 + sign * 1e-6, 4, 5))
+        sides.append(numpy.stack([of_opening, surface.closest_points(points).distance], axis=1))
+        surface.update(valve, **placement)
+    slope = (sides[1] - sides[0]) / 2e-6
+    off = numpy.abs(marks.within_limit.distance_gradient - slope) / numpy.abs(slope).max(axis=0)
+    far = marks.within_limit.distance > 0.05
+    assert numpy.mean(off[far] < 1e-5) > 0.98
+    with pytest.raises(riis.InvalidArgumentError, match="no direction"):  # an update ended the directions
+        riis.mark(surface, riis.Mesh(points), fields="distance_gradient")
+
+
 def layouts(xyz):
     wide = numpy.full((2 * len(xyz), 5), numpy.nan)
     wide[::2, 1:4] = xyz

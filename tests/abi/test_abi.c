@@ -264,7 +264,7 @@ static void test_structs(void **state) {
   FIELD(riis_mark_options, n_threads, 40, 4);
   FIELD(riis_mark_options, instructions, 44, 4);
 
-  SIZE(riis_mark_list, 120);
+  SIZE(riis_mark_list, 144);
   FIELD(riis_mark_list, n_nodes, 0, 8);
   FIELD(riis_mark_list, node_id, 8, 8);
   FIELD(riis_mark_list, distance, 16, 8);
@@ -280,6 +280,9 @@ static void test_structs(void **state) {
   FIELD(riis_mark_list, side, 96, 8);
   FIELD(riis_mark_list, rim, 104, 8);
   FIELD(riis_mark_list, patch_id, 112, 8);
+  FIELD(riis_mark_list, n_directions, 120, 8);
+  FIELD(riis_mark_list, distance_gradient, 128, 8);
+  FIELD(riis_mark_list, K_gradient, 136, 8);
 
   SIZE(riis_dense_arrays, 56);
   FIELD(riis_dense_arrays, struct_size, 0, 8);
@@ -591,6 +594,7 @@ static void test_constants(void **state) {
   assert_int_equal(RIIS_FIELD_UV, 32);
   assert_int_equal(RIIS_FIELD_VELOCITY, 64);
   assert_int_equal(RIIS_FIELD_PATCH, 128);
+  assert_int_equal(RIIS_FIELD_GRADIENT, 256);
   assert_int_equal(RIIS_LIST_MARKED, 0);
   assert_int_equal(RIIS_LIST_WITHIN_LIMIT, 1);
   assert_int_equal(RIIS_RIM_ROUND, 0);
@@ -687,6 +691,9 @@ static void test_signatures(void **state) {
             (const riis_keyframes *, double, double, const riis_surface_options *, riis_surface **));
   SIGNATURE(riis_surface_update_from_keyframes, int32_t,
             (riis_surface *, const riis_keyframes *, double, double, const riis_surface_options *));
+  SIGNATURE(riis_surface_add_direction, int32_t,
+            (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,
+             const riis_surface_options *));
   SIGNATURE(riis_surface_destroy, void, (riis_surface **));
   SIGNATURE(riis_surface_get_gap, int32_t, (const riis_surface *, const riis_surface *, double *, riis_gap *, int64_t));
   SIGNATURE(riis_valve_set_skirt_to_wall, int32_t,

@@ -340,6 +340,8 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   options_before.translation[2] = -0.01;
   TRY(riis_surface_create(before, &options_before, &moving));
   TRY(riis_surface_update_moving(moving, now, before, 0.005, &options, &options_before));
+  TRY(riis_surface_add_direction(moving, now, before, 0.1, NULL, NULL));
+  TRY(riis_surface_add_direction(moving, now, now, 0.01, &options, &options_before));
   riis_valve_destroy(&open);
   riis_valve_destroy(&now);
   riis_valve_destroy(&before);
@@ -349,7 +351,7 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   TRY(riis_mark_options_init(&mark_options, sizeof mark_options));
   mark_options.distance_limit = 2.5;
   mark_options.n_threads = 2;
-  mark_options.fields = 255;
+  mark_options.fields = 511;
   riis_resistance listed;
   TRY(riis_resistance_init(&listed, sizeof listed));
   listed.R = 3;

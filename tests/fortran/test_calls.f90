@@ -613,6 +613,9 @@ contains
     call check_refused(riis_surface_update_moving(moving, now, before, 0d0), RIIS_INVALID_ARGUMENT, 'dt is 0')
     call check_refused(riis_surface_update_moving(moving, now, c_null_ptr, 1d0), RIIS_INVALID_ARGUMENT, 'valve_before')
     call check_ok(riis_surface_update_moving(moving, now, before, 0.005d0, options, options_before), 'update a moving surface')
+    call check_refused(riis_surface_add_direction(moving, now, before, 0d0), RIIS_INVALID_ARGUMENT, 'dp is 0')
+    call check_ok(riis_surface_add_direction(moving, now, before, 0.1d0), 'the direction of the opening')
+    call check_ok(riis_surface_add_direction(moving, now, now, 0.01d0, options, options_before), 'that of the translation')
     call riis_valve_destroy(open)
     call riis_valve_destroy(now)
     call riis_valve_destroy(before)
@@ -630,10 +633,10 @@ contains
     call check_refused(riis_mark_nodes(moving, mesh, mark_options, resisting), RIIS_INVALID_ARGUMENT, &
       'options.resistance.R is nan')
     listed%R = 3
-    mark_options%fields = 256
-    call check_refused(riis_mark_nodes(moving, mesh, mark_options, resisting), RIIS_INVALID_ARGUMENT, 'fields is 256')
+    mark_options%fields = 512
+    call check_refused(riis_mark_nodes(moving, mesh, mark_options, resisting), RIIS_INVALID_ARGUMENT, 'fields is 512')
     mark_options%fields = RIIS_FIELD_POINT + RIIS_FIELD_NORMAL + RIIS_FIELD_BARYCENTRIC + RIIS_FIELD_SIDE + &
-      RIIS_FIELD_RIM + RIIS_FIELD_UV + RIIS_FIELD_VELOCITY + RIIS_FIELD_PATCH
+      RIIS_FIELD_RIM + RIIS_FIELD_UV + RIIS_FIELD_VELOCITY + RIIS_FIELD_PATCH + RIIS_FIELD_GRADIENT
     call check_ok(riis_mark_nodes(moving, mesh, mark_options, resisting), 'mark with all fields')
     call check_refused(riis_marks_get_list(resisting, RIIS_LIST_MARKED, marked, 8_c_int64_t), RIIS_INVALID_STRUCT_SIZE, 'list')
     call check_refused(riis_marks_get_list(resisting, 7, marked, c_sizeof(marked)), RIIS_INVALID_ARGUMENT, 'which is 7')
@@ -707,6 +710,9 @@ contains
     call check_same_bytes(a%side, b%side, 4 * a%n_nodes, what // ': sides')
     call check_same_bytes(a%rim, b%rim, 4 * a%n_nodes, what // ': rims')
     call check_same_bytes(a%patch_id, b%patch_id, 4 * a%n_nodes, what // ': patches')
+    call check(a%n_directions == 2 .and. b%n_directions == 2, what // ': two directions')
+    call check_same_bytes(a%distance_gradient, b%distance_gradient, 16 * a%n_nodes, what // ': derivatives of distances')
+    call check_same_bytes(a%K_gradient, b%K_gradient, 16 * a%n_nodes, what // ': derivatives of K')
   end subroutine check_same_fields
 
   ! A square is lifted by 1 and bent.

@@ -132,7 +132,8 @@ program test_layout
   call compare('riis_mark_list', c_sizeof(mls), c_loc(mls), [at(c_loc(mls%n_nodes)), at(c_loc(mls%node_id)), &
     at(c_loc(mls%distance)), at(c_loc(mls%triangle_id)), at(c_loc(mls%leaflet_id)), at(c_loc(mls%K)), &
     at(c_loc(mls%K_u_surface)), at(c_loc(mls%point)), at(c_loc(mls%normal)), at(c_loc(mls%barycentric)), &
-    at(c_loc(mls%uv)), at(c_loc(mls%velocity)), at(c_loc(mls%side)), at(c_loc(mls%rim)), at(c_loc(mls%patch_id))])
+    at(c_loc(mls%uv)), at(c_loc(mls%velocity)), at(c_loc(mls%side)), at(c_loc(mls%rim)), at(c_loc(mls%patch_id)), &
+    at(c_loc(mls%n_directions)), at(c_loc(mls%distance_gradient)), at(c_loc(mls%K_gradient))])
   call compare('riis_dense_arrays', c_sizeof(das), c_loc(das), [at(c_loc(das%struct_size)), at(c_loc(das%n_nodes)), &
     at(c_loc(das%far_distance)), at(c_loc(das%mark)), at(c_loc(das%distance)), at(c_loc(das%triangle_id)), &
     at(c_loc(das%leaflet_id))])

@@ -24,6 +24,7 @@ program test_resistance
   call test_placement_before()
   call test_fixed_triangles()
   call test_motion_errors()
+  call test_directions()
   call test_fields()
   call test_fields_not_asked_for()
   call test_resistance_of_plate()
@@ -210,6 +211,47 @@ contains
     call moving%destroy()
   end subroutine test_motion_errors
 
+  ! The derivatives in two directions of the placement are those of closest points on a rigid body.
+  subroutine test_directions()
+    type(riis_surface) :: moving
+    type(riis_valve) :: mitral, none
+    type(riis_marks) :: result
+    type(riis_mark_list) :: list
+    real(c_double), allocatable :: along_z(:)
+    call moving%add_direction(valve, valve, 1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
+    call moving%create(valve)
+    call mitral%create('mitral')
+    call moving%add_direction(none, valve, 1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'valve_after was not created')
+    call moving%add_direction(valve, none, 1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'valve_before was not created')
+    call moving%add_direction(valve, mitral, 1d0, status=status)
+    call check_refused(status, RIIS_INVALID_PARAMETER, 'valve_before is of the kind mitral')
+    call moving%add_direction(valve, valve, 0d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'dp is 0')
+    call moving%add_direction(valve, valve, 1d0, scale_after=-1d0, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options_after.scale is -1')
+    call moving%add_direction(valve, valve, 1d0, translation_before=[1d0], status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of translation_before is 1; it must be 3')
+    call riis_mark_nodes(moving, mesh, result, fields=RIIS_FIELD_GRADIENT, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface has no direction')
+    call moving%add_direction(valve, valve, 0.02d0, translation_after=[0d0, 0d0, 0.01d0], translation_before=[0d0, 0d0, -0.01d0])
+    call moving%add_direction(valve, valve, 0.02d0, translation_before=[0d0, 0d0, 0.02d0])
+    call riis_mark_nodes(moving, mesh, result, fields=RIIS_FIELD_GRADIENT + RIIS_FIELD_POINT, R=2d0)
+    call result%get_list(RIIS_LIST_MARKED, list)
+    call check(list%n_nodes > 100 .and. all(shape(list%distance_gradient) == [2_int64, list%n_nodes]) .and. &
+      all(shape(list%K_gradient) == [2_int64, list%n_nodes]), 'two directions for every node')
+    allocate (along_z(list%n_nodes))
+    along_z = (xyz(3, list%node_id + 1) - list%point(3, :)) / max(list%distance, tiny(1d0))
+    call check(all(abs(list%distance_gradient(1, :) + along_z) < 1d-9 .or. list%distance < 1d-6), 'minus n.V')
+    call check(all(abs(list%distance_gradient(2, :) + list%distance_gradient(1, :)) < 1d-9), 'the opposite direction')
+    call check(all(abs(list%K_gradient(1, :)) <= 0 .or. list%K_gradient(1, :) * along_z > 0), 'K falls with the distance')
+    call result%destroy()
+    call mitral%destroy()
+    call moving%destroy()
+  end subroutine test_directions
+
   ! Every field is compared with closest points, and with the triangles' vertices.
   subroutine test_fields()
     type(riis_triangles) :: all_triangles
@@ -298,8 +340,8 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'fields is 1099511627776; it must fit in 32 bits')
     call riis_mark_nodes(surface, mesh, result, fields='side', status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'fields is neither')
-    call riis_mark_nodes(surface, mesh, result, fields=256, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.fields is 256')
+    call riis_mark_nodes(surface, mesh, result, fields=512, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'options.fields is 512')
     call result%destroy()
     call result%get_list(RIIS_LIST_MARKED, fields, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the object marks was not created')

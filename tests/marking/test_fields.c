@@ -565,7 +565,8 @@ static void fields_are_refused_by_name(void **state) {
     assert_true(same_results(result, expected));                                                   \
     assert_true(same_fields(marked_fields(result), marked_fields(expected)));                      \
   } while (0)
-  FIELDS_REFUSED(256, "options.fields is 256;|a sum of RIIS_FIELD_*, at most 255");
+  FIELDS_REFUSED(512, "options.fields is 512;|a sum of RIIS_FIELD_*, at most 511");
+  FIELDS_REFUSED(RIIS_FIELD_GRADIENT, "options.fields is 256,|RIIS_FIELD_GRADIENT|riis_surface_add_direction");
   FIELDS_REFUSED(1 | 1 << 20, "options.fields is 1048577;");
   FIELDS_REFUSED(-1, "options.fields is -1;");
   FIELDS_REFUSED(INT32_MIN, "options.fields is -2147483648;");
@@ -584,7 +585,7 @@ static void fields_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL", riis_marks_get_list(result, RIIS_LIST_MARKED, NULL, sizeof f));
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "list is NULL",
                 riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, NULL, sizeof f));
-  static const int64_t sizes[] = {0, -8, sizeof f - 8, sizeof f + 8};
+  static const int64_t sizes[] = {0, -8, offsetof(riis_mark_list, patch_id), sizeof f + 8};
   for (int i = 0; i < 4; ++i) {
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_MARKED, &f, sizes[i]));
     CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "list", riis_marks_get_list(result, RIIS_LIST_WITHIN_LIMIT, &f, sizes[i]));

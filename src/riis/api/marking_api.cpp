@@ -59,10 +59,10 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
 }
 
 // Returns the arrays of a list, with NULL for an empty one. A field that the marking needed only to compute K stays NULL.
-riis_mark_list arrays_of(const riis::ListedNodes &list, std::int32_t given_fields) {
+riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
-    return given_fields & which ? array(values) : nullptr;
+    return data.given_fields & which ? array(values) : nullptr;
   };
   const riis::NodeList &nodes = list.nodes;
   const riis::NodeFields &fields = list.fields;
@@ -80,7 +80,10 @@ riis_mark_list arrays_of(const riis::ListedNodes &list, std::int32_t given_field
           field(RIIS_FIELD_VELOCITY, fields.velocity),
           field(RIIS_FIELD_SIDE, fields.side),
           field(RIIS_FIELD_RIM, fields.rim),
-          field(RIIS_FIELD_PATCH, fields.patch_id)};
+          field(RIIS_FIELD_PATCH, fields.patch_id),
+          data.n_directions,
+          field(RIIS_FIELD_GRADIENT, fields.distance_gradient),
+          array(list.k_gradient)};
 }
 
 void check_n_nodes(const char *name, std::int64_t n_nodes, const riis::Marks &marks) {
@@ -252,9 +255,8 @@ riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mar
     const riis::Marks &content = require_handle(marks, "marks")->marks;
     if (which != RIIS_LIST_MARKED && which != RIIS_LIST_WITHIN_LIMIT)
       riis::fail(RIIS_INVALID_ARGUMENT, "which is ", which, "; it must be one of RIIS_LIST_*");
-    riis::write_struct(
-        list, struct_size, "list",
-        arrays_of(which == RIIS_LIST_MARKED ? content.marked_list() : content.within, content.data.given_fields));
+    riis::write_struct(list, struct_size, "list",
+                       arrays_of(which == RIIS_LIST_MARKED ? content.marked_list() : content.within, content.data));
   });
 }
 

@@ -100,6 +100,18 @@ void update_from_valve(riis_surface *surface, const riis_valve *valve, const rii
                   motion);
 }
 
+// Each direction keeps 24 bytes for each vertex.
+constexpr std::int64_t max_directions = 1000;
+
+void check_can_add_direction(const riis_surface &surface) {
+  const riis::Surface &content = surface.updatable.surface();
+  if (!content.patches())
+    riis::fail(RIIS_INVALID_ARGUMENT,
+               "surface was made from arrays, which have no parameters: a direction needs the surface of a valve");
+  if (content.n_directions() == max_directions)
+    riis::fail(RIIS_LIMIT_EXCEEDED, "surface has ", max_directions, " directions, the largest number");
+}
+
 riis_surface_arrays completed(const riis_surface_arrays *arrays) {
   return riis::completed(require(arrays, "arrays"), "arrays", default_arrays);
 }
@@ -179,6 +191,32 @@ riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *
   return guarded([&] {
     const MotionArguments motion{valve_before, dt, options_before};
     update_from_valve(surface, valve, options, &motion);
+  });
+}
+
+riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *valve_after,
+                                       const riis_valve *valve_before, double dp,
+                                       const riis_surface_options *options_after,
+                                       const riis_surface_options *options_before) {
+  return guarded([&] {
+    require_handle(surface, "surface");
+    require_handle(valve_after, "valve_after");
+    require_handle(valve_before, "valve_before");
+    check_can_add_direction(*surface);
+    if (!(std::abs(dp) >= 1e-30 && std::abs(dp) <= 1e30))
+      riis::fail(RIIS_INVALID_ARGUMENT, "dp is ", dp,
+                 "; it must be the parameter's difference from valve_before to valve_after, from 1e-30 to 1e+30 in "
+                 "magnitude");
+    const auto placement = [&](const riis_surface_options *given, const char *name) {
+      const riis_surface_options whole =
+          riis::completed(given, name, given ? riis::default_surface_options : surface->options);
+      riis::check_placement(whole, name);
+      return riis::placement_of(whole);
+    };
+    const riis::Placement after = placement(options_after, "options_after"),
+                          before = placement(options_before, "options_before");
+    surface->updatable.add_direction({valve_after->valve, valve_before->valve, after, before, dp},
+                                     riis::has_lost_threads() ? 1 : surface->options.n_threads);
   });
 }
 

@@ -47,6 +47,8 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   other_distance_.reset();
   frame_.reset();
   states_.reset();
+  patches_.reset();
+  n_directions_ = 0;
   velocity_error_bound_.store(not_known, std::memory_order_relaxed);
   scene_.make(triangles_, n_threads);
 }
@@ -65,10 +67,17 @@ double Surface::area() const {
 double Surface::velocity_error_bound() const {
   double bound = velocity_error_bound_.load(std::memory_order_relaxed);
   if (bound == not_known) {
-    bound = states_ ? riis::velocity_error_bound(*states_, triangles_.moved_grids) : 0;
+    bound = states_ ? riis::velocity_error_bound(*states_, triangles_.grids) : 0;
     velocity_error_bound_.store(bound, std::memory_order_relaxed);
   }
   return bound;
+}
+
+void Surface::add_direction(const Direction &direction, int n_threads) {
+  const auto n = static_cast<std::size_t>(n_directions_);
+  if (rates_.size() == n) rates_.emplace_back();
+  make_vertex_rates(*patches(), triangles_.grids, direction, n_threads, rates_[n]);
+  ++n_directions_;
 }
 
 const Attachment &Surface::attachment() const {

@@ -18,6 +18,7 @@
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
 #include "surface/velocity_bound.hpp"
+#include "surface/vertex_rates.hpp"
 
 namespace riis {
 
@@ -36,6 +37,16 @@ class Surface {
 
   // Takes the two states that the velocities were computed from.
   void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
+  // Takes the patches of a valve at rest.
+  void is_of_patches(PatchSet patches) { patches_.emplace(std::move(patches)); }
+  // Returns the patches that the triangles come from, or null for a surface from arrays.
+  const PatchSet *patches() const { return states_ ? &states_->now : patches_ ? &*patches_ : nullptr; }
+
+  // Adds a direction in which the patches change. Both of its states must have the build of patches() (check_same_build).
+  void add_direction(const Direction &direction, int n_threads);
+  std::int64_t n_directions() const { return n_directions_; }
+  // Returns the rates of the vertices in a direction, (3, n_vertices).
+  const std::vector<double> &rates(std::int64_t direction) const { return view(rates_)[direction]; }
 
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }
@@ -80,6 +91,9 @@ class Surface {
   mutable std::atomic<double> area_{not_known};
   std::optional<ValveFrame> frame_;
   std::optional<TwoStates> states_;
+  std::optional<PatchSet> patches_;         // without a motion; otherwise states_ has them
+  std::vector<std::vector<double>> rates_;  // of the directions; later entries only keep their memory
+  std::int64_t n_directions_ = 0;
   mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;

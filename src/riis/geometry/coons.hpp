@@ -32,6 +32,7 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
 // The lines that a grid was made from.
 struct GridLines {
   Vector<GridLine> u, v;
+  bool move_with_joints = false;  // whether the lines u of a planned patch of arcs move with the joints of its base
 };
 
 struct QuadGrid {

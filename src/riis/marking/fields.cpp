@@ -14,12 +14,13 @@ namespace riis {
 namespace {
 
 constexpr std::int32_t all_fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_BARYCENTRIC | RIIS_FIELD_SIDE |
-                                    RIIS_FIELD_RIM | RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH;
+                                    RIIS_FIELD_RIM | RIIS_FIELD_UV | RIIS_FIELD_VELOCITY | RIIS_FIELD_PATCH |
+                                    RIIS_FIELD_GRADIENT;
 
 // Calls visit(pointer to a member of NodeFields, numbers per node) for every field in `fields`.
 template <class Visit>
-void for_each_array(std::int32_t fields, const Visit &visit) {
-  const auto has = [&](std::int32_t field) { return (fields & field) != 0; };
+void for_each_array(const FieldSet &fields, const Visit &visit) {
+  const auto has = [&](std::int32_t field) { return (fields.bits & field) != 0; };
   if (has(RIIS_FIELD_POINT)) visit(&NodeFields::point, std::int64_t{3});
   if (has(RIIS_FIELD_NORMAL)) visit(&NodeFields::normal, std::int64_t{3});
   if (has(RIIS_FIELD_BARYCENTRIC)) visit(&NodeFields::barycentric, std::int64_t{3});
@@ -28,6 +29,7 @@ void for_each_array(std::int32_t fields, const Visit &visit) {
   if (has(RIIS_FIELD_SIDE)) visit(&NodeFields::side, std::int64_t{1});
   if (has(RIIS_FIELD_RIM)) visit(&NodeFields::rim, std::int64_t{1});
   if (has(RIIS_FIELD_PATCH)) visit(&NodeFields::patch_id, std::int64_t{1});
+  if (has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::distance_gradient, fields.n_directions);
 }
 
 // Finds the position of a triangle in the set from its id. A triangle's position equals its id, unless the set left out some of
@@ -105,7 +107,10 @@ class TriangleFields {
         at_vertices_(scratch.at_vertices.data()),
         ties_(view(scratch.ties)),
         list_(list),
-        made_(made) {}
+        made_(made) {
+    for (std::int64_t i = 0; has(RIIS_FIELD_GRADIENT) && i < request.surface.n_directions(); ++i)
+      rates_.push_back(request.surface.rates(i).data());
+  }
 
   void write(const Range &range) const {
     // The nodes of a list lie far apart in memory. So their coordinates are fetched while earlier nodes are computed.
@@ -160,6 +165,7 @@ class TriangleFields {
     if (has(RIIS_FIELD_PATCH))
       for (std::int64_t lane = 0; lane < n; ++lane)
         view(made_.patch_id)[first + lane] = view(set_.patch_id)[triangle[lane]];
+    if (has(RIIS_FIELD_GRADIENT)) write_gradients(eight, first, n);
     if (has(RIIS_FIELD_NORMAL))
       for (std::int64_t lane = 0; lane < n; ++lane)
         put_vector(made_.normal.data(), first + lane, normal(triangle[lane]));
@@ -171,6 +177,25 @@ class TriangleFields {
       if (has(RIIS_FIELD_SIDE)) std::copy_n(side, n, made_.side.data() + first);
     }
   }
+
+  // Writes the derivatives of the distances: -n.V in each direction, with the unit vector n from the closest point to the node
+  // and the rate V of the closest point.
+  void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
+    double *to = made_.distance_gradient.data() + n_directions() * first;
+    for (std::int64_t lane = 0; lane < n; ++lane) {
+      const Vec3 away = EightPoints::lane_of(eight.pairs.point, lane) - EightPoints::lane_of(eight.on.point, lane);
+      const double size = length(away);
+      const Vec3 towards = size > 0 ? (-1 / size) * away : Vec3{0, 0, 0},
+                 weight = EightPoints::lane_of(eight.on.barycentric, lane);
+      const Vec3 at_a = weight.x * towards, at_b = weight.y * towards, at_c = weight.z * towards;
+      const std::int64_t *const id = set_.vertex_id.data() + 3 * eight.triangle[lane];
+      for (const double *const rates : rates_)
+        *to++ = dot(at_a, vector_at(rates + 3 * id[0])) + dot(at_b, vector_at(rates + 3 * id[1])) +
+                dot(at_c, vector_at(rates + 3 * id[2]));
+    }
+  }
+
+  std::int64_t n_directions() const { return view(rates_).size(); }
 
   // Writes the velocities and (u,v). They are interpolated from the vertices by the weights.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
@@ -227,6 +252,7 @@ class TriangleFields {
   ArrayView<const Tie> ties_;
   const NodeList &list_;
   NodeFields &made_;
+  Vector<const double *> rates_;  // of the vertices, for each direction
 };
 
 // Orders ties by node, then by leaflet, then by distance.
@@ -268,19 +294,19 @@ void write_patch_fields(const SearchRequest &request, std::int32_t fields, std::
 
 }  // namespace
 
-void NodeFields::reserve(std::int32_t fields, std::int64_t n) {
+void NodeFields::reserve(const FieldSet &fields, std::int64_t n) {
   for_each_array(fields, [&](auto member, std::int64_t per_node) { reserve_amply(this->*member, per_node * n); });
 }
 
-bool NodeFields::has_room(std::int32_t fields, std::int64_t n) const {
+bool NodeFields::has_room(const FieldSet &fields, std::int64_t n) const {
   bool all = true;
   for_each_array(fields,
                  [&](auto member, std::int64_t per_node) { all = all && riis::has_room(this->*member, per_node * n); });
   return all;
 }
 
-void NodeFields::resize(std::int32_t fields, std::int64_t n) {
-  for_each_array(all_fields & ~fields, [&](auto member, std::int64_t) { (this->*member).clear(); });
+void NodeFields::resize(const FieldSet &fields, std::int64_t n) {
+  for_each_array({all_fields & ~fields.bits, 0}, [&](auto member, std::int64_t) { (this->*member).clear(); });
   // Resizes the arrays without clearing old entries, because every entry will be written.
   for_each_array(fields, [&](auto member, std::int64_t per_node) { riis::resize(this->*member, per_node * n); });
 }
@@ -326,6 +352,10 @@ void check_fields(const Surface &surface, std::int32_t fields) {
     fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,
          ", with RIIS_FIELD_VELOCITY, but the surface has no velocity: "
          "update it with riis_surface_update_moving, or give the velocity of its vertices in arrays");
+  if ((fields & RIIS_FIELD_GRADIENT) && surface.n_directions() == 0)
+    fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,
+         ", with RIIS_FIELD_GRADIENT, but the surface has no direction: call riis_surface_add_direction after its "
+         "last update");
   if ((fields & RIIS_FIELD_UV) && surface.triangles().uv.empty())
     fail(RIIS_INVALID_ARGUMENT, "options.fields is ", fields,
          ", with RIIS_FIELD_UV, but the surface is from arrays, which have no patches");
@@ -351,7 +381,7 @@ TieRule ties_for(const Surface &surface, std::int32_t fields) {
 
 void make_fields(const SearchRequest &request, std::int32_t fields, const NodeList &list, FieldScratch &scratch,
                  NodeFields &made) {
-  made.resize(fields, list.size());
+  made.resize({fields, request.surface.n_directions()}, list.size());
   if (fields == 0 || list.size() == 0) return;
   constexpr std::int64_t few_vertices = 16384;
   gather_at_vertices(request.surface.triangles(), fields,
@@ -373,7 +403,7 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
                       [&](const Range &range, int) { of_triangles.take_means(range); });
 }
 
-void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
+void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made) {
   made.resize(fields, some.size());
   std::int64_t from = 0;

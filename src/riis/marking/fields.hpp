@@ -15,16 +15,23 @@
 
 namespace riis {
 
+// Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
+struct FieldSet {
+  std::int32_t bits;  // a sum of RIIS_FIELD_*
+  std::int64_t n_directions;
+};
+
 // The fields of one list of nodes, in the list's order. The array of a field that was not requested is empty.
 struct NodeFields {
   UnfilledVector<double> point, normal, barycentric, velocity;  // (3, n)
   UnfilledVector<double> uv;                                    // (2, n)
+  UnfilledVector<double> distance_gradient;                     // (n_directions, n)
   UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
   // Reserves memory for n nodes. Then resize(m) with m <= n does not throw.
-  void reserve(std::int32_t fields, std::int64_t n);
-  bool has_room(std::int32_t fields, std::int64_t n) const;
-  void resize(std::int32_t fields, std::int64_t n);
+  void reserve(const FieldSet &fields, std::int64_t n);
+  bool has_room(const FieldSet &fields, std::int64_t n) const;
+  void resize(const FieldSet &fields, std::int64_t n);
 };
 
 // Memory that the next marking's fields reuse.
@@ -50,7 +57,7 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
                  NodeFields &made);
 
 // Writes the fields of the nodes in `some`, which is a part of `all`. Both lists are in ascending order of nodes.
-void select_fields(std::int32_t fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
+void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made);
 
 }  // namespace riis

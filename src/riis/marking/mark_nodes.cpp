@@ -79,7 +79,11 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
 
 // Returns the data that the caller requested, together with the fields from which K and K u_surface are computed.
 WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked) {
-  WantedData data{asked.fields, asked.fields, asked.resistance != nullptr, false};
+  WantedData data;
+  data.fields = data.given_fields = asked.fields;
+  data.k = asked.resistance != nullptr;
+  if (asked.fields & RIIS_FIELD_GRADIENT) data.n_directions = request.surface.n_directions();
+  data.k_gradient = data.k && data.n_directions > 0;
   if (!data.k) return data;
   if (asked.resistance->cuts_rim) data.fields |= RIIS_FIELD_RIM;
   data.k_u_surface = !request.surface.other_distance() && !request.surface.triangles().velocity.empty();
@@ -104,15 +108,17 @@ void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &mar
 }  // namespace
 
 bool ListedNodes::has_room(const WantedData &data, std::int64_t n) const {
-  return nodes.has_room(n) && fields.has_room(data.fields, n) && (!data.k || riis::has_room(k, n)) &&
-         (!data.k_u_surface || riis::has_room(k_u_surface, 3 * n));
+  return nodes.has_room(n) && fields.has_room(data.field_set(), n) && (!data.k || riis::has_room(k, n)) &&
+         (!data.k_u_surface || riis::has_room(k_u_surface, 3 * n)) &&
+         (!data.k_gradient || riis::has_room(k_gradient, data.n_directions * n));
 }
 
 void ListedNodes::reserve(const WantedData &data, std::int64_t n) {
   nodes.reserve(n);
-  fields.reserve(data.fields, n);
+  fields.reserve(data.field_set(), n);
   if (data.k) reserve_amply(k, n);
   if (data.k_u_surface) reserve_amply(k_u_surface, 3 * n);
+  if (data.k_gradient) reserve_amply(k_gradient, data.n_directions * n);
 }
 
 void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks) {
@@ -135,7 +141,7 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
                marks.order_scratch, marks.within.nodes, marks.marked.nodes);
   make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
   if (limit_is_wider)
-    select_fields(data.fields, marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
+    select_fields(data.field_set(), marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
   for (ListedNodes *list : {&marks.within, &marks.marked})
     list_resistance(marking.resistance, data, request.n_threads, *list);
   marks.leaflet_ids = request.surface.leaflet_ids();

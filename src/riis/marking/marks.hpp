@@ -22,7 +22,10 @@ namespace riis {
 struct WantedData {
   std::int32_t fields = 0;        // the sum of RIIS_FIELD_* that are computed
   std::int32_t given_fields = 0;  // the sum of the fields that the caller requested
-  bool k = false, k_u_surface = false;
+  bool k = false, k_u_surface = false, k_gradient = false;
+  std::int64_t n_directions = 0;  // 0 without RIIS_FIELD_GRADIENT
+
+  FieldSet field_set() const { return {fields, n_directions}; }
 };
 
 // The nodes of a list with the data computed for them.
@@ -31,6 +34,7 @@ struct ListedNodes {
   NodeFields fields;
   UnfilledVector<double> k;            // (n), empty without a resistance
   UnfilledVector<double> k_u_surface;  // (3, n), empty without a resistance or velocities
+  UnfilledVector<double> k_gradient;   // (n_directions, n), empty without a resistance or RIIS_FIELD_GRADIENT
 
   bool has_room(const WantedData &data, std::int64_t n) const;
   void reserve(const WantedData &data, std::int64_t n);

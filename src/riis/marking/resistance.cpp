@@ -21,6 +21,13 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
 }
 
+// Returns the derivative of K with respect to the distance, from K alone: sin is the root of (1 + cos) (1 - cos). Two roots do
+// not overflow.
+double slope_at(const Resistance &resistance, double k) {
+  const double most = resistance.factor / resistance.half_thickness;
+  return -(pi / resistance.half_thickness) * (std::sqrt(k) * std::sqrt(std::max(0.0, most - k)));
+}
+
 // Returns K at entry i of a list.
 double coefficient_at(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   if (resistance.cuts_rim && view(list.fields.rim)[i]) return 0;
@@ -157,6 +164,7 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
   const std::int64_t n = list.nodes.size();
   resize(list.k, data.k ? n : 0);
   resize(list.k_u_surface, data.k_u_surface ? 3 * n : 0);
+  resize(list.k_gradient, data.k_gradient ? data.n_directions * n : 0);
   if (!data.k) return;
   parallel_for_ranges(n, nodes_per_block, n_threads.for_part(n, few_nodes), [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
@@ -164,6 +172,10 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
       if (data.k_u_surface)
         for (std::int64_t at = 3 * i; at < 3 * i + 3; ++at)
           view(list.k_u_surface)[at] = k * view(list.fields.velocity)[at];
+      if (!data.k_gradient) continue;
+      const double slope = slope_at(*resistance, k);
+      for (std::int64_t at = data.n_directions * i; at < data.n_directions * (i + 1); ++at)
+        view(list.k_gradient)[at] = slope * view(list.fields.distance_gradient)[at];
     }
   });
 }

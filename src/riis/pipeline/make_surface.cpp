@@ -66,10 +66,13 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
   // Turns triangles into the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
-  surface.is_of_valve({placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet()});
+  surface.is_of_valve(
+      {placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(), valve.is_warped()});
   if (motion)
     surface.moved_between(
         {std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
+  else
+    surface.is_of_patches(std::move(patches));
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);
     surface.measure_by(std::move(distance), difference);
@@ -85,6 +88,23 @@ SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &a
   const double seconds_triangles = stopwatch.lap();
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   return logged(surface, {seconds_triangles, stopwatch.lap()});
+}
+
+void add_direction(const ValveDirection &direction, int n_threads, Surface &surface) {
+  const ValveFrame &frame = *surface.frame();
+  const auto patches_of = [&](const Valve &state, const char *name) {
+    const StateNames names{name, "the surface's valve"};
+    state.check_is_state_of(*frame.kind, frame.is_warped, names);
+    PatchSet made = state.make_patches_unsearched(name);
+    check_same_build(*surface.patches(), made, names);
+    return made;
+  };
+  const PatchSet after = patches_of(direction.after, "valve_after");
+  std::optional<PatchSet> before;
+  if (&direction.before != &direction.after) before = patches_of(direction.before, "valve_before");
+  surface.add_direction(
+      {after, before ? *before : after, direction.placement_after, direction.placement_before, direction.step},
+      n_threads);
 }
 
 }  // namespace riis

@@ -39,6 +39,13 @@ struct ValveMotion {
   double seconds;  // the time from that state to the present one, not 0
 };
 
+// A direction in which a valve changes, by two near states (surface/vertex_rates.hpp).
+struct ValveDirection {
+  const Valve &after, &before;
+  Placement placement_after, placement_before;
+  double step;
+};
+
 struct SurfaceSeconds {
   double triangles, scene;
 };
@@ -51,5 +58,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);
+// Adds a direction to the surface of a valve. Fails with RIIS_INVALID_PARAMETER if a state has another build than that valve.
+void add_direction(const ValveDirection &direction, int n_threads, Surface &surface);
 
 }  // namespace riis

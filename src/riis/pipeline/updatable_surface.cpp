@@ -87,4 +87,9 @@ void UpdatableSurface::update_from_keyframes(const Keyframes &frames, double tim
   faces_.leaflet_id.clear();
 }
 
+void UpdatableSurface::add_direction(const ValveDirection &direction, std::int32_t n_threads) {
+  riis::add_direction(direction, threads_for(n_threads, surface_->triangles().n_triangles(), triangles_per_thread),
+                      *surface_);
+}
+
 }  // namespace riis

@@ -32,6 +32,9 @@ class UpdatableSurface {
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,
                              const SurfaceRequest &request);
 
+  // Adds a direction to the surface of a valve, until the next update.
+  void add_direction(const ValveDirection &direction, std::int32_t n_threads);
+
  private:
   SurfaceRequest with_threads(const SurfaceRequest &request) const;
   template <class Make>

@@ -435,18 +435,18 @@ ImageMotion::ImageMotion(const PatchImage &now, const PatchImage &before, const 
   difference_.offset = now_.offset - then.offset;
 }
 
-void check_same_build(const PatchSet &now, const PatchSet &before) {
+void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names) {
   if (now.patches.size() != before.patches.size())
-    fail(RIIS_INVALID_PARAMETER, "valve_before has ", before.patches.size(), " patches, valve has ", now.patches.size(),
-         ": they must be two states of one valve");
+    fail(RIIS_INVALID_PARAMETER, names.state, " has ", before.patches.size(), " patches, ", names.of, " has ",
+         now.patches.size(), ": they must be two states of one valve");
   for (std::size_t i = 0; i < now.patches.size(); ++i) {
     const auto &images = now.patches[i].images, &images_before = before.patches[i].images;
     const bool is_same = std::equal(
         images.begin(), images.end(), images_before.begin(), images_before.end(),
         [](const PatchImage &a, const PatchImage &b) { return a.mirror == b.mirror && a.patch_id == b.patch_id; });
     if (!is_same)
-      fail(RIIS_INVALID_PARAMETER, "patch ", i, " of valve_before is not patch ", i,
-           " of valve: they must be two states of one valve");
+      fail(RIIS_INVALID_PARAMETER, "patch ", i, " of ", names.state, " is not patch ", i, " of ", names.of,
+           ": they must be two states of one valve");
   }
 }
 

@@ -188,7 +188,7 @@ class ImageMotion {
 Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images
-// and kinds.
-void check_same_build(const PatchSet &now, const PatchSet &before);
+// and kinds. The message names the states.
+void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
 
 }  // namespace riis

@@ -15,15 +15,7 @@
 #include "surface/grids.hpp"
 
 namespace riis {
-namespace {
 
-// A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.
-constexpr int max_rounds = 24;
-
-// The largest number of parts between two lines that the bound on O uses.
-constexpr int most_parts = 8;
-
-// Returns the joints of a side in the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side) {
   Vector<double> joints = set.curve_of(side).joints();
   if (!side.reversed) return joints;
@@ -32,8 +24,7 @@ Vector<double> joints_of(const PatchSet &set, const Side &side) {
   return joints;
 }
 
-// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
-Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
+Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
   Vector<double> made = lines;
   if (from.empty() || from.size() != to.size()) return made;
   std::size_t k = 0;
@@ -45,6 +36,14 @@ Vector<double> moved(const Vector<double> &lines, const Vector<double> &from, co
   }
   return made;
 }
+
+namespace {
+
+// A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.
+constexpr int max_rounds = 24;
+
+// The largest number of parts between two lines that the bound on O uses.
+constexpr int most_parts = 8;
 
 // Errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
@@ -67,7 +66,7 @@ class PlannedArcs {
         patch_(patch),
         max_error_(max_error),
         is_strip_(patch.skirt_of_arcs != no_patch),
-        lines_(moved(plan.u, plan.joints, joints_of(set, is_strip_ ? patch.v1 : patch.v0))),
+        lines_(moved_with_joints(plan.u, plan.joints, joints_of(set, is_strip_ ? patch.v1 : patch.v0))),
         shares_(shares_for(plan.n_parts)),
         base_(set.curve_of(patch.v0), patch.v0.reversed, shares_),
         edge_(set.curve_of(patch.v1), patch.v1.reversed, shares_) {
@@ -98,7 +97,7 @@ class PlannedArcs {
     made.offsets.reserve(lines_.size());
     made.errors.reserve(errors.size());
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      made.u_lines.push_back({lines_[i], lines_[i], lines_[i]});
+      made.u_lines.push_back({lines_[i], lines_[i], lines_[i], true, true});
       made.offsets.push_back(offsets_[at_[i]]);
     }
     if (!is_strip_)
@@ -621,7 +620,9 @@ class PlannedGrids {
     // The strips of a skirt meet along straight lines, which have no vertices between their ends.
     const std::size_t n_rows = set_.patches[i].skirt_of_arcs == no_patch ? plan_.n_rows : 1;
     QuadGrid made = make_arc_grid(sides, lines, n_rows);
-    if (keeps_lines_) made.lines = lines_of_arc_grid(lines, made);
+    if (!keeps_lines_) return made;
+    made.lines = lines_of_arc_grid(lines, made);
+    made.lines.move_with_joints = !plan.joints.empty();
     return made;
   }
 

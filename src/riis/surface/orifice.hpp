@@ -22,12 +22,14 @@ namespace riis {
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The placement, the disc, the housing and the skirt of the valve that a surface was made from.
+// The placement, the disc, the housing, the skirt and the kind of the valve that a surface was made from.
 struct ValveFrame {
   Placement placement;
   Valve::Disc disc;      // before placement
   std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
   std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
+  const ValveKind *kind;
+  bool is_warped;
 
   // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
   Vec3 axis() const;

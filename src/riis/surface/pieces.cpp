@@ -292,12 +292,9 @@ Triangulation checked(const PatchSet &set, const Triangulation &asked) {
   return how;
 }
 
-void finish(const PatchSet &set, const Triangulation &how, Vector<LevelledGrid> grids, TriangleSet &triangles) {
+void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triangles) {
   triangles.rim_sides = rim_sides(set);
-  if (how.motion)
-    triangles.moved_grids = std::move(grids);
-  else
-    triangles.moved_grids.clear();
+  triangles.grids = std::move(grids);
 }
 
 void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where) {

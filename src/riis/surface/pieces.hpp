@@ -85,8 +85,8 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 // is too small, or if the earlier state has another build.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
-// Adds the rims of the patches. If the valve moves, also keeps the grids, which the bound of the velocities' errors needs.
-void finish(const PatchSet &set, const Triangulation &how, Vector<LevelledGrid> grids, TriangleSet &triangles);
+// Adds the rims of the patches. Also keeps the grids, for the bound of the velocities' errors and for directions.
+void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triangles);
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 

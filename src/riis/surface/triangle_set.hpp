@@ -41,11 +41,11 @@ struct TriangleSet {
   std::vector<std::int32_t> patch_id;     // (n_triangles)
   std::int64_t n_zero_area = 0;           // number of triangles that were left out
   double error_bound = 0;                 // bounds the distance to the smooth valve, placed; 0 for surfaces from arrays
-  Vector<std::uint8_t> rim_sides;    // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
-  Vector<VerticesOfPatch> patches;   // ascending by first vertex; empty for surfaces from arrays
-  std::uint64_t connectivity = 0;    // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
-  Grouping grouping;                 // empty if the triangles were made without groups
-  Vector<LevelledGrid> moved_grids;  // grids of triangles with velocities from patches
+  Vector<std::uint8_t> rim_sides;   // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
+  Vector<VerticesOfPatch> patches;  // ascending by first vertex; empty for surfaces from arrays
+  std::uint64_t connectivity = 0;   // number of the triangles' plan, or 0 (surface/triangulate_fixed.cpp)
+  Grouping grouping;                // empty if the triangles were made without groups
+  Vector<LevelledGrid> grids;       // the grids of the patches, with their lines; empty for surfaces from arrays
 
   // Empties the set and keeps its memory for the next triangles.
   void clear() {
@@ -55,7 +55,7 @@ struct TriangleSet {
     for (auto *ids : {&grouping.order, &grouping.end}) ids->clear();
     rim_sides.clear();
     patches.clear();
-    moved_grids.clear();
+    grids.clear();
     n_zero_area = 0;
     error_bound = 0;
     connectivity = 0;

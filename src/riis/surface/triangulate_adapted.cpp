@@ -82,7 +82,7 @@ void join(const Vector<Piece> &pieces, const Vector<Grouping> &groups, Grouping 
 
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
                                          const Vector<double> &tightness) {
-  Vector<QuadGrid> grids = make_grids(set, how.max_error, tightness, how.n_threads, how.motion != nullptr);
+  Vector<QuadGrid> grids = make_grids(set, how.max_error, tightness, how.n_threads, true);
   Vector<LevelledGrid> levelled(grids.size());
   parallel_for(view(grids).size(), how.n_threads,
                [&](std::int64_t i, int) { view(levelled)[i] = with_levels(std::move(view(grids)[i]), how.max_error); });
@@ -113,7 +113,7 @@ TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked,
     grids = make_levelled_grids(set, how, tightness);
     return make_triangles(set, how, grids, memory);
   });
-  finish(set, how, std::move(grids), memory);
+  finish(set, std::move(grids), memory);
   return memory;
 }
 

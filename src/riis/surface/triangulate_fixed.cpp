@@ -54,7 +54,7 @@ double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Place
 }
 
 Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how, const TriangulationPlan &plan) {
-  Vector<QuadGrid> grids = make_grids(set, plan.grids, plan.max_error, how.n_threads, how.motion != nullptr);
+  Vector<QuadGrid> grids = make_grids(set, plan.grids, plan.max_error, how.n_threads, true);
   Vector<LevelledGrid> levelled(grids.size());
   parallel_for(view(grids).size(), how.n_threads, [&](std::int64_t i, int) {
     view(levelled)[i] = with_planned_levels(std::move(view(grids)[i]), how.max_error, view(plan.levels)[i]);
@@ -132,7 +132,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_by_place(memory, 0, static_cast<std::int32_t>(memory.n_triangles()), memory.grouping);
   }
-  finish(set, how, std::move(grids), memory);  // not with `patches`: curves that `set` shares are no rims
+  finish(set, std::move(grids), memory);  // not with `patches`: curves that `set` shares are no rims
   return memory;
 }
 

@@ -132,6 +132,11 @@ struct NeighbourEnds {
   AttachedEnd before, after;
 };
 
+// The names of two states in a message: a state, and the state that it is compared with.
+struct StateNames {
+  const char *state, *of;
+};
+
 struct PatchSet {
   Vector<Curve> curves;
   Vector<Patch> patches;

@@ -362,18 +362,26 @@ PatchSet Valve::make_patches(FoldCheck check) const {
 }
 
 PatchSet Valve::make_patches_before(const Valve &before) const {
-  if (before.kind_ != kind_)
-    fail(RIIS_INVALID_PARAMETER, "valve_before is of the kind ", before.kind_->name, ", valve of the kind ",
-         kind_->name, ": they must be two states of one valve");
+  before.check_is_state_of(*kind_, warp_.has_value(), {"valve_before", "valve"});
   if (kind_->check_states) kind_->check_states(state_, before.state_, "valve_before");
-  if (warp_.has_value() != before.warp_.has_value())
-    fail(RIIS_INVALID_PARAMETER, "valve_before has ", before.warp_ ? "a" : "no", " warp, but valve has ",
-         warp_ ? "one" : "none", ": for a valve at rest, set a warp whose targets are its landmarks");
+  // The earlier state was once the valve's present state, and was searched for folds then. So the search is not repeated.
+  return before.make_patches_unsearched("valve_before");
+}
+
+void Valve::check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const {
+  if (kind_ != &kind)
+    fail(RIIS_INVALID_PARAMETER, names.state, " is of the kind ", kind_->name, ", ", names.of, " of the kind ",
+         kind.name, ": they must be two states of one valve");
+  if (warp_.has_value() != is_warped)
+    fail(RIIS_INVALID_PARAMETER, names.state, " has ", warp_ ? "a" : "no", " warp, but ", names.of, " has ",
+         is_warped ? "one" : "none", ": for a valve at rest, set a warp whose targets are its landmarks");
+}
+
+PatchSet Valve::make_patches_unsearched(const char *name) const {
   try {
-    // The earlier state was once the valve's present state, and was searched for folds then. So the search is not repeated.
-    return before.make_patches(FoldCheck::no);
+    return make_patches(FoldCheck::no);
   } catch (const Error &error) {
-    fail(error.status, "in valve_before: ", error.message.text());
+    fail(error.status, "in ", name, ": ", error.message.text());
   }
 }
 

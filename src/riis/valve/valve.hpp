@@ -154,6 +154,10 @@ class Valve {
   PatchSet make_patches() const;
   // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build.
   PatchSet make_patches_before(const Valve &before) const;
+  // Fails unless the valve may be a state of a valve of this kind, with or without a warp.
+  void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
+  // Makes the patches without a search for folds. A message of failure begins with the state's name.
+  PatchSet make_patches_unsearched(const char *name) const;
 
  private:
   // Returns the position of the one parameter of that name.
