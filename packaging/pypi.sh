@@ -42,10 +42,21 @@ expected=$(marks_in_python "$fresh/python")
 tests=$("$fresh/python" -m pytest --collect-only -q python/tests 2>/dev/null | tail -n 1 | sed 's/ collected.*//')
 row "wheel $(basename "$wheel" .whl)" yes "a fresh environment" "$tests, types, its own libraries" "$(size "$wheel")"
 
+# ./run packages debian leaves the marks of a program that used Debian's packages.
+for marks in out/packages/debian*/marks.txt; do
+  [[ -e $marks ]] || continue
+  "$fresh/python" -B tests/install/stranger/marks.py | cmp - "$marks" || {
+    echo "pypi.sh: the wheel marks other nodes than Debian's packages ($marks)" >&2
+    exit 1
+  }
+  say "the wheel marks the bits of $marks"
+done
+
 say "the source distribution"
 [[ -x $work/tools/bin/pyproject-build ]] || {
   logged tools-venv /usr/bin/python3 -m venv "$work/tools"
-  logged tools "$work/tools/bin/pip" install "build==$build_version" "fpm==$fpm_version" "py-rattler-build==$rattler_version" pyyaml
+  logged tools "$work/tools/bin/pip" install "build==$build_version" "fpm==$fpm_version" pyyaml \
+    "py-rattler-build==$rattler_version"
 }
 rm -rf "$work/sdist" "$work/from-sdist"
 logged sdist "$work/tools/bin/pyproject-build" --sdist --outdir "$work/sdist" .

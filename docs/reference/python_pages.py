@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# python_pages.py FOLDER: writes the reference of the installed Python package riis to the folder, by pdoc. Ends with an error if a
-# public name lacks a text. Exceptions, enumerations and records say in their one text what their members are.
+# python_pages.py FOLDER: writes the reference of the installed Python package riis to the folder, by pdoc. Ends with an error if
+# a public name lacks a text. Exceptions, enumerations and records say in their one text what their members are.
 import inspect
 import pathlib
 import sys

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """site.py FOLDER: makes one site of the pages of Doxygen, FORD and pdoc in the folder.
 
-The pages of FORD and pdoc, in fortran/ and python/, get a bar that leads to all parts. search.html searches all parts. It loads an
-index, site_index.js, so that it works without a server. An entry of the index is a part of a page that begins with a heading or a
-documented name: its title, its page's title, its address and its words.
+The pages of FORD and pdoc, in fortran/ and python/, get a bar that leads to all parts. search.html searches all parts. It loads
+an index, site_index.js, so that it works without a server. An entry of the index is a part of a page that begins with a heading
+or a documented name: its title, its page's title, its address and its words.
 """
 import html
 import html.parser
@@ -14,7 +14,8 @@ import sys
 
 PARTS = [("riis", "index.html"), ("C", "riis_8h.html"), ("C++", "riis_8hpp.html"), ("Fortran", "fortran/index.html"),
          ("Python", "python/riis.html"), ("Pages", "pages.html"), ("Figures", "figures.html"), ("Search", "search.html")]
-BAR = """<nav class="riis-bar" style="padding: 6px 12px; background: #364d7c; font: 15px sans-serif; position: relative; z-index: 2000">
+BAR = """<nav class="riis-bar" style="padding: 6px 12px; background: #364d7c; font: 15px sans-serif; position: relative;
+z-index: 2000">
 %s</nav>"""
 LINK = '<a style="color: white; margin-right: 1.1em; display: inline-block; text-decoration: none" href="%s">%s</a>'
 SILENT = {"script", "style", "nav", "head", "math", "form"}
@@ -151,8 +152,8 @@ def main(folder):
     for part in ("fortran/", "python/", "riis_8h"):
         if not any(entry[2].startswith(part) for entry in entries):
             sys.exit(f"site.py: nothing of {part} is in the index")
-    (folder / "site_index.js").write_text("const site_index = " + json.dumps(entries, ensure_ascii=False, separators=(",", ":")) + ";\n",
-                                          encoding="utf-8")
+    index = json.dumps(entries, ensure_ascii=False, separators=(",", ":"))
+    (folder / "site_index.js").write_text(f"const site_index = {index};\n", encoding="utf-8")
     (folder / "search.html").write_text(SEARCH % bar(0), encoding="utf-8")
     print(len(entries), "entries")
 

@@ -45,7 +45,8 @@ def faults(paper, bibliography, read):
 
 def judged():
     row = "| drop {} | {} | a.md | `{}` |\n"
-    table = "| quantity | value | document | command |\n|---|---|---|---|\n" + "".join(row.format(i, "1.5 ms", "run") for i in range(10))
+    table = "| quantity | value | document | command |\n|---|---|---|---|\n"
+    table += "".join(row.format(i, "1.5 ms", "run") for i in range(10))
     texts = {"a.md": "| drop | 1.5 ms |", "b.md": "| drop | 11.5 ms, 1.51 ms |"}
     good = table + "[@a2020]"
     assert not list(faults(good, "@misc{a2020,\n", texts.get))
@@ -61,7 +62,7 @@ def judged():
 judged()
 if len(sys.argv) > 1:
     root = pathlib.Path(sys.argv[1])
-    found = list(faults((root / "paper/paper.md").read_text(encoding="utf-8"), (root / "paper/paper.bib").read_text(encoding="utf-8"),
-                        lambda name: (root / name).read_text(encoding="utf-8")))
+    paper, bibliography = ((root / "paper" / name).read_text(encoding="utf-8") for name in ("paper.md", "paper.bib"))
+    found = list(faults(paper, bibliography, lambda name: (root / name).read_text(encoding="utf-8")))
     if found:
         sys.exit("\n".join(found))

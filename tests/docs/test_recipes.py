@@ -27,8 +27,8 @@ def text_of(name):
 
 
 def version():
-    numbers = [re.search(rf"RIIS_VERSION_{part} (\d+)", text_of("include/riis/riis.h"))[1] for part in ("MAJOR", "MINOR", "PATCH")]
-    return ".".join(numbers)
+    header = text_of("include/riis/riis.h")
+    return ".".join(re.search(rf"RIIS_VERSION_{part} (\d+)", header)[1] for part in ("MAJOR", "MINOR", "PATCH"))
 
 
 def cmake_options():
@@ -99,7 +99,8 @@ class Recipes(unittest.TestCase):
         directives = {}
         for node in recipe.body:
             if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
-                directives.setdefault(node.value.func.id, []).append(ast.literal_eval(node.value.args[0]) if node.value.args else None)
+                first = ast.literal_eval(node.value.args[0]) if node.value.args else None
+                directives.setdefault(node.value.func.id, []).append(first)
         self.assertEqual(directives["version"], [version()])
         passed = re.findall(r'self\.define(?:_from_variant)?\("(\w+)"', text)
         self.assertLessEqual(set(passed), cmake_options())
@@ -119,8 +120,9 @@ class Recipes(unittest.TestCase):
         self.assertEqual(manifest["build"]["link"], ["riis"])
         # fpm compiles all sources below its folder. CMake must compile the same.
         folder = ROOT / manifest["library"]["source-dir"]
-        ours = set(re.findall(r"[\w/]+\.f90", text_of("fortran/CMakeLists.txt").partition("add_library(riis_fortran")[2].partition(")")[0]))
-        self.assertEqual({str(file.relative_to(folder)) for file in folder.rglob("*.f90")}, ours)
+        library = text_of("fortran/CMakeLists.txt").partition("add_library(riis_fortran")[2].partition(")")[0]
+        sources = {str(file.relative_to(folder)) for file in folder.rglob("*.f90")}
+        self.assertEqual(sources, set(re.findall(r"[\w/]+\.f90", library)))
         for program in manifest["executable"]:
             self.assertTrue((ROOT / program["source-dir"] / program["main"]).is_file())
 
