@@ -29,7 +29,7 @@ class Entries(html.parser.HTMLParser):
         super().__init__()
         self.title, self.place = "", ""
         self.parts = [["", "", []]]  # each with its place, its heading and its text
-        self.silent, self.heading, self.in_title = [], None, False
+        self.silent, self.heading, self.in_title = [], None, False  # silent: the open tags of the kind that began a silent part
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -37,20 +37,25 @@ class Entries(html.parser.HTMLParser):
             return
         attributes = dict(attributes)
         self.in_title = tag == "title"
-        if self.silent or tag in SILENT or attributes.get("id") in ("side-nav", "nav-path", "MSearchSelectWindow", "main-nav"):
+        if self.silent:
+            self.silent += [tag] * (tag == self.silent[0])
+            return
+        if tag in SILENT or attributes.get("id") in ("side-nav", "nav-path", "MSearchSelectWindow", "main-nav"):
             self.silent.append(tag)
             return
         place = attributes.get("id") or (attributes.get("name") if tag == "a" else None)
         self.place = place or self.place
-        if tag in ("h1", "h2", "h3", "h4") or (tag == "section" and place):
-            self.heading = tag
+        # pdoc describes a class or a function in a section, and a member in a division of the class "classattr".
+        member = place and (tag == "section" or attributes.get("class") == "classattr")
+        if tag in ("h1", "h2", "h3", "h4") or member:
+            self.heading = None if member else tag
             self.parts.append([place or self.place, "", []])
 
     def handle_endtag(self, tag):
         if tag == "title":
             self.in_title = False
         if self.silent:
-            if tag == self.silent[-1]:
+            if tag == self.silent[0]:
                 self.silent.pop()
         elif tag == self.heading:
             self.heading = None
@@ -60,7 +65,7 @@ class Entries(html.parser.HTMLParser):
             self.title += data
         elif not self.silent:
             part = self.parts[-1]
-            if self.heading and self.heading != "section":
+            if self.heading:
                 part[1] += data
             part[2].append(data)
 
@@ -68,10 +73,10 @@ class Entries(html.parser.HTMLParser):
 def entries_of(folder, page):
     name = page.relative_to(folder).as_posix()
     parsed = Entries(page.read_text(encoding="utf-8"))
-    title = re.sub(r"^riis: |( – | &ndash; ).*$", "", parsed.title.strip())
+    title = re.sub(r"^riis: |( – | &ndash; ).*$", "", parsed.title.strip()).replace(" API documentation", " in Python")
     for place, heading, words in parsed.parts:
         text = " ".join(" ".join(words).split())
-        heading = " ".join(heading.replace("\u25c6", "").split()) or place.split(".")[-1] or title
+        heading = " ".join(heading.replace("\u25c6", "").split()).removesuffix("()") or place.split(".")[-1] or title
         if len(text) > 3:
             yield [heading[:80], title, name + (f"#{place}" if place else ""), text[:4000]]
 
@@ -142,12 +147,14 @@ def main(folder):
         if page.name == "search.html" and not depth:
             continue
         text = page.read_text(encoding="utf-8")
+        if 'http-equiv="refresh"' in text:
+            continue  # only leads to another page
         if depth:
             text, n = re.subn(r"(<body[^>]*>)", lambda found, depth=depth: found[1] + bar(depth), text, count=1)
             if n != 1:
                 sys.exit(f"site.py: {page} has no body")
             page.write_text(text, encoding="utf-8")
-        if not re.search(r"^(globals|functions|namespacemembers)|-members\.html$|^dir_", page.name):
+        if page.parent.name != "search" and not re.search(r"^(globals|functions|namespacemembers)|-members\.html$|^dir_", page.name):
             entries += entries_of(folder, page)
     for part in ("fortran/", "python/", "riis_8h"):
         if not any(entry[2].startswith(part) for entry in entries):
