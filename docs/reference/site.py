@@ -14,11 +14,11 @@ import sys
 
 PARTS = [("riis", "index.html"), ("C", "riis_8h.html"), ("C++", "riis_8hpp.html"), ("Fortran", "fortran/index.html"),
          ("Python", "python/riis.html"), ("Pages", "pages.html"), ("Figures", "figures.html"), ("Search", "search.html")]
-BAR = """<nav class="riis-bar" style="padding: 6px 12px; background: #364d7c; font: 15px sans-serif; position: relative;
-z-index: 2000">
-%s</nav>"""
+BAR = """<div class="riis-bar" style="padding: 6px 12px; background: #364d7c; font: 15px sans-serif">
+%s</div>"""
 LINK = '<a style="color: white; margin-right: 1.1em; display: inline-block; text-decoration: none" href="%s">%s</a>'
 SILENT = {"script", "style", "nav", "head", "math", "form"}
+SILENT_PLACES = {"side-nav", "nav-path", "main-nav", "MSearchSelectWindow"}
 VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"}
 
 
@@ -40,7 +40,7 @@ class Entries(html.parser.HTMLParser):
         if self.silent:
             self.silent += [tag] * (tag == self.silent[0])
             return
-        if tag in SILENT or attributes.get("id") in ("side-nav", "nav-path", "MSearchSelectWindow", "main-nav"):
+        if tag in SILENT or attributes.get("class") == "riis-bar" or attributes.get("id") in SILENT_PLACES:
             self.silent.append(tag)
             return
         place = attributes.get("id") or (attributes.get("name") if tag == "a" else None)
@@ -149,8 +149,10 @@ def main(folder):
         text = page.read_text(encoding="utf-8")
         if 'http-equiv="refresh"' in text:
             continue  # only leads to another page
-        if depth:
-            text, n = re.subn(r"(<body[^>]*>)", lambda found, depth=depth: found[1] + bar(depth), text, count=1)
+        if depth and 'class="riis-bar"' not in text:
+            # pdoc lays out its body in columns, so there the bar is the head of the main column.
+            start = r'(<main class="pdoc">)' if '<main class="pdoc">' in text else r"(<body[^>]*>)"
+            text, n = re.subn(start, lambda found, depth=depth: found[1] + bar(depth), text, count=1)
             if n != 1:
                 sys.exit(f"site.py: {page} has no body")
             page.write_text(text, encoding="utf-8")
