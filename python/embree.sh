@@ -53,8 +53,8 @@ build() {
   options=(-D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$prefix" -D CMAKE_INSTALL_LIBDIR=lib
     -D CMAKE_POSITION_INDEPENDENT_CODE=ON -D EMBREE_STATIC_LIB=ON -D EMBREE_ISPC_SUPPORT=OFF -D EMBREE_TUTORIALS=OFF
     -D EMBREE_SYCL_SUPPORT=OFF -D EMBREE_TASKING_SYSTEM=TBB
-    # For processors without AVX2 there is the baseline. AVX-512 adds nothing to point queries, which Embree does 8 wide.
-    -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_SSE42=OFF -D EMBREE_ISA_AVX=OFF -D EMBREE_ISA_AVX2=ON
+    # The baseline of x86-64 alone. Wider sets would double the size. riis itself searches most meshes, with AVX2 or AVX-512.
+    -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_SSE42=OFF -D EMBREE_ISA_AVX=OFF -D EMBREE_ISA_AVX2=OFF
     -D EMBREE_ISA_AVX512=OFF
     -D EMBREE_GEOMETRY_USER=ON -D EMBREE_RAY_PACKETS=OFF -D EMBREE_RAY_MASK=OFF -D EMBREE_FILTER_FUNCTION=OFF)
   for kind in TRIANGLE QUAD CURVE SUBDIVISION INSTANCE INSTANCE_ARRAY GRID POINT; do
@@ -63,6 +63,8 @@ build() {
   rm -rf "$prefix"
   # A static Embree would install the targets of a TBB that it built itself. Here TBB is installed already.
   : >"$source/common/cmake/installTBB.cmake"
+  # Debian's sources lack the manual, which the installation copies.
+  [[ -e $source/readme.pdf ]] || : >"$source/readme.pdf"
   # Without curves nothing refers to these files, which would take most of the time.
   sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \

@@ -36,11 +36,12 @@ python_embree() {
     echo "$version" >"$prefix/version"
 }
 
-# python_embree_setting: prints the option that makes pip use this Embree.
-python_embree_setting() {
-  local config
-  config=$(echo "$PWD/$python_folder"/embree/lib/cmake/embree-*/embree-config.cmake)
-  echo "--config-settings=cmake.define.embree_DIR=$(dirname "$config")"
+# python_embree_settings: prints the options that make pip use this Embree. CMake first looks for another version, which makes it
+# forget embree_DIR, so it also needs the prefix.
+python_embree_settings() {
+  local prefix=$PWD/$python_folder/embree config
+  config=$(echo "$prefix"/lib/cmake/embree-*/embree-config.cmake)
+  printf -- '--config-settings=cmake.define.%s\n' "CMAKE_PREFIX_PATH=$prefix" "embree_DIR=$(dirname "$config")"
 }
 
 # python_build_folder: prints the folder in which CMake built the wheel. Its name is the wheel's tag (pyproject.toml).
@@ -52,10 +53,11 @@ python_build_folder() {
 
 # python_wheel: builds the wheel into build-python/built, together with the C program of the tests.
 python_wheel() {
-  local tools=$PWD/$python_folder/tools/bin
+  local tools=$PWD/$python_folder/tools/bin settings
+  mapfile -t settings < <(python_embree_settings)
   rm -rf "$python_folder/built" "$python_folder/repaired"
   PATH=$tools:$PATH "$tools/pip" wheel . --no-build-isolation --no-deps --verbose --wheel-dir "$python_folder/built" \
-    "$(python_embree_setting)" &&
+    "${settings[@]}" &&
     cmake --build "$(python_build_folder)" --target riis_python_c_marks
 }
 

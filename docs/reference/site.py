@@ -19,6 +19,7 @@ BAR = """<div class="riis-bar" style="padding: 6px 12px; background: #364d7c; fo
 LINK = '<a style="color: white; margin-right: 1.1em; display: inline-block; text-decoration: none" href="%s">%s</a>'
 SILENT = {"script", "style", "nav", "head", "math", "form"}
 SILENT_PLACES = {"side-nav", "nav-path", "main-nav", "MSearchSelectWindow"}
+LISTS = re.compile(r"^(globals|functions|namespacemembers)|-members\.html$|^dir_")  # pages that only repeat names
 VOID = {"area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"}
 
 
@@ -156,7 +157,7 @@ def main(folder):
             if n != 1:
                 sys.exit(f"site.py: {page} has no body")
             page.write_text(text, encoding="utf-8")
-        if page.parent.name != "search" and not re.search(r"^(globals|functions|namespacemembers)|-members\.html$|^dir_", page.name):
+        if page.parent.name != "search" and not LISTS.search(page.name):
             entries += entries_of(folder, page)
     for part in ("fortran/", "python/", "riis_8h"):
         if not any(entry[2].startswith(part) for entry in entries):

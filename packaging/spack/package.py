@@ -4,7 +4,19 @@
 
 from spack_repo.builtin.build_systems.cmake import CMakePackage
 
-from spack.package import *
+from spack.package import (
+    SkipTest,
+    cache_extra_test_sources,
+    conflicts,
+    depends_on,
+    license,
+    requires,
+    run_after,
+    variant,
+    version,
+    which,
+    working_dir,
+)
 
 
 class Riis(CMakePackage):
