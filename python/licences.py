@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""licences.py FOLDER MODULE: puts the licences of everything in a wheel into its metadata, as texts and as an expression.
+"""licences.py FOLDER MODULE [TEXTS]: puts the licences of everything in a wheel into its metadata, as texts and as an expression.
 
 FOLDER  the wheel, repaired by auditwheel and unpacked
 MODULE  the extension module before the repair; this module still loads the system's libraries, which the wheel contains as copies
+TEXTS   a folder with NAME.copyright for each library NAME that is linked into the module, as embree.sh leaves it for Embree, and
+        for each library of the wheel that no Debian package has
 
 Debian keeps the licence of each package in /usr/share/doc, and the texts that it refers to in /usr/share/common-licenses. The
 module itself contains parts of nanobind and of its robin_map. The Python that runs this script must have the nanobind that built
@@ -53,27 +55,35 @@ def texts_of_nanobind():
     return {"nanobind.copyright": files["LICENSE"].read_text(encoding="utf-8"), "robin_map.copyright": comment + "\n"}
 
 
-def main(folder, module):
+def main(folder, module, given=()):
     lines = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout.splitlines()
     found = {path.name: path for line in lines if "=> /" in line for path in [pathlib.Path(line.split()[2]).resolve()]}
     (metadata,) = folder.glob("*.dist-info/METADATA")
     licences = metadata.parent / "licenses"
     texts, libraries = {}, []
+    given = {file.stem: file for file in given}
     for bundled in sorted(folder.glob("riis.libs/*")):
         name = re.sub(r"-[0-9a-f]{8}(?=\.so)", "", bundled.name)  # auditwheel appends a part of the checksum
         library = found.get(name) or fail(f"{module} loads no {name}, which the wheel has as {bundled.name}")
         libraries.append(name)
+        stem = re.match("lib[a-z_+]+", name)[0]
+        if stem in given:
+            continue
         package = package_of(library)
         copyright_ = DOCUMENTS / package / "copyright"
         if not copyright_.is_file():
             fail(f"{copyright_} is missing, so the licence of {name} is unknown")
         texts[f"{package}.copyright"] = copyright_.read_text(encoding="utf-8")
         print(f"{bundled.name}: {copyright_}")
-        for text in re.findall(rf"{COMMON}/([A-Za-z0-9.+-]*[A-Za-z0-9])", texts[f"{package}.copyright"]):
-            if (COMMON / text).is_file():
-                texts[f"common-licenses/{text}"] = (COMMON / text).read_text(encoding="utf-8")
-    if not texts:
+    if not libraries:
         fail(f"{folder}/riis.libs has no library")
+    for name, text in given.items():
+        libraries.append(name)
+        texts[text.name] = text.read_text(encoding="utf-8")
+        print(f"{name}: {text}")
+    for name in re.findall(rf"{COMMON}/([A-Za-z0-9.+-]*[A-Za-z0-9])", "".join(texts.values())):
+        if (COMMON / name).is_file():
+            texts[f"common-licenses/{name}"] = (COMMON / name).read_text(encoding="utf-8")
     texts.update(texts_of_nanobind())
     for name, text in texts.items():
         (licences / name).parent.mkdir(parents=True, exist_ok=True)
@@ -85,6 +95,10 @@ def main(folder, module):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        raise SystemExit("usage: licences.py FOLDER MODULE")
-    main(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+    if len(sys.argv) not in (3, 4):
+        raise SystemExit("usage: licences.py FOLDER MODULE [TEXTS]")
+    folder, module, *given = map(pathlib.Path, sys.argv[1:])
+    files = [file for texts in given for file in sorted(texts.glob("*.copyright"))]
+    if given and not files:
+        fail(f"{given[0]} has no file NAME.copyright")
+    main(folder, module, files)

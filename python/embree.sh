@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER
+# embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
+#
+# riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
+# these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
+# instances of its own, no packets of rays, no filters and no ISPC. The marks are the same, because riis decides them in double
+# precision.
+set -euo pipefail
+
+give_up() {
+  echo "embree.sh: $*" >&2
+  exit 1
+}
+
+# source_lists FOLDER: writes apt's sources into the folder, as sources of source packages. Needs no root rights.
+source_lists() {
+  local file
+  mkdir -p "$1/lists/partial" "$1/parts"
+  for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list; do
+    [[ ! -r $file ]] || sed -n 's/^deb\(-src\)\? /deb-src /p' "$file" | sort -u >"$1/parts/$(basename "$file" .list).list"
+  done
+  for file in /etc/apt/sources.list.d/*.sources; do
+    [[ ! -r $file ]] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$1/parts/$(basename "$file")"
+  done
+}
+
+# fetch_source FOLDER: apt checks the signature of the distribution. The distribution's patches only concern its own package. The
+# package libembree-dev has the licences.
+fetch_source() {
+  local folder licences=/usr/share/doc/libembree-dev/copyright options package
+  folder=$(realpath -m -- "$1")
+  [[ -f $licences ]] || give_up "there is no $licences: install libembree-dev"
+  rm -rf "$folder" "$folder.part"
+  source_lists "$folder.part"
+  options=(-o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder.part/parts"
+    -o "Dir::State::Lists=$folder.part/lists" -o "Dir::Cache=$folder.part" -o APT::Sandbox::User=root)
+  # Other sources than the distribution's may have no source packages. The next commands tell whether one has Embree's.
+  apt-get "${options[@]}" -q update || true
+  package=$(dpkg-query -W -f='${source:Package}=${source:Version}' libembree-dev)
+  (cd "$folder.part" && apt-get "${options[@]}" -q --download-only --tar-only source "$package")
+  mkdir "$folder"
+  tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder"
+  cp "$licences" "$folder/copyright"
+  rm -rf "$folder.part"
+}
+
+build() {
+  local source=$1 prefix options kind
+  prefix=$(realpath -m -- "$2")
+  [[ -f $source/CMakeLists.txt ]] || give_up "$source is not a folder with Embree's sources"
+  options=(-D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$prefix" -D CMAKE_INSTALL_LIBDIR=lib
+    -D CMAKE_POSITION_INDEPENDENT_CODE=ON -D EMBREE_STATIC_LIB=ON -D EMBREE_ISPC_SUPPORT=OFF -D EMBREE_TUTORIALS=OFF
+    -D EMBREE_SYCL_SUPPORT=OFF -D EMBREE_TASKING_SYSTEM=TBB
+    # The baseline of x86-64 alone. Wider sets would double the size. riis itself searches most meshes, with AVX2 or AVX-512.
+    -D EMBREE_MAX_ISA=NONE -D EMBREE_ISA_SSE2=ON -D EMBREE_ISA_SSE42=OFF -D EMBREE_ISA_AVX=OFF -D EMBREE_ISA_AVX2=OFF
+    -D EMBREE_ISA_AVX512=OFF
+    -D EMBREE_GEOMETRY_USER=ON -D EMBREE_RAY_PACKETS=OFF -D EMBREE_RAY_MASK=OFF -D EMBREE_FILTER_FUNCTION=OFF)
+  for kind in TRIANGLE QUAD CURVE SUBDIVISION INSTANCE INSTANCE_ARRAY GRID POINT; do
+    options+=(-D "EMBREE_GEOMETRY_$kind=OFF")
+  done
+  rm -rf "$prefix"
+  # A static Embree would install the targets of a TBB that it built itself. Here TBB is installed already.
+  : >"$source/common/cmake/installTBB.cmake"
+  # Debian's sources lack the manual, which the installation copies.
+  [[ -e $source/readme.pdf ]] || : >"$source/readme.pdf"
+  # Without curves nothing refers to these files, which would take most of the time.
+  sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
+  cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
+    -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'
+  cmake --build "$prefix.build" --parallel
+  cmake --install "$prefix.build"
+  # The licences of everything in it, for the wheel.
+  mkdir -p "$prefix/licences"
+  cp "$source/copyright" "$prefix/licences/libembree.copyright"
+  rm -rf "$prefix.build"
+}
+
+case ${1:-}/$# in
+  source/2) fetch_source "$2" ;;
+  build/3) build "$2" "$3" ;;
+  *) give_up "usage: embree.sh source FOLDER, or embree.sh build SOURCE PREFIX" ;;
+esac
