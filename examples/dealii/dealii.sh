@@ -116,13 +116,13 @@ dealii_closed() {
 dealii_ranks() {
   local ranks
   for ranks; do
-    dealii_run "ranks-$ranks" "$ranks" beat Run/Steps=5 Run/Save\ after=3 || return
+    dealii_run "ranks-$ranks" "$ranks" beat Run/Steps=4 Run/Save\ after=2 || return
   done
 }
 
 dealii_restart() {
   local ranks
   for ranks in 2 1; do
-    dealii_run "restart-$ranks" "$ranks" beat Run/Steps=5 "Run/Restart from=$di_runs/ranks-2" || return
+    dealii_run "restart-$ranks" "$ranks" beat Run/Steps=4 "Run/Restart from=$di_runs/ranks-2" || return
   done
 }
