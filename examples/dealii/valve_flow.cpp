@@ -146,8 +146,8 @@ void Parameters::read(const std::vector<std::string> &files) {
 
 // The system is (A B^T; B 0). A good preconditioner is (A B^T; 0 -S) with the Schur complement S = B A^-1 B^T. Here A is
 // nearly diagonal: a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. B B^T is
-// a Laplacian of the pressure, so S is close to a Laplacian with the coefficient 1/(rho/dt + K). Where viscosity rules, S is close
-// to the pressure's mass matrix divided by the viscosity. The sum of both inverses serves (Cahouet, Chabard 1988).
+// a Laplacian of the pressure, so S is close to a Laplacian with the coefficient 1/(rho/dt + K). Where viscosity rules, S is
+// close to the pressure's mass matrix divided by the viscosity. The sum of both inverses serves (Cahouet, Chabard 1988).
 class Preconditioner {
  public:
   Preconditioner(const PETSc::BlockSparseMatrix &system, const PETSc::SparseMatrix &laplace,
