@@ -107,8 +107,8 @@ def beat(folder):
     for i in range(0, len(opening), 4):
         print(f"  {steps['time'][i]:.3f} s: opening {opening[i]:.3f}, drop {drop[i]:8.2f} Pa, flow {1e6 * flow[i]:8.3f} ml/s,"
               f" {int(steps['cells'][i])} cells, {int(steps['iterations'][i])} iterations")
-    print(f"  flow {1e6 * flow.min():.2f} to {1e6 * flow.max():.2f} ml/s; inflow and outflow differ by {balance:.1e} of the largest;"
-          f" the closed valve passes {100 * leak:.2f} %")
+    print(f"  flow {1e6 * flow.min():.2f} to {1e6 * flow.max():.2f} ml/s; inflow and outflow differ by {balance:.1e}"
+          f" of the largest; the closed valve passes {100 * leak:.2f} %")
     print(f"  eps/h {steps['eps_h'].min():.2f} to {steps['eps_h'].max():.2f}, {int(steps['cells'].min())} to"
           f" {int(steps['cells'].max())} cells, {int(steps['iterations'].min())} to {int(steps['iterations'].max())} iterations")
     require(balance < 1e-6, f"inflow and outflow are equal to 1e-6 of the largest flow, not {balance}")
@@ -121,7 +121,8 @@ def refined(folder, half_thickness):
     band = cells["K"] > 0
     size = cells["edge"][band]
     print(f"In the last step {band.sum()} of {len(band)} cells are in the band. Their edges are {1e3 * size.min():.2f} to"
-          f" {1e3 * size.max():.2f} mm, and {1e3 * cells['edge'].max():.2f} mm elsewhere; eps is {1e3 * float(half_thickness):g} mm.")
+          f" {1e3 * size.max():.2f} mm, and {1e3 * cells['edge'].max():.2f} mm elsewhere;"
+          f" eps is {1e3 * float(half_thickness):g} mm.")
     require(size.max() < 0.75 * cells["edge"].max(), "cells in the band are smaller than the largest cells")
 
 
@@ -148,7 +149,8 @@ def refusals(program, folder, *files):
         ("a plate with a round duct", closed, unknown.format("Duct", "Shape", "round"), "Valve/Kind"),
         ("a law without pressures", beats, unknown.format("Inlet", "Type", "speed"), "Valve/Law"),
         ("a valve outside the mesh", beats, unknown.format("Valve", "Position", 1), "step 1: no quadrature point"),
-        ("a folder that is not there", beats, unknown.format("Run", "Folder", "nowhere"), "Run/Folder: there is no folder 'nowhere'"),
+        ("a folder that is not there", beats, unknown.format("Run", "Folder", "nowhere"),
+         "Run/Folder: there is no folder 'nowhere'"),
         ("no saved state", beats, unknown.format("Run", "Restart from", "."), "Run/Restart from: there is no saved state"),
         ("too few iterations", closed, unknown.format("Run", "Iterations", 2), "Run/Iterations"),
     )
