@@ -238,6 +238,7 @@ class Marks(Files):
 
 class Drops(Files):
     FLOW = 4e-5  # m3/s; through 8 cm2, (R / eps) u is 50,000 Pa
+    share = None  # what the log expects, for nine tenths of the area
 
     def setUp(self):
         super().setUp()
@@ -253,6 +254,9 @@ class Drops(Files):
             self.table(case, "downstream", times, numpy.full(10, 5.0))
             self.table(case, "flow", times, numpy.full(10, self.FLOW))
         self.valve(self.folder / "closed")
+        share = self.share or self.drop["closed"][-1] / 5e4 * 0.9
+        self.write(self.folder / "closed/log.pimpleFoam", f"riis aorticValve: the closed valve has 0.00072 m2 in the mesh, and is"
+                   f" expected to drop {share} of (R / eps) u, u = flow / area\n")
         change()
         if words:
             self.stopped(words, check.drops, self.folder)
@@ -265,6 +269,10 @@ class Drops(Files):
         printed = self.printed(check.drops, self.folder)
         self.assertRegex(printed, r"closed valve, riis +40000\.0 +35900\.0 +36000\.0 +100\.00%")
         self.assertRegex(printed, r"u = flow / area +50000\.0 +50000\.0 +50000\.0 +138\.89%")
+
+    def test_another_expected_drop(self):
+        self.share = 0.67
+        self.refused("the log expects the measured drop to 3 %: 0.6700 and 0.6480")
 
     def test_20_percent_off(self):
         for factor, words in ((0.8, "36010.0 and 28800.0 Pa"), (1.2, "36010.0 and 43200.0 Pa")):
@@ -402,7 +410,8 @@ class Expected(Files):
 
     def setUp(self):
         super().setUp()
-        self.cases = [self.case(f"tetrahedra-{half}-1-20") for half in numpy.linspace(1, 2, 12)]
+        self.cases = [self.case(f"tetrahedra-{half}-1-20") for half in numpy.linspace(1, 2, 11)] + [self.case("cubes-2-1-20")]
+        self.restart(1.25, numpy.array([0, 7.25, 3]))
 
     def case(self, name, size=1, share=0.8, measured=(0.81, 1.01), duct="expected"):
         area = 0.008 ** 2 / numpy.cos(numpy.pi / 9 * (not name.endswith("-0")))
@@ -418,6 +427,19 @@ class Expected(Files):
             self.table(case, "inflow", times, [-6.4e-7] * 10)
             self.table(case, "pressure", times, [drop * 1e4 / 1.5e-3 * 6.4e-7 / area / check.RHO] * 10)
         return self.folder / f"{duct}-{name}-no"
+
+    def restart(self, factor, k):
+        first, again = check.cases_of_factor(self.cases[0])
+        for case, time, values in ((first, "0.01", numpy.array([0, 7.25, 3])), (again, "0.012", k)):
+            self.write(case / time / "K.aorticValve", text_of(values, True))
+            self.write(case / "constant/polyMesh/owner", f'FoamFile {{ note "nPoints: 9 nCells: {len(k)} nFaces: 9"; }}\n')
+        self.write(again / "log.pimpleFoam", f"riis aorticValve: K is multiplied by {factor}, as before\n")
+
+    def test_another_restart(self):
+        self.restart(1.26, numpy.array([0, 7.25, 3]))
+        self.stopped("keeps the factor 1.25 without a new estimate", check.expected, *self.cases)
+        self.restart(1.25, numpy.array([0, 7.25, 3.0000001]))
+        self.stopped("has the same bits", check.expected, *self.cases)
 
     def test_good_cases(self):
         printed = self.printed(check.expected, *self.cases)
@@ -508,6 +530,52 @@ class Table(Files):
         self.stopped("leaves at most the orifice", check.tables, *self.beats({"band_free_area": 4e-4 * self.opening}))
         forgotten = self.columns["forward_volume"] - self.columns["forward_volume"][99]
         self.stopped("has after the restart: forward volume", check.tables, *self.beats(again={"forward_volume": forgotten}))
+
+
+class Physiological(Table):
+    def setUp(self):
+        super().setUp()
+        self.times = 1e-3 * numpy.arange(1, 1401)
+        beat = (self.times - 5e-4) % 0.7
+        self.opening = numpy.interp(beat, [0.1, 0.14, 0.3, 0.33], [0, 1, 1, 0])
+        self.leak = 12000 * 1.8e-3 / 1e4 * 8e-4
+        self.q = numpy.where(self.opening > 0, 3e-4 * self.opening, -self.leak)
+        self.stored = 12000.0
+        for flow in self.q:
+            self.stored = (self.stored + 1e-3 / 1e-8 * flow) / (1 + 1e-3 / (1e-8 * 1.7e8))
+
+    def refused(self, words, back=5e-6, pressure=-12000.0):
+        case = self.folder / "physiological"
+        self.parts(case, [[0]])
+        self.log(case, self.times, self.opening, [100] * 1400)
+        log = (case / "log.pimpleFoam").read_text().replace("\nriis", "\nCourant Number mean: 0.1 max: 2.5\nriis")
+        (case / "log.pimpleFoam").write_text(log + "riis aorticValve: the closed valve has 0.0008 m2 in the mesh, and is expected"
+                                             " to drop 0.8 of (R / eps) u, u = flow / area. K is multiplied by 1.25\n")
+        self.write(case / "system/fvOptions", "aorticValve { resistance 1e4; halfThickness 1.8e-3; }\n")
+        self.table(case, "downstream", self.times, [12.0] * 1400)
+        for time, stored in (("0", 12000.0), ("1.4", self.stored)):
+            self.write(case / time / "p", f"distalResistance 1.7e8; compliance 1e-8; pressure {stored!r};")
+        ones = numpy.ones(1400)
+        self.written(case, "valve", {"opening": self.opening, "flow": self.q, "forward_volume": 6e-5 * ones,
+                                     "pressure_difference": numpy.where(self.opening > 0, 500, pressure),
+                                     "regurgitant_volume": back * ones, "speed_at_band": 2 * ones})
+        if words:
+            self.stopped(words, check.physiological, case)
+        else:
+            return self.printed(check.physiological, case)
+
+    def test_good_beats(self):
+        self.assertRegex(self.refused(None), r" 2 +0\.801 s +1\.03[01] s +300\.0 ml/s +60\.00 +5\.00 .* 1\.73 ml/s +1\.73 +2\.50"
+                                             r" +2\.00")
+
+    def test_bad_beats(self):
+        self.refused("in beat 1 less than a fifth flows back: 13.00 of 60.00 ml", back=1.3e-5)
+        self.refused("in beat 1 the valve closes against more than 85 mmHg: 82.5", pressure=-11000.0)
+        self.refused("in beat 1 the leak is the ideal one to 5 %: 1.728 and 1.872 ml/s", pressure=-13000.0)
+        self.stored *= 1.02
+        self.refused("the arteries have the pressure of the flow to 1 %")
+
+    test_a_good_table = test_bad_columns = None
 
 
 class Moving(Files):

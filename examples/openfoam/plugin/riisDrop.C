@@ -3,8 +3,9 @@
 //
 // A closed leaflet should drop (R / eps) u, with u = flow / area of the leaflets. The solver interpolates 1/A to faces, which
 // favours the cell with less resistance, so the drop differs. Here the solver's own equation of p is solved for the closed valve
-// at a pressure of 1 upstream and 0 downstream: laplacian(1/A, p) = 0 with A = 1/dt + K/rho, and the schemes of the case. The
-// flow from one side to the other gives the drop. The pressure is given at a distance from the band (endsOf). A contains neither convection nor viscosity, which are small beside K.
+// at a pressure of 1 upstream and 0 downstream: laplacian(1/A, p) = 0, with the schemes of the case. The flow from one side to
+// the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K / rho
+// without rho / dt. It contains neither convection nor viscosity, which are small beside K.
 #include "boundBox.H"
 #include "fvScalarMatrix.H"
 #include "fvmLaplacian.H"
@@ -21,6 +22,7 @@ namespace fv {
 
 namespace {
 
+constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band over the largest K
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
 void addOverRanks(scalarField &values) {
@@ -41,7 +43,7 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
     blocked[face] = band[owner[face]] || beyond;
   }
   // Each cell of the band becomes a region of its own. The other regions are open blood or pockets.
-  const regionSplit region(mesh, blocked, true);
+  const regionSplit region(mesh, blocked, List<labelPair>(), true);
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
 
@@ -178,8 +180,8 @@ bool hasScheme(const dictionary &schemes, const word &name) {
 scalar riisValve::conductance(const scalarField &K, const labelList &side, const boolList &isEnd) const {
   const word step = mesh_.time().timeName();
   volScalarField rAU(IOobject("(1|A(" + UName_ + "))", step, mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false),
-                     mesh_, dimensionedScalar("dt", dimTime, mesh_.time().deltaTValue()));
-  rAU.primitiveFieldRef() = 1 / (1 / mesh_.time().deltaTValue() + K / rho_.value());
+                     mesh_, dimensionedScalar(dimTime, Zero));
+  rAU.primitiveFieldRef() = rho_.value() / max(K, openShare * gMax(K));
   rAU.correctBoundaryConditions();
   // The field has the solver's name of p, so that the case's schemes for p apply. It is not registered.
   volScalarField p(IOobject(pName_, step, mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
@@ -260,7 +262,7 @@ void riisValve::estimateDrop() {
   arrays.K = K.data();
   check(riis_marks_add_resistance(marks, &resistance_, &arrays));
   const labelList side = sidesOf(mesh_, K, list);
-  if (!returnReduce(gMax(mag(scalarField(K))()) > 0 && findIndex(side, -1) >= 0, orOp<bool>())) {
+  if (!returnReduce(gMax(mag(scalarField(K))()) > 0 && side.found(-1), orOp<bool>())) {
     return without("blood passes the closed band in this mesh");
   }
   const boolList isEnd = endsOf(mesh_, K, side);

@@ -84,7 +84,7 @@ bool riisState::writeObject(IOstreamOption stream, const bool valid) const {
 
 riisValve::riisValve(const word &name, const word &modelType, const dictionary &dict, const fvMesh &mesh)
     : option(name, modelType, dict, mesh),
-      rho_("rho", dimDensity, coeffs_),
+      rho_("rho", dimDensity, 1),  // readAll reads it
       law_(Law::constant),
       constant_(0),
       factor_(1),

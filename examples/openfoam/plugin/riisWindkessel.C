@@ -6,7 +6,8 @@
 //
 // Q is the flow out of the domain through the patch, p_c the pressure of the compliance C, Rp and Rd the proximal and distal
 // resistances, and p_v the pressure behind them. p_c advances by backward Euler. Each pressure equation of a step uses the latest
-// Q, and begins with p_c of the last step.
+// Q, and begins with p_c of the last step. On faces through which blood flows back, p is the total pressure, because a static
+// pressure lets returning blood gain speed without bounds.
 #include "addToRunTimeSelectionTable.H"
 #include "fixedValueFvPatchFields.H"
 #include "riisValve.H"
@@ -16,7 +17,7 @@
 namespace Foam {
 
 class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
-  word phi_;
+  word phi_, U_;
   scalar rho_, proximal_, distal_, compliance_, venous_;
   scalar stored_, before_;  // p_c now and at the end of the last step, Pa
   label timeIndex_;
@@ -27,6 +28,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
   riisWindkesselFvPatchScalarField(const fvPatch &patch, const DimensionedField<scalar, volMesh> &field)
       : fixedValueFvPatchScalarField(patch, field),
         phi_("phi"),
+        U_("U"),
         rho_(1),
         proximal_(0),
         distal_(1),
@@ -40,6 +42,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
                                    const dictionary &dict)
       : fixedValueFvPatchScalarField(patch, field, dict, false),
         phi_(dict.getOrDefault<word>("phi", "phi")),
+        U_(dict.getOrDefault<word>("U", "U")),
         rho_(fv::positive(dict, "rho")),
         proximal_(fv::positive(dict, "proximalResistance")),
         distal_(fv::positive(dict, "distalResistance")),
@@ -48,7 +51,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
         stored_(dict.get<scalar>("pressure")),
         before_(stored_),
         timeIndex_(-1) {
-    fv::refuseOthers(dict, {"type", "patchType", "value", "phi", "rho", "proximalResistance", "distalResistance",
+    fv::refuseOthers(dict, {"type", "patchType", "value", "phi", "U", "rho", "proximalResistance", "distalResistance",
                             "compliance", "venousPressure", "pressure"});
     if (dict.found("value")) {
       fvPatchScalarField::operator=(scalarField("value", dict, patch.size()));
@@ -86,9 +89,11 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
       timeIndex_ = time.timeIndex();
       before_ = stored_;
     }
-    const scalar flow = gSum(patch().lookupPatchField<surfaceScalarField, scalar>(phi_)), dt = time.deltaTValue();
+    const scalarField &phi = patch().lookupPatchField<surfaceScalarField, scalar>(phi_);
+    const vectorField &U = patch().lookupPatchField<volVectorField, vector>(U_);
+    const scalar flow = gSum(phi), dt = time.deltaTValue();
     stored_ = (before_ + dt / compliance_ * (flow + venous_ / distal_)) / (1 + dt / (compliance_ * distal_));
-    operator==((stored_ + proximal_ * flow) / unit());
+    operator==((stored_ + proximal_ * flow - 0.5 * rho_ * neg(phi) * magSqr(U)) / unit());
     fixedValueFvPatchScalarField::updateCoeffs();
   }
 
@@ -97,6 +102,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
     fvPatchScalarField::write(os);
     const int digits = os.precision(17);
     os.writeEntryIfDifferent<word>("phi", "phi", phi_);
+    os.writeEntryIfDifferent<word>("U", "U", U_);
     os.writeEntry("rho", rho_);
     os.writeEntry("proximalResistance", proximal_);
     os.writeEntry("distalResistance", distal_);
@@ -112,6 +118,7 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
   scalar unit() const { return internalField().dimensions() == dimPressure ? 1 : rho_; }
   void copy(const riisWindkesselFvPatchScalarField &from) {
     phi_ = from.phi_;
+    U_ = from.U_;
     rho_ = from.rho_;
     proximal_ = from.proximal_;
     distal_ = from.distal_;
