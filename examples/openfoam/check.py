@@ -220,6 +220,14 @@ def expected(*cases):
     before, after = (foam.global_field(case, foam.times(case)[-1], K_NAME) for case in (first, again))
     require(before.max() > 0 and (before == after).all(), f"K of the restart {again} has the same bits")
     print(f"A restart keeps the factor {factor:g}, and K has the same bits.")
+    for ranks in (2, 4):
+        case = first.parent / f"factor-ranks-{ranks}"
+        require(len(foam.parts(case)) == ranks, f"{case} has {ranks} ranks")
+        other, k = estimate(case)[2], foam.global_field(case, foam.times(first)[-1], K_NAME)
+        require(((k > 0) == (before > 0)).all(), f"{case} has the marks of 1 rank")
+        worst = numpy.abs(k - before).max() / before.max()
+        print(f"  {ranks} ranks: factor {other:g}. K differs by {worst:.1e} of the largest.")
+        require(worst < 1e-3, f"{case} has the K of 1 rank to 1e-3 of the largest: {worst:.1e}")
 
 
 def cases_of_factor(case):

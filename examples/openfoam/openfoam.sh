@@ -308,9 +308,9 @@ of_duct() {
 }
 
 # Twelve closed leaflets, each without calibration and with it: meshes, half thicknesses in mm, time steps in ms, and degrees.
-# One of them restarts with its factor.
+# One of them restarts with its factor, and runs on 2 and 4 ranks.
 openfoam_expected() {
-  local mesh half_thickness step degrees calibrate
+  local mesh half_thickness step degrees calibrate ranks
   for mesh in cubes tetrahedra polyhedra; do openfoam_duct "$mesh" || return; done
   while read -r mesh half_thickness step degrees; do
     for calibrate in no yes; do of_duct "$mesh" "$half_thickness" "$step" "$degrees" "$calibrate" || return; done
@@ -329,7 +329,10 @@ polyhedra 2.5 1 0
 polyhedra 3 4 20
 END
   of_copy expected-cubes-2-1-20-yes factor-restart &&
-    of_set factor-restart system/controlDict startTime 0.01 endTime 0.012 writeInterval 2 && of_run factor-restart 1
+    of_set factor-restart system/controlDict startTime 0.01 endTime 0.012 writeInterval 2 && of_run factor-restart 1 || return
+  for ranks in 2 4; do
+    of_copy expected-cubes-2-1-20-yes "factor-ranks-$ranks" && of_run "factor-ranks-$ranks" "$ranks" || return
+  done
 }
 
 # openfoam_hexahedra N: makes a mesh of the root from cubes, in hexahedra-N. The edges of the cubes are 36 mm / N long. The cubes

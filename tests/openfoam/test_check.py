@@ -411,7 +411,7 @@ class Expected(Files):
     def setUp(self):
         super().setUp()
         self.cases = [self.case(f"tetrahedra-{half}-1-20") for half in numpy.linspace(1, 2, 11)] + [self.case("cubes-2-1-20")]
-        self.restart(1.25, numpy.array([0, 7.25, 3]))
+        self.restart(1.25, numpy.array([0, 7.25, 3, 0]))
 
     def case(self, name, size=1, share=0.8, measured=(0.81, 1.01), duct="expected"):
         area = 0.008 ** 2 / numpy.cos(numpy.pi / 9 * (not name.endswith("-0")))
@@ -430,15 +430,30 @@ class Expected(Files):
 
     def restart(self, factor, k):
         first, again = check.cases_of_factor(self.cases[0])
-        for case, time, values in ((first, "0.01", numpy.array([0, 7.25, 3])), (again, "0.012", k)):
+        for case, time, values in ((first, "0.01", numpy.array([0, 7.25, 3, 0])), (again, "0.012", k)):
             self.write(case / time / "K.aorticValve", text_of(values, True))
             self.write(case / "constant/polyMesh/owner", f'FoamFile {{ note "nPoints: 9 nCells: {len(k)} nFaces: 9"; }}\n')
         self.write(again / "log.pimpleFoam", f"riis aorticValve: K is multiplied by {factor}, as before\n")
+        self.ranks(numpy.array([0, 7.25, 3, 0]))
+
+    def ranks(self, k):
+        first = check.cases_of_factor(self.cases[0])[0]
+        for ranks, cells in ((2, [[0, 3], [1, 2]]), (4, [[0], [3], [1], [2]])):
+            case = first.parent / f"factor-ranks-{ranks}"
+            for folder, ids in zip(self.parts(case, cells), cells):
+                self.write(folder / "0.01/K.aorticValve", text_of(k[ids], True))
+            self.write(case / "log.pimpleFoam", (first / "log.pimpleFoam").read_text())
+
+    def test_other_ranks(self):
+        self.ranks(numpy.array([0, 7.26, 3, 0]))
+        self.stopped("factor-ranks-2 has the K of 1 rank to 1e-3 of the largest: 1.4e-03", check.expected, *self.cases)
+        self.ranks(numpy.array([1e-9, 7.25, 3, 0]))
+        self.stopped("factor-ranks-2 has the marks of 1 rank", check.expected, *self.cases)
 
     def test_another_restart(self):
-        self.restart(1.26, numpy.array([0, 7.25, 3]))
+        self.restart(1.26, numpy.array([0, 7.25, 3, 0]))
         self.stopped("keeps the factor 1.25 without a new estimate", check.expected, *self.cases)
-        self.restart(1.25, numpy.array([0, 7.25, 3.0000001]))
+        self.restart(1.25, numpy.array([0, 7.25, 3.0000001, 0]))
         self.stopped("has the same bits", check.expected, *self.cases)
 
     def test_good_cases(self):

@@ -125,8 +125,8 @@ boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side)
   return isEnd;
 }
 
-// Returns the area of the triangles' parts that lie in this rank's cells. A triangle across the border of the mesh is cut into
-// parts with edges of a sixteenth of the half thickness, and the middle of a part decides. The leaflet leftOut does not count.
+// Returns the area of the triangles' parts that lie in this rank's cells. Triangles are cut into parts with edges below an eighth
+// of the half thickness, and the middle of a part decides. So each part counts on one rank. The leaflet leftOut does not count.
 scalar areaInMesh(const polyMesh &mesh, const riis_triangles &triangles, scalar halfThickness, int32_t leftOut) {
   struct Part {
     point a, b, c;
@@ -152,11 +152,8 @@ scalar areaInMesh(const polyMesh &mesh, const riis_triangles &triangles, scalar 
       around.add(b);
       around.add(c);
       if (!around.overlaps(box)) continue;
-      const scalar longest = max(mag(b - a), max(mag(c - b), mag(a - c)));
-      const bool middle = longest < halfThickness && isInside((a + b + c) / 3);
-      if (longest < halfThickness / 16 ||
-          (longest < halfThickness && isInside(a) == middle && isInside(b) == middle && isInside(c) == middle)) {
-        if (middle) area += mag((b - a) ^ (c - a)) / 2;
+      if (max(mag(b - a), max(mag(c - b), mag(a - c))) < halfThickness / 8) {
+        if (isInside((a + b + c) / 3)) area += mag((b - a) ^ (c - a)) / 2;
         continue;
       }
       const point ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
