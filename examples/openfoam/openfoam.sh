@@ -280,7 +280,7 @@ END
     gmsh -3 -nt 1 -format msh22 -o "$folder/duct.msh" "$folder/duct.geo" && gmshToFoam -case "$folder" "$folder/duct.msh" &&
       sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" || return
     if [[ $1 == polyhedra ]]; then
-      polyDualMesh -case "$folder" -overwrite 75 && rm -f "$folder"/0/{pointLevel,cellLevel} || return
+      (cd "$folder" && polyDualMesh -overwrite 75) || return # it leaves pictures in the present folder
     fi
   fi
   checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" && touch "$folder/complete"
