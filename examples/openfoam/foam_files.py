@@ -16,8 +16,8 @@ def _bytes(path):
         raise SystemExit(f"{path}: {error.strerror}") from None
 
 
-def text(path):
-    return _bytes(path).decode()
+def text(path, coding="utf-8"):
+    return _bytes(path).decode(coding)
 
 
 def _number(word, place):

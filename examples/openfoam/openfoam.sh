@@ -50,6 +50,8 @@ openfoam() {
   step "moving valves, with riisSource and without it" openfoam_moving
   of_check moving "$of_cases" "$of_work"/riis/lib*/libriis.so.1 | tee "$of_out/moving.txt"
   if [[ ${1:-} != --short ]]; then
+    step "the expected drop and the calibrated drop of closed leaflets" openfoam_expected
+    of_check expected "$of_cases"/expected-*-no | tee "$of_out/expected.txt"
     step "a steady flow through the closed valve in four meshes" openfoam_sizes
     of_check sizes "$of_cases"/closed-0.* | tee "$of_out/sizes.txt"
   fi
@@ -58,6 +60,11 @@ openfoam() {
   of_check beat "$of_cases/beat" "$of_cases/beat-still" | tee "$of_out/beat.txt"
   step "a restart in mid-cycle, with the valve and without one" openfoam_restart
   of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/flow" "$of_cases/flow-restart" | tee "$of_out/restart.txt"
+  of_check tables "$of_cases/beat" "$of_cases/beat-restart" | tee "$of_out/tables.txt"
+  if [[ ${1:-} != --short ]]; then
+    step "two heartbeats at 90 mmHg" openfoam_physiological
+    of_check physiological "$of_cases/physiological" | tee "$of_out/physiological.txt"
+  fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
@@ -186,6 +193,9 @@ of_set() {
   done
 }
 
+# of_no_valve NAME: takes the valve and its table out of the case.
+of_no_valve() { rm "$of_cases/$1"/system/{fvOptions,valveTable}; }
+
 # of_run NAME RANKS: runs the case, with its output in log.pimpleFoam.
 of_run() {
   local parts=([1]='1 1 1' [2]='2 1 1' [4]='2 2 1')
@@ -240,10 +250,88 @@ openfoam_drops() {
   local model
   of_constant_flow closed 0 && of_run closed 1 &&
     of_constant_flow open 1 && of_run open 1 &&
-    of_constant_flow none 1 && rm "$of_cases/none/system/fvOptions" && of_run none 1 || return
+    of_constant_flow none 1 && of_no_valve none && of_run none 1 || return
   # OpenFOAM's own porosity acts in the same cells as K. Its coefficient in a cell differs from K by at most 1/400 of the largest.
   for model in powerLaw DarcyForchheimer; do
-    of_constant_flow "$model" 0 && of_check zones "$of_cases/closed" "$of_cases/$model" "$model" && of_run "$model" 1 || return
+    of_constant_flow "$model" 0 && rm "$of_cases/$model/system/valveTable" &&
+      of_check zones "$of_cases/closed" "$of_cases/$model" "$model" && of_run "$model" 1 || return
+  done
+}
+
+# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm: cubes of 1 mm, tetrahedra, or the polyhedra that are dual to them.
+openfoam_duct() {
+  local folder=$of_work/duct-$1
+  [[ ! -e $folder/complete ]] || return 0
+  rm -rf "$folder"
+  cp -r "$openfoam_here/case" "$folder" || return
+  if [[ $1 == cubes ]]; then
+    of_block "$folder" "-0.004 -0.004 -0.012" "0.004 0.004 0.012" "8 8 24" && blockMesh -case "$folder" || return
+  else
+    cat >"$folder/duct.geo" <<'END'
+Mesh.MeshSizeMin = 0.0012; Mesh.MeshSizeMax = 0.0012;
+Point(1) = {-0.004, -0.004, -0.012}; Point(2) = {0.004, -0.004, -0.012};
+Point(3) = {0.004, 0.004, -0.012}; Point(4) = {-0.004, 0.004, -0.012};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+out[] = Extrude {0, 0, 0.024} { Surface{1}; };
+Physical Surface("inlet") = {1}; Physical Surface("outlet") = {out[0]};
+Physical Surface("wall") = {out[2], out[3], out[4], out[5]}; Physical Volume("blood") = {out[1]};
+END
+    gmsh -3 -nt 1 -format msh22 -o "$folder/duct.msh" "$folder/duct.geo" && gmshToFoam -case "$folder" "$folder/duct.msh" &&
+      sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" || return
+    if [[ $1 == polyhedra ]]; then
+      (cd "$folder" && polyDualMesh -overwrite 75) || return # it leaves pictures in the present folder
+    fi
+  fi
+  checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" && touch "$folder/complete"
+}
+
+# of_duct MESH HALF_THICKNESS_MM TIME_STEP_MS DEGREES CALIBRATE: runs ten steps of a flow of 0.01 m/s through a closed flat
+# leaflet in the duct. The leaflet leans by DEGREES.
+# shellcheck disable=SC2016 # a macro of OpenFOAM
+of_duct() {
+  local name=expected-$1-$2-$3-$4-$5 step dict=system/fvOptions
+  step=$(awk -v ms="$3" 'BEGIN { printf "%g", ms / 1000 }')
+  of_moving "$name" "duct-$1" "$(awk -v mm="$2" 'BEGIN { printf "%.17g", mm / 1000 }')" PCG 0 || return
+  of_set "$name" "$dict" aorticValve/valve '{ kind bileaflet; closed_angle 0; open_angle 1; }' aorticValve/velocity no \
+    aorticValve/opening '{ law constant; opening 0; }' aorticValve/placement "{ scale 0.1; rotationAxis (1 0 0);
+      rotationAngle $4; translation ($(awk -v degrees="$4" 'BEGIN { a = degrees * atan2(0, -1) / 180;
+      printf "-0.07 %.17g %.17g", -0.03 * cos(a), 0.0003 - 0.03 * sin(a) }')); }" &&
+    foamDictionary "$of_cases/$name/$dict" -entry aorticValve/calibrate -add "$5" >/dev/null &&
+    of_set "$name" 0/U boundaryField '{ inlet { type fixedValue; value uniform (0 0 0.01); } outlet { type zeroGradient; }
+      wall { type slip; } }' &&
+    of_set "$name" 0/p boundaryField '{ outlet { type fixedValue; value uniform 0; } ".*" { type zeroGradient; } }' &&
+    of_set "$name" system/controlDict deltaT "$step" endTime "$(awk -v step="$step" 'BEGIN { print 10 * step }')" \
+      writeInterval 10 &&
+    of_sum "$name" inflow inlet &&
+    echo 'pressure { $inflow; operation areaAverage; fields (p); }' >>"$of_cases/$name/system/functions" && of_run "$name" 1
+}
+
+# Twelve closed leaflets, each without calibration and with it: meshes, half thicknesses in mm, time steps in ms, and degrees.
+# One of them restarts with its factor, and runs on 2 and 4 ranks.
+openfoam_expected() {
+  local mesh half_thickness step degrees calibrate ranks
+  for mesh in cubes tetrahedra polyhedra; do openfoam_duct "$mesh" || return; done
+  while read -r mesh half_thickness step degrees; do
+    for calibrate in no yes; do of_duct "$mesh" "$half_thickness" "$step" "$degrees" "$calibrate" || return; done
+  done <<'END'
+cubes 1.5 1 0
+cubes 2 4 0
+cubes 2.5 1 0
+cubes 4 4 0
+cubes 2 1 20
+cubes 3 4 20
+tetrahedra 1.2 1 0
+tetrahedra 1.6 4 0
+tetrahedra 2.2 1 20
+polyhedra 2 4 0
+polyhedra 2.5 1 0
+polyhedra 3 4 20
+END
+  of_copy expected-cubes-2-1-20-yes factor-restart &&
+    of_set factor-restart system/controlDict startTime 0.01 endTime 0.012 writeInterval 2 && of_run factor-restart 1 || return
+  for ranks in 2 4; do
+    of_copy expected-cubes-2-1-20-yes "factor-ranks-$ranks" && of_run "factor-ranks-$ranks" "$ranks" || return
   done
 }
 
@@ -302,7 +390,7 @@ of_moving() {
   rm -rf "${of_cases:?}/$name"
   cp -r "$openfoam_here/case" "$of_cases/$name" &&
     cp -r "$of_work/$2/constant/polyMesh" "$of_cases/$name/constant" &&
-    rm "$of_cases/$name/system/functions" &&
+    rm "$of_cases/$name/system/functions" "$of_cases/$name/system/valveTable" &&
     of_set "$name" system/fvOptions aorticValve/halfThickness "$3" aorticValve/resistance 1e4 aorticValve/writeLeaflets no \
       aorticValve/opening "{ law times; openingStart 0; openingSeconds 0.04; closingStart 1; closingSeconds 0.04; closed $5; }" &&
     of_set "$name" 0/p boundaryField '{ "inlet|outlet" { type fixedValue; value uniform 0; } wall { type zeroGradient; } }' &&
@@ -333,7 +421,7 @@ of_twice() {
 # of_plate NAME CELLS SOLVER: runs a plate that moves in a duct of 10 mm. The plate is a small part of a leaflet of 1.1 m. The
 # leaflet turns by one degree about a hinge that is 48 cm away.
 of_plate() {
-  of_moving "$1" "hexahedra-24" "$(awk -v n="$2" 'BEGIN { print 0.015 / n }')" "$3" 0 &&
+  of_moving "$1" "hexahedra-28" "$(awk -v n="$2" 'BEGIN { print 0.015 / n }')" "$3" 0 &&
     of_set "$1" system/fvOptions aorticValve/valve '{ kind bileaflet; closed_angle 0; open_angle 1; }' \
       aorticValve/placement '{ scale 1; }' &&
     of_block "$of_cases/$1" "0.695 0.295 -0.01" "0.705 0.305 0.02" "$2 $2 $((3 * $2))" &&
@@ -369,7 +457,7 @@ of_band() { awk -v n="$1" 'BEGIN { printf "%.17g", 1.5 * 0.036 / n }'; }
 
 openfoam_moving() {
   local n solver
-  for n in 24 32; do
+  for n in 28 32; do
     openfoam_hexahedra "$n" || return
     for solver in PCG riisSource; do
       of_moving "hexahedra-$n-$solver" "hexahedra-$n" "$(of_band "$n")" "$solver" 0 &&
@@ -384,16 +472,16 @@ openfoam_moving() {
       of_plate "plate-10-$solver" 10 "$solver" && of_plate "plate-20-$solver" 20 "$solver" || return
   done
   for n in 2 4; do
-    of_moving "ranks-$n" hexahedra-24 "$(of_band 24)" riisSource 0 && of_run "ranks-$n" "$n" &&
+    of_moving "ranks-$n" hexahedra-28 "$(of_band 28)" riisSource 0 && of_run "ranks-$n" "$n" &&
       of_moving "tetrahedra-ranks-$n" "mesh-$of_size" "$of_half_thickness" riisSource 0 &&
       of_run "tetrahedra-ranks-$n" "$n" || return
   done
-  of_moving two-valves hexahedra-24 "$(of_band 24)" riisSource 0 && of_twice two-valves && of_run two-valves 1 &&
-    of_moving pisoFoam hexahedra-24 "$(of_band 24)" riisSource 0 &&
+  of_moving two-valves hexahedra-28 "$(of_band 28)" riisSource 0 && of_twice two-valves && of_run two-valves 1 &&
+    of_moving pisoFoam hexahedra-28 "$(of_band 28)" riisSource 0 &&
     sed -i 's/^PIMPLE/PISO/' "$of_cases/pisoFoam/system/fvSolution" &&
     of_logged pisoFoam pisoFoam timeout 3600 "${of_with[@]}" pisoFoam -case "$of_cases/pisoFoam" || return
   for solver in PCG riisSource; do
-    of_moving "rest-$solver" hexahedra-24 "$(of_band 24)" "$solver" 0 &&
+    of_moving "rest-$solver" hexahedra-28 "$(of_band 28)" "$solver" 0 &&
       of_set "rest-$solver" system/fvOptions aorticValve/opening '{ law constant; opening 0.5; }' &&
       of_set "rest-$solver" 0/p boundaryField/inlet '{ type fixedValue; value uniform 0.5; }' boundaryField/outlet \
         '{ type fixedValue; value uniform 0; }' &&
@@ -409,11 +497,20 @@ openfoam_sizes() {
   done
 }
 
-# openfoam_beat NAME VELOCITY: runs a heartbeat. VELOCITY is the value of the key velocity.
+# openfoam_beat NAME VELOCITY: runs a heartbeat. VELOCITY is the value of the key velocity. A second table has its moments about
+# another point.
+# shellcheck disable=SC2016 # a macro of OpenFOAM
 openfoam_beat() {
   of_case "$1" &&
+    echo 'shifted { $valve; about (0.01 0.02 0.03); }' >>"$of_cases/$1/system/valveTable" &&
     of_set "$1" system/controlDict deltaT "$of_time_step" writeControl runTime writeInterval 0.02 &&
     of_set "$1" system/fvOptions aorticValve/velocity "$2" && of_run "$1" 2
+}
+
+# Runs the heartbeats at 90 mmHg, in the mesh of --short.
+openfoam_physiological() {
+  openfoam_mesh 0.25 && of_case physiological 0.25 &&
+    cp -r "$openfoam_here"/physiological/. "$of_cases/physiological" && of_run physiological 1
 }
 
 # Restarts the heartbeat while the valve closes, and writes two later times. For comparison, a flow without a valve continues from
@@ -421,7 +518,7 @@ openfoam_beat() {
 openfoam_restart() {
   local before=0.16 time=0.2 end=0.24
   of_copy beat beat-restart && of_go_on beat-restart "$time" "$end" &&
-    of_copy beat flow && rm "$of_cases/flow/system/fvOptions" && of_go_on flow "$before" "$end" &&
+    of_copy beat flow && of_no_valve flow && of_go_on flow "$before" "$end" &&
     of_copy flow flow-restart && of_go_on flow-restart "$time" "$end"
 }
 
@@ -477,6 +574,13 @@ of_height() {
     grep -q "leaflet_height $2;" "$of_cases/$1/system/fvOptions"
 }
 
+# of_arteries NAME ENTRIES: makes a case with arteries at the outlet, to which ENTRIES gives bad input.
+of_arteries() {
+  of_bad "$1" && of_set "$1" system/controlDict libs '("libriisFvOption.so")' &&
+    of_set "$1" 0/p boundaryField/outlet \
+      "{ type riisWindkessel; rho 1060; proximalResistance 7e6; distalResistance 1e8; pressure 1e4; $2 }"
+}
+
 openfoam_refusals() {
   local dict=system/fvOptions
   of_bad unknown-valve && of_set unknown-valve "$dict" aorticValve/valve/kind tricuspid &&
@@ -497,13 +601,42 @@ openfoam_refusals() {
     of_refused "a half thickness of 0" no-half-thickness 'options.half_thickness is 0; it must be' &&
     of_bad outside && of_set outside "$dict" aorticValve/placement '{ scale 0.01; translation (0 0 1); }' &&
     of_refused "a valve outside the mesh" outside 'at time 0.001: no cell centre lies within the half thickness' &&
+    of_bad mode && of_set mode "$dict" aorticValve/selectionMode cellZone &&
+    of_refused "another selectionMode" mode "selectionMode is 'cellZone', and must be all" &&
+    of_bad fields && of_set fields "$dict" aorticValve/fields '(p)' &&
+    of_refused "the field p" fields 'and must be (U), the velocity' &&
+    of_bad beside &&
+    foamDictionary "$of_cases/beside/$dict" -entry aorticValve/riisValveCoeffs -add '{ rim round; }' >/dev/null &&
+    of_refused "keys beside the coefficients" beside "unknown key 'rho'" &&
+    of_bad forward && of_set forward "$dict" aorticValve/opening/forward sideways &&
+    of_refused "an unknown direction" forward "forward is 'sideways', and must be out or in" &&
+    of_bad thin && of_set thin "$dict" aorticValve/halfThickness 2e-4 aorticValve/calibrate yes &&
+    of_refused "calibration of a band with holes" thin 'calibrate is yes, but blood passes the closed band in this mesh' &&
+    of_bad free && of_set free "$dict" aorticValve/resistance 0 aorticValve/calibrate yes &&
+    of_refused "calibration without resistance" free 'calibrate is yes, but resistance is 0' &&
+    of_bad other-valve && of_set other-valve system/valveTable valve/valve mitralValve &&
+    of_refused "a table of an unknown valve" other-valve "valve is 'mitralValve', and fvOptions has no such riisValve" &&
+    of_bad table-key && of_set table-key system/valveTable valve/upstrem '{ }' &&
+    of_refused "an unknown key of the table" table-key "unknown key 'upstrem'" &&
+    of_bad no-flow && sed -i '/flowPatch/d' "$of_cases/no-flow/system/valveTable" &&
+    of_set no-flow "$dict" aorticValve/opening '{ law constant; opening 0; }' &&
+    of_refused "a table without flowPatch" no-flow \
+      'neither this table nor the law of valve aorticValve has the key flowPatch' &&
+    of_bad period && of_set period system/valveTable valve/period -1 &&
+    of_refused "a table with a negative period" period 'period is -1, and must be positive' &&
+    of_arteries no-compliance '' &&
+    of_refused "arteries without compliance" no-compliance "Entry 'compliance' not found in dictionary" &&
+    of_arteries compliance 'compliance 0;' &&
+    of_refused "arteries with a compliance of 0" compliance 'compliance is 0, and must be positive' &&
+    of_arteries arteries 'compliance 1e-8; distal 1e8;' &&
+    of_refused "an unknown key of the arteries" arteries "unknown key 'distal'" &&
     of_bad no-patch && of_set no-patch "$dict" aorticValve/opening/flowPatch aorta &&
     of_refused "an unknown patch" no-patch "flowPatch is 'aorta', and the mesh has no such patch" &&
     of_bad not-a-number && of_check nan "$of_cases/not-a-number/0/p" "$of_cases/not-a-number/constant/polyMesh/owner" &&
     of_refused "a pressure that is NaN" not-a-number 'at time 0.001: RIIS_INVALID_ARGUMENT: pressure_difference' &&
     of_bad no-library && of_set no-library "$dict" aorticValve/libs '("libnoValve.so")' &&
     of_refused "a library that is not in the path" no-library 'Unknown fvOption type riisValve' &&
-    of_bad no-valve && of_solver no-valve riisSource && rm "$of_cases/no-valve/$dict" &&
+    of_bad no-valve && of_solver no-valve riisSource && of_no_valve no-valve &&
     of_set no-valve system/controlDict libs '("libriisFvOption.so")' &&
     of_refused "riisSource without a valve" no-valve \
       'riisSource solves for p, and fvOptions has no riisValve with this pressure' &&

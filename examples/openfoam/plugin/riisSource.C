@@ -120,7 +120,7 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   }
 
   // Each array has one entry for each set of cells, and is later summed over all ranks.
-  const regionSplit set(mesh, resisted, true);
+  const regionSplit set(mesh, resisted, List<labelPair>(), true);
   scalarField ends(set.nRegions(), 0), out(set.nRegions(), 0), size(set.nRegions(), 0);
   forAll(neighbour, face) {
     if (!resisted[face]) continue;

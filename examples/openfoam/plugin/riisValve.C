@@ -25,18 +25,6 @@ void warn(void *, int32_t level, const char *message) {
   if (level == RIIS_LOG_WARNING) Warning << "riis: " << message << endl;
 }
 
-// Refuses unknown keys. A misspelt key would otherwise leave its default in place without a message.
-void refuseOthers(const dictionary &dict, std::initializer_list<const char *> keys) {
-  for (const entry &e : dict) {
-    bool known = false;
-    for (const char *key : keys) known = known || e.keyword() == key;
-    if (known) continue;
-    FatalIOErrorInFunction(dict) << "unknown key '" << e.keyword() << "'. The keys are";
-    for (const char *key : keys) FatalIOError << ' ' << key;
-    FatalIOError << exit(FatalIOError);
-  }
-}
-
 // Reads a number or a list of numbers.
 scalarList numbers(const entry &e) {
   ITstream &is = e.stream();
@@ -55,6 +43,25 @@ void copy(const vector &from, double *to) {
 
 }  // namespace
 
+void refuseOthers(const dictionary &dict, std::initializer_list<const char *> keys) {
+  for (const entry &e : dict) {
+    bool known = false;
+    for (const char *key : keys) known = known || e.keyword() == key;
+    if (known) continue;
+    FatalIOErrorInFunction(dict) << "unknown key '" << e.keyword() << "'. The keys are";
+    for (const char *key : keys) FatalIOError << ' ' << key;
+    FatalIOError << exit(FatalIOError);
+  }
+}
+
+scalar positive(const dictionary &dict, const word &key) {
+  const scalar value = dict.get<scalar>(key);
+  if (!(value > 0)) {
+    FatalIOErrorInFunction(dict) << key << " is " << value << ", and must be positive" << exit(FatalIOError);
+  }
+  return value;
+}
+
 bool riisState::writeData(Ostream &os) const {
   const int digits = os.precision(17);
   const bool good = IOdictionary::writeData(os);
@@ -63,17 +70,25 @@ bool riisState::writeData(Ostream &os) const {
 }
 
 // Writes text, because OpenFOAM cannot read the lists of a binary dictionary.
+#if OPENFOAM < 2006
 bool riisState::writeObject(IOstream::streamFormat, IOstream::versionNumber version,
                             IOstream::compressionType compression, const bool valid) const {
   return IOdictionary::writeObject(IOstream::ASCII, version, compression, valid);
 }
+#else
+bool riisState::writeObject(IOstreamOption stream, const bool valid) const {
+  stream.format(IOstreamOption::ASCII);
+  return IOdictionary::writeObject(stream, valid);
+}
+#endif
 
 riisValve::riisValve(const word &name, const word &modelType, const dictionary &dict, const fvMesh &mesh)
     : option(name, modelType, dict, mesh),
-      rho_("rho", dimDensity, coeffs_),
+      rho_("rho", dimDensity, 1),  // readAll reads it
       law_(Law::constant),
       constant_(0),
-      flowPatch_(-1),
+      factor_(1),
+      estimated_(false),
       opening_(0),
       timeIndex_(mesh.time().timeIndex()),
       K_(IOobject(IOobject::groupName("K", name), mesh.time().timeName(), mesh, IOobject::NO_READ,
@@ -118,8 +133,14 @@ void riisValve::check(riis_status status, const dictionary &dict) const {
 }
 
 void riisValve::readAll() {
-  refuseOthers(coeffs_, {"type", "active", "libs", "U", "p", "phi", "rho", "valve", "placement", "halfThickness",
-                         "resistance", "rim", "velocity", "opening", "nThreads", "writeLeaflets"});
+  // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. Keys beside the part would do nothing.
+  const word part = modelType_ + "Coeffs";
+  if (dict_.found(part)) {
+    refuseOthers(dict_, {"type", "active", "libs", "selectionMode", "fields", part.c_str()});
+  }
+  refuseOthers(coeffs_,
+               {"type", "active", "libs", "selectionMode", "fields", "U", "p", "phi", "rho", "valve", "placement",
+                "halfThickness", "resistance", "calibrate", "rim", "velocity", "opening", "nThreads", "writeLeaflets"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -129,9 +150,13 @@ void riisValve::readAll() {
   phiName_ = coeffs_.getOrDefault<word>("phi", "phi");
   withVelocity_ = coeffs_.getOrDefault<Switch>("velocity", true);
   writeLeaflets_ = coeffs_.getOrDefault<Switch>("writeLeaflets", false);
+  calibrate_ = coeffs_.getOrDefault<Switch>("calibrate", false);
+  estimated_ = false;
+  readFields(dict_);
+  readFields(coeffs_);
   fieldNames_ = wordList(1, UName_);
   applied_.setSize(1, false);
-  if (withVelocity_ && !KU_.valid()) {
+  if (withVelocity_ && !KU_) {
     const IOobject io(IOobject::groupName("KU", name_), mesh_.time().timeName(), mesh_, IOobject::NO_READ,
                       IOobject::AUTO_WRITE);
     KU_.reset(new volVectorField(io, mesh_, dimensionedVector(dimDensity * dimVelocity / dimTime, Zero)));
@@ -145,7 +170,8 @@ void riisValve::readAll() {
   riis_surface_options options;
   check(riis_surface_options_init(&options, sizeof options));
   readPlacement(coeffs_.subDict("placement"), options);
-  options.half_thickness = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
+  halfThickness_ = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
+  options.half_thickness = halfThickness_;
   // By default the library uses one thread in each rank, as the solver does.
   options.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
   riis_surface *surface = nullptr;
@@ -154,7 +180,7 @@ void riisValve::readAll() {
 
   check(riis_mark_options_init(&markOptions_, sizeof markOptions_));
   markOptions_.n_threads = options.n_threads;
-  markOptions_.fields = withVelocity_ ? RIIS_FIELD_VELOCITY : 0;
+  markOptions_.fields = RIIS_FIELD_POINT | (withVelocity_ ? RIIS_FIELD_VELOCITY : 0);  // moments need the points
   check(riis_resistance_init(&resistance_, sizeof resistance_));
   resistance_.R = dimensionedScalar("resistance", dimMass / dimLength / dimTime, coeffs_).value();
   if (!(resistance_.R >= 0)) {
@@ -167,6 +193,20 @@ void riisValve::readAll() {
   }
   resistance_.rim = rim == "cut" ? RIIS_RIM_CUT : RIIS_RIM_ROUND;
   if (rim == "cut") markOptions_.fields |= RIIS_FIELD_RIM;
+}
+
+// Reads the keys by which other options choose cells and fields. The leaflets choose the cells, so only one value makes sense.
+void riisValve::readFields(const dictionary &dict) const {
+  const word mode = dict.getOrDefault<word>("selectionMode", "all");
+  if (mode != "all") {
+    FatalIOErrorInFunction(dict) << "selectionMode is '" << mode << "', and must be all: the leaflets choose the cells"
+                                 << exit(FatalIOError);
+  }
+  const wordList fields = dict.getOrDefault<wordList>("fields", wordList(1, UName_));
+  if (fields.size() != 1 || fields[0] != UName_) {
+    FatalIOErrorInFunction(dict) << "fields is " << fields << ", and must be (" << UName_ << "), the velocity"
+                                 << exit(FatalIOError);
+  }
 }
 
 void riisValve::readValve(const dictionary &dict) {
@@ -237,7 +277,7 @@ void riisValve::readLaw(const dictionary &dict) {
     check(riis_opening_from_table(&table_, 0, nullptr, nullptr), dict);
   } else if (name == "switch") {
     refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds",
-                        "dwellSeconds", "upstream", "downstream", "flowPatch"});
+                        "dwellSeconds", "upstream", "downstream", "flowPatch", "forward"});
     law_ = Law::pressure;
     check(riis_opening_switch_init(&switch_, sizeof switch_));
     switch_.opening_duration = dict.get<scalar>("openingSeconds");
@@ -251,16 +291,26 @@ void riisValve::readLaw(const dictionary &dict) {
     check(riis_opening_switch_advance(&switch_, &state, 0, 0, 0, &state), dict);
     upstream_ = sensor(dict.subDict("upstream"));
     downstream_ = sensor(dict.subDict("downstream"));
-    const word patch = dict.get<word>("flowPatch");
-    flowPatch_ = mesh_.boundaryMesh().findPatchID(patch);
-    if (flowPatch_ < 0) {
-      FatalIOErrorInFunction(dict) << "flowPatch is '" << patch << "', and the mesh has no such patch. Its patches are "
-                                   << mesh_.boundaryMesh().names() << exit(FatalIOError);
-    }
+    flowPatch_ = flowPatch(dict);
   } else {
     FatalIOErrorInFunction(dict) << "law is '" << name << "', and must be constant, times, table or switch"
                                  << exit(FatalIOError);
   }
+}
+
+riisValve::FlowPatch riisValve::flowPatch(const dictionary &dict) const {
+  const word patch = dict.get<word>("flowPatch"), forward = dict.getOrDefault<word>("forward", "out");
+  FlowPatch found;
+  found.patch = mesh_.boundaryMesh().findPatchID(patch);
+  if (found.patch < 0) {
+    FatalIOErrorInFunction(dict) << "flowPatch is '" << patch << "', and the mesh has no such patch. Its patches are "
+                                 << mesh_.boundaryMesh().names() << exit(FatalIOError);
+  }
+  if (forward != "out" && forward != "in") {
+    FatalIOErrorInFunction(dict) << "forward is '" << forward << "', and must be out or in" << exit(FatalIOError);
+  }
+  found.sign = forward == "out" ? 1 : -1;
+  return found;
 }
 
 riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
@@ -338,8 +388,18 @@ void riisValve::restart() {
       opening_ = switchState_.opening;
       break;
   }
+  if (found) restartFactor();
   Info << "riis " << name_ << ": " << (found ? "continues" : "starts") << " at time " << mesh_.time().timeName()
        << " with opening " << opening_ << (found ? " from " : ", without ") << state_.IOobject::objectPath() << endl;
+}
+
+void riisValve::restartFactor() {
+  if (!calibrate_ || !state_.found("factor")) return;
+  if (state_.get<scalar>("resistance") != resistance_.R || state_.get<scalar>("halfThickness") != halfThickness_)
+    return;
+  factor_ = state_.get<scalar>("factor");
+  estimated_ = true;
+  Info << "riis " << name_ << ": K is multiplied by " << factor_ << ", as before" << endl;
 }
 
 dictionary riisValve::parameters() const {
@@ -367,6 +427,11 @@ void riisValve::keepState() {
   state_.add("kind", kind_);
   state_.add("law", coeffs_.subDict("opening").get<word>("law"));
   state_.add("opening", opening_);
+  if (calibrate_ && estimated_) {
+    state_.add("factor", factor_);
+    state_.add("resistance", resistance_.R);
+    state_.add("halfThickness", halfThickness_);
+  }
   if (law_ == Law::pressure) {
     state_.add("time", switchState_.time);
     state_.add("rate", switchState_.rate);
@@ -389,12 +454,51 @@ scalar riisValve::meanPressure(const Sensor &sensor) const {
   return (p.dimensions() == dimPressure ? 1 : rho_.value()) * sum / sensor.volume;
 }
 
-// Returns the flow out of the domain through flowPatch, m3/s.
-scalar riisValve::flow() const {
+scalar riisValve::flow(const FlowPatch &patch) const {
   const surfaceScalarField &phi = mesh_.lookupObject<surfaceScalarField>(phiName_);
   scalar sum = 0;
-  for (const scalar flux : phi.boundaryField()[flowPatch_]) sum += flux;
-  return returnReduce(sum, sumOp<scalar>());
+  for (const scalar flux : phi.boundaryField()[patch.patch]) sum += flux;
+  return patch.sign * returnReduce(sum, sumOp<scalar>());
+}
+
+riis_resistance riisValve::calibrated() const {
+  riis_resistance resistance = resistance_;
+  resistance.R *= factor_;
+  return resistance;
+}
+
+riis_orifice riisValve::orifice() const {
+  riis_orifice orifice;
+  check(riis_surface_get_orifice(surface_.get(), &resistance_, &orifice, sizeof orifice));
+  return orifice;
+}
+
+void riisValve::forces(const volVectorField &U, const vector &about, vectorField &force, vectorField &moment) const {
+  riis_surface_info info;
+  check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+  force.setSize(info.largest_leaflet_id + 1);
+  moment.setSize(force.size());
+  force = Zero;
+  moment = Zero;
+  riis_flow_arrays flow;
+  check(riis_flow_arrays_init(&flow, sizeof flow));
+  flow.n_nodes = mesh_.nCells();
+  const double *velocity = U.primitiveField().empty() ? nullptr : U.primitiveField()[0].cdata();
+  for (int c = 0; velocity && c < 3; ++c) flow.velocity[c] = velocity + c;
+  flow.velocity_stride = 3;
+  flow.weight = mesh_.V().field().cdata();
+  riis_reaction reaction;
+  check(riis_reaction_init(&reaction, sizeof reaction));
+  copy(about, reaction.about);
+  reaction.n_leaflets = force.size();
+  reaction.leaflet_force = force[0].data();
+  reaction.leaflet_moment = moment[0].data();
+  const riis_resistance resistance = calibrated();
+  check(riis_marks_add_reaction(result_.get(), &resistance, &flow, &reaction));
+  Pstream::listCombineGather(force, plusEqOp<vector>());
+  Pstream::listCombineScatter(force);
+  Pstream::listCombineGather(moment, plusEqOp<vector>());
+  Pstream::listCombineScatter(moment);
 }
 
 // Advances the law to the end of the step. The law uses the pressures and the flow at the beginning of the step.
@@ -403,7 +507,7 @@ scalar riisValve::openingAt(scalar time, Ostream &report) {
   if (law_ == Law::times) check(riis_opening_from_times(&times_, time, &opening, nullptr));
   if (law_ == Law::table) check(riis_opening_from_table(&table_, time, &opening, nullptr));
   if (law_ == Law::pressure) {
-    const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow();
+    const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow(flowPatch_);
     check(riis_opening_switch_advance(&switch_, &switchState_, time, difference, volume, &switchState_));
     opening = switchState_.opening;
     report << ", pressure difference " << difference << " Pa, flow " << volume << " m3/s";
@@ -425,6 +529,7 @@ void riisValve::mark() {
     }
   }
 
+  if (!estimated_) estimateDrop();
   OStringStream report;
   check(riis_valve_set_scalar(before_.get(), "opening", opening_));
   opening_ = openingAt(time.value(), report);
@@ -448,7 +553,8 @@ void riisValve::mark() {
   arrays.K = K_.primitiveFieldRef().data();
   for (int c = 0; momentum && c < 3; ++c) arrays.K_u_surface[c] = momentum + c;
   arrays.K_u_surface_stride = 3;
-  check(riis_marks_add_resistance(result_.get(), &resistance_, &arrays));
+  const riis_resistance resistance = calibrated();
+  check(riis_marks_add_resistance(result_.get(), &resistance, &arrays));
   riis_mark_stats stats;
   check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
   const int64_t marked = stats.n_marked;

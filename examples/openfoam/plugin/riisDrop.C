@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// Estimates the drop across the closed valve in this mesh, and finds the factor of K for `calibrate yes`.
+//
+// A closed leaflet should drop (R / eps) u, with u = flow / area of the leaflets. The solver interpolates 1/A to faces, which
+// favours the cell with less resistance, so the drop differs. Here the solver's own equation of p is solved for the closed valve
+// at a pressure of 1 upstream and 0 downstream: laplacian(1/A, p) = 0, with the schemes of the case. The flow from one side to
+// the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K / rho
+// without rho / dt. It contains neither convection nor viscosity, which are small beside K.
+#include "boundBox.H"
+#include "fvScalarMatrix.H"
+#include "fvmLaplacian.H"
+#include "regionSplit.H"
+#include "riisValve.H"
+#include "syncTools.H"
+#include "volFields.H"
+#include "zeroGradientFvPatchFields.H"
+
+#include <vector>
+
+namespace Foam {
+namespace fv {
+
+namespace {
+
+constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band over the largest K
+constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
+
+void addOverRanks(scalarField &values) {
+  Pstream::listCombineGather(values, plusEqOp<scalar>());
+  Pstream::listCombineScatter(values);
+}
+
+// Returns for each cell -1 upstream of the closed band, 1 downstream, and 0 in the band and in pockets that the band encloses.
+// All entries are 0 if the band does not part the blood.
+labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked) {
+  labelList band(mesh.nCells(), 0), bandBeyond;
+  forAll(K, cell) band[cell] = K[cell] > 0;
+  syncTools::swapBoundaryCellList(mesh, band, bandBeyond);
+  boolList blocked(mesh.nFaces(), false);
+  const labelUList &owner = mesh.faceOwner(), &neighbour = mesh.faceNeighbour();
+  forAll(blocked, face) {
+    const bool beyond = face < mesh.nInternalFaces() ? band[neighbour[face]] : bandBeyond[face - mesh.nInternalFaces()];
+    blocked[face] = band[owner[face]] || beyond;
+  }
+  // Each cell of the band becomes a region of its own. The other regions are open blood or pockets.
+  const regionSplit region(mesh, blocked, List<labelPair>(), true);
+  labelList regionBeyond;
+  syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
+
+  // A face between the band and another region lies on one side of the leaflet. Its area votes for this side.
+  scalarField votes(region.nRegions(), 0), all(region.nRegions(), 0), volume(region.nRegions(), 0);
+  labelList entry(mesh.nCells(), -1);
+  for (int64_t i = 0; i < marked.n_nodes; ++i) {
+    if (!marked.rim[i]) entry[marked.node_id[i]] = i;
+  }
+  const auto vote = [&](label cell, label other, label face) {
+    const label i = entry[cell];
+    if (i < 0) return;
+    const vector away =
+        mesh.faceCentres()[face] - vector(marked.point[3 * i], marked.point[3 * i + 1], marked.point[3 * i + 2]);
+    const scalar along = away & vector(marked.normal[3 * i], marked.normal[3 * i + 1], marked.normal[3 * i + 2]);
+    const scalar area = mag(mesh.faceAreas()[face]);
+    votes[other] += along > 0 ? area : -area;
+    all[other] += area;
+  };
+  forAll(blocked, face) {
+    const label here = owner[face];
+    if (face < mesh.nInternalFaces()) {
+      const label there = neighbour[face];
+      if (band[here] && !band[there]) vote(here, region[there], face);
+      if (band[there] && !band[here]) vote(there, region[here], face);
+    } else if (band[here] && !bandBeyond[face - mesh.nInternalFaces()]) {
+      vote(here, regionBeyond[face - mesh.nInternalFaces()], face);
+    }
+  }
+  forAll(K, cell) {
+    if (!band[cell]) volume[region[cell]] += mesh.V()[cell];
+  }
+  addOverRanks(votes);
+  addOverRanks(all);
+  addOverRanks(volume);
+
+  // The two sides are the largest regions that lie clearly on one side. Together they hold most of the blood, as pockets do not.
+  label up = -1, down = -1;
+  forAll(volume, i) {
+    if (votes[i] < -0.5 * all[i] && (up < 0 || volume[i] > volume[up])) up = i;
+    if (votes[i] > 0.5 * all[i] && (down < 0 || volume[i] > volume[down])) down = i;
+  }
+  labelList side(mesh.nCells(), 0);
+  if (up < 0 || down < 0 || volume[up] + volume[down] < 0.5 * sum(volume)) return side;
+  forAll(side, cell) side[cell] = region[cell] == up ? -1 : region[cell] == down ? 1 : 0;
+  return side;
+}
+
+// Chooses the cells of both sides that keep the pressure 1 or 0: those with more than four cells between them and the band, or
+// fewer if the mesh ends sooner. On edges that are not orthogonal to faces, the solver corrects the flow by the gradient in the
+// cells. Beside the band this gradient is that of the band, so the pressure of these cells must be free to make up for it.
+boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side) {
+  constexpr label most = 4;
+  labelList layer(mesh.nCells(), most + 1), beyond;
+  forAll(K, cell) layer[cell] = K[cell] > 0 ? 0 : most + 1;
+  for (label now = 1; now <= most; ++now) {
+    syncTools::swapBoundaryCellList(mesh, layer, beyond);
+    const labelList before(layer);
+    forAll(mesh.faceOwner(), face) {
+      const label here = mesh.faceOwner()[face];
+      if (face < mesh.nInternalFaces()) {
+        const label there = mesh.faceNeighbour()[face];
+        if (before[here] == now - 1) layer[there] = min(layer[there], now);
+        if (before[there] == now - 1) layer[here] = min(layer[here], now);
+      } else if (beyond[face - mesh.nInternalFaces()] == now - 1) {
+        layer[here] = min(layer[here], now);
+      }
+    }
+  }
+  label deepest[2] = {0, 0};
+  forAll(side, cell) {
+    if (side[cell] != 0) deepest[side[cell] > 0] = max(deepest[side[cell] > 0], layer[cell]);
+  }
+  reduce(deepest[0], maxOp<label>());
+  reduce(deepest[1], maxOp<label>());
+  const label limit = min(deepest[0], deepest[1]) - 1;
+  boolList isEnd(mesh.nCells(), false);
+  forAll(side, cell) isEnd[cell] = side[cell] != 0 && layer[cell] > limit;
+  return isEnd;
+}
+
+// Returns the area of the triangles' parts that lie in this rank's cells. Triangles are cut into parts with edges below an eighth
+// of the half thickness, and the middle of a part decides. So each part counts on one rank. The leaflet leftOut does not count.
+scalar areaInMesh(const polyMesh &mesh, const riis_triangles &triangles, scalar halfThickness, int32_t leftOut) {
+  struct Part {
+    point a, b, c;
+  };
+  (void)mesh.tetBasePtIs();  // all ranks must make these points together
+  if (mesh.nCells() == 0) return 0;
+  const boundBox box(mesh.points(), false);
+  const auto isInside = [&](const point &at) { return mesh.findCell(at, polyMesh::CELL_TETS) >= 0; };
+  const auto corner = [&](int64_t vertex) {
+    return point(triangles.xyz[3 * vertex], triangles.xyz[3 * vertex + 1], triangles.xyz[3 * vertex + 2]);
+  };
+  scalar area = 0;
+  std::vector<Part> parts;
+  for (int64_t i = 0; i < triangles.n_triangles; ++i) {
+    if (triangles.leaflet_id[i] == leftOut) continue;
+    const int64_t *ids = triangles.vertex_id + 3 * i;
+    parts.push_back({corner(ids[0]), corner(ids[1]), corner(ids[2])});
+    while (!parts.empty()) {
+      const Part part = parts.back();
+      parts.pop_back();
+      const point &a = part.a, &b = part.b, &c = part.c;
+      boundBox around(a, a);
+      around.add(b);
+      around.add(c);
+      if (!around.overlaps(box)) continue;
+      if (max(mag(b - a), max(mag(c - b), mag(a - c))) < halfThickness / 8) {
+        if (isInside((a + b + c) / 3)) area += mag((b - a) ^ (c - a)) / 2;
+        continue;
+      }
+      const point ab = (a + b) / 2, bc = (b + c) / 2, ca = (c + a) / 2;
+      parts.push_back({a, ab, ca});
+      parts.push_back({ab, b, bc});
+      parts.push_back({ca, bc, c});
+      parts.push_back({ab, bc, ca});
+    }
+  }
+  return area;
+}
+
+// Tells whether the case has a scheme of this name or a default.
+bool hasScheme(const dictionary &schemes, const word &name) {
+  return schemes.found(name) || (schemes.found("default") && word(schemes.lookup("default")) != "none");
+}
+
+}  // namespace
+
+// Returns the flow from the upstream to the downstream side at a difference of 1 m2/s2 of the kinematic pressure, m3/s.
+scalar riisValve::conductance(const scalarField &K, const labelList &side, const boolList &isEnd) const {
+  const word step = mesh_.time().timeName();
+  volScalarField rAU(IOobject("(1|A(" + UName_ + "))", step, mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false),
+                     mesh_, dimensionedScalar(dimTime, Zero));
+  rAU.primitiveFieldRef() = rho_.value() / max(K, openShare * gMax(K));
+  rAU.correctBoundaryConditions();
+  // The field has the solver's name of p, so that the case's schemes for p apply. It is not registered.
+  volScalarField p(IOobject(pName_, step, mesh_, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh_,
+                   dimensionedScalar(sqr(dimVelocity), Zero), zeroGradientFvPatchScalarField::typeName);
+  DynamicList<label> fixed;
+  DynamicList<scalar> pressures;
+  forAll(side, cell) {
+    if (side[cell] == 0) continue;
+    p[cell] = side[cell] < 0 ? 1 : 0;
+    if (!isEnd[cell]) continue;
+    fixed.append(cell);
+    pressures.append(p[cell]);
+  }
+  p.correctBoundaryConditions();
+  dictionary controls;
+  controls.add("solver", "PCG");
+  controls.add("preconditioner", "DIC");
+  controls.add("tolerance", 1e-10);
+  controls.add("relTol", 0);
+  controls.add("maxIter", 10000);
+
+  scalar flow = 0;
+  for (int corrector = 0; corrector < 30; ++corrector) {
+    fvScalarMatrix equation(fvm::laplacian(rAU, p));
+    if (corrector > 0) {
+      const scalarField out((equation & p)().primitiveField() * mesh_.V().field());
+      scalar before = flow;
+      flow = 0;
+      forAll(side, cell) flow -= side[cell] < 0 && isEnd[cell] ? out[cell] : 0;
+      reduce(flow, sumOp<scalar>());
+      if (mag(flow - before) < 5e-4 * mag(flow)) break;  // corrections for edges that are not orthogonal to faces
+    }
+    equation.setValues(fixed, pressures);
+    // fvMatrix::solve would leave its residuals among those of the solver's own p.
+    scalarField &diagonal = equation.diag();
+    forAll(equation.internalCoeffs(), patch) {
+      const labelUList &cells = mesh_.boundary()[patch].faceCells();
+      forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
+    }
+    lduMatrix::solver::New(pName_, equation, equation.boundaryCoeffs(), equation.internalCoeffs(),
+                           p.boundaryField().scalarInterfaces(), controls)
+        ->solve(p.primitiveFieldRef(), equation.source());
+    p.correctBoundaryConditions();
+  }
+  return flow;
+}
+
+// Logs the drop of the closed valve over (R / eps) u. With `calibrate yes` it also finds the factor of K that makes it 1.
+void riisValve::estimateDrop() {
+  estimated_ = true;
+  factor_ = 1;
+  const auto without = [&](const char *reason) {
+    if (calibrate_) {
+      FatalIOErrorInFunction(coeffs_) << "calibrate is yes, but " << reason << exit(FatalIOError);
+    }
+    Info << "riis " << name_ << ": no estimate of the closed valve's drop: " << reason << endl;
+  };
+  if (resistance_.R == 0) return without("resistance is 0");
+  if (!hasScheme(mesh_.schemesDict().subOrEmptyDict("laplacianSchemes"),
+                 "laplacian((1|A(" + UName_ + "))," + pName_ + ")")) {
+    return without("fvSchemes has no laplacian of p");
+  }
+
+  check(riis_valve_set_scalar(valve_.get(), "opening", 0));
+  check(riis_surface_update(surface_.get(), valve_.get(), nullptr));
+  riis_mark_options options = markOptions_;
+  options.fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_RIM;
+  riis_marks *marks = nullptr;
+  check(riis_marks_create(&marks));
+  const riisPtr<riis_marks> owned(marks);
+  check(riis_mark_nodes(surface_.get(), cells_.get(), &options, marks));
+  riis_mark_list list;
+  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &list, sizeof list));
+  scalarField K(mesh_.nCells(), 0);
+  riis_resistance_arrays arrays;
+  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
+  arrays.n_nodes = K.size();
+  arrays.K = K.data();
+  check(riis_marks_add_resistance(marks, &resistance_, &arrays));
+  const labelList side = sidesOf(mesh_, K, list);
+  if (!returnReduce(gMax(mag(scalarField(K))()) > 0 && side.found(-1), orOp<bool>())) {
+    return without("blood passes the closed band in this mesh");
+  }
+  const boolList isEnd = endsOf(mesh_, K, side);
+  riis_triangles triangles;
+  check(riis_surface_get_triangles(surface_.get(), &triangles, sizeof triangles));
+  const int32_t housing = kind_ == "bileaflet" ? RIIS_LEAFLET_HOUSING : -1;
+  const scalar area = returnReduce(areaInMesh(mesh_, triangles, halfThickness_, housing), sumOp<scalar>());
+
+  // A flow of 1 should drop R / (eps area). It drops rho / conductance.
+  const auto share = [&](scalar factor) {
+    return rho_.value() / conductance(scalarField(factor * K), side, isEnd) / (resistance_.R / (halfThickness_ * area));
+  };
+  const scalar expected = share(1);
+  if (calibrate_) {
+    if (!(expected > leastShare)) {
+      FatalIOErrorInFunction(coeffs_) << "calibrate is yes, but the closed valve drops only " << expected
+                                      << " of (R / eps) u in this mesh, and must drop at least " << leastShare
+                                      << ": halfThickness " << halfThickness_ << " is too small for these cells"
+                                      << exit(FatalIOError);
+    }
+    // The drop is nearly proportional to K.
+    scalar now = expected;
+    for (int i = 0; i < 5 && mag(now - 1) > 1e-3; ++i) {
+      factor_ /= now;
+      now = share(factor_);
+    }
+  }
+  Info << "riis " << name_ << ": the closed valve has " << area << " m2 in the mesh, and is expected to drop "
+       << expected << " of (R / eps) u, u = flow / area";
+  if (calibrate_) Info << ". K is multiplied by " << factor_;
+  Info << endl;
+}
+
+}  // namespace fv
+}  // namespace Foam
