@@ -8,7 +8,8 @@ set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 [[ $# == 1 ]] || { echo "usage: packaging/cmake.sh ROWS" >&2; exit 2; }
 rows=$(realpath -m -- "$1") cmake=${CMAKE:-cmake} work=$PWD/build/packages-cmake
-options=(-G Ninja -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O0 -D CMAKE_Fortran_FLAGS_DEBUG=-O0 -D RIIS_KERNEL_LEVEL=-O0)
+options=(-G Ninja -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O0 -D CMAKE_Fortran_FLAGS_DEBUG=-O0
+  -D RIIS_KERNEL_LEVEL=-O0)
 
 say() { printf '==> %s\n' "$*"; }
 # logged NAME COMMAND...: runs the command with its output in a log, whose end it shows if the command fails.

@@ -22,23 +22,29 @@ install_packages() { logged install apt-get install -y --no-install-recommends "
 
 # The archive in a folder, beside Debian's folder. The version for Debian 12 is older than that for Debian 13.
 unpack() {
-  local folder=$1 entry=''
+  local folder=$1 entry date
   mkdir -p "$folder"
   cp "$input/riis-$version.tar.xz" "$folder/riis_$version.orig.tar.xz"
   tar -xJf "$folder/riis_$version.orig.tar.xz" -C "$folder"
-  cp -R debian "$folder/riis-$version/debian"
+  cp -R --preserve=mode debian "$folder/riis-$version/debian"
   if [[ $debian == 12 ]]; then
     entry=$(sed -n "1s/^riis (\(.*\)) [a-z]*;/riis (\1~bpo12+1) bookworm-backports;/p" debian/changelog)
-    printf '%s\n\n  * Rebuild for bookworm-backports.\n\n%s\n\n' "$entry" "$(grep -m 1 '^ -- ' debian/changelog)" |
+    date=$(date -u -R -d "$(grep -m 1 '^ -- ' debian/changelog | sed 's/.*>  //') 1 minute")
+    printf '%s\n\n  * Rebuild for bookworm-backports.\n\n%s  %s\n\n' "$entry" \
+      "$(grep -m 1 '^ -- ' debian/changelog | sed 's/>.*/>/')" "$date" |
       cat - debian/changelog >"$folder/riis-$version/debian/changelog"
   fi
 }
 
-# build_once FOLDER: runs dpkg-buildpackage in the folder. C and C++ are compiled once for both times; all other steps run again.
+# build_once FOLDER: unpacks the sources and runs dpkg-buildpackage, then moves everything to the folder. Both times the build has
+# the same path, as in Debian, because gfortran writes the path of a source into messages. C and C++ are compiled once for both
+# times; all other steps run again.
 build_once() {
-  cd "$1/riis-$version"
-  CCACHE_DIR=$work/ccache CCACHE_BASEDIR=$1 CCACHE_NOHASHDIR=1 PATH=/usr/lib/ccache:$PATH \
-    DEB_BUILD_OPTIONS="nocheck parallel=$(nproc)" DEB_BUILD_PROFILES=$profiles nice -n 5 dpkg-buildpackage -us -uc
+  rm -rf "$work/here"
+  unpack "$work/here" && cd "$work/here/riis-$version" || return
+  CCACHE_DIR=$work/ccache CCACHE_BASEDIR=$work/here CCACHE_NOHASHDIR=1 PATH=/usr/lib/ccache:$PATH \
+    DEB_BUILD_OPTIONS="nocheck parallel=$(nproc)" DEB_BUILD_PROFILES=$profiles nice -n 5 dpkg-buildpackage -us -uc || return
+  cd "$work" && mv here "$1"
 }
 
 # sums: prints the checksums of the files that must be the same. The other files describe the machine.
@@ -48,21 +54,21 @@ build() {
   work=$PWD/build-deb logs=$PWD/build-deb/logs profiles=''
   version=$(echo "$input"/riis-*.tar.xz | sed 's/.*riis-\(.*\)\.tar\.xz/\1/')
   [[ $debian != 12 ]] || profiles=nopython # Debian 12 has no nanobind
-  rm -rf "$work/1" "$work/2" "$logs" out/packages
+  rm -rf "$work/1" "$work/2" "$work/here" "$logs" out/packages
   mkdir -p "$logs" out/packages
   logged update apt-get update
   install_packages dpkg-dev debhelper lintian ccache
-  (umask 022 && unpack "$work/1")
-  (umask 027 && unpack "$work/2")
-  logged build-dependencies apt-get build-dep -y --no-install-recommends ${profiles:+-P "$profiles"} "$work/1/riis-$version"
+  unpack "$work/here"
+  logged build-dependencies apt-get build-dep -y --no-install-recommends ${profiles:+-P "$profiles"} "$work/here/riis-$version"
   (umask 022 && TZ=UTC0 LC_ALL=C.UTF-8 && export TZ LC_ALL && logged build build_once "$work/1")
-  cp "$work"/1/riis_* "$work"/1/*.deb out/packages
+  find "$work/1" -maxdepth 1 -type f -exec cp -- {} out/packages \;
+  # No bug is closed before a person has filed the intent to package (docs/releasing.md).
   logged lintian lintian --allow-root --no-cfg --show-overrides --tag-display-limit 0 --fail-on error,warning \
-    "$work"/1/riis_*.changes
+    --suppress-tags initial-upload-closes-no-bugs "$work"/1/riis_*.changes
   cp "$logs/lintian.log" out/packages/lintian.txt
   (umask 027 && TZ=XYZ-13 LC_ALL=C && export TZ LC_ALL && logged build-again build_once "$work/2")
   diff <(sums "$work/1") <(sums "$work/2") || { echo "the second build has other bytes" >&2; exit 1; }
-  say "built twice in different folders, with the same bytes"
+  say "built twice with the same bytes"
   rm -rf "$work/2"
 }
 
