@@ -199,21 +199,14 @@ class Forecaster {
            shown(above * half_thickness_ / median_edge_) + " edges";
   }
 
-  // The solver interpolates distances to Gauss points. Quadratic shape functions have negative values, and nodes outside the box
-  // count as very far. So the interpolated distance is negative at points on the border, and the solver's condition for the band,
-  // which is distance < eps, holds there.
+  // Warns of resistance far from the valve, where interpolated distances are negative.
   void warn_of_negative_shapes(const SolverDistances &distances) {
     const SolverElement &element = *mesh_.element;
     if (element.n_nodes == element.n_corners) return;
     std::int64_t n = 0;
-    for (std::int64_t e = 0; e < mesh_.n_elements(); ++e) {
-      for (const ShapeFunctions &at : element.at_gauss) {
-        double distance = 0;
-        for (std::size_t a = 0; a < element.n_nodes; ++a)
-          distance += at.values[a] * std::abs(view(distances.to_leaflets)[mesh_.nodes_of(e)[a]]);
-        n += distance < -half_thickness_;
-      }
-    }
+    for (std::int64_t e = 0; e < mesh_.n_elements(); ++e)
+      for (const ShapeFunctions &at : element.at_gauss)
+        n += interpolated_distance(mesh_, e, at, distances.to_leaflets) < -half_thickness_;
     if (n == 0) return;
     say("WRONG: resistance at " + counted(n, "Gauss point") + " on the border of the solver's box, far from the valve");
     warn("svMultiPhysics will put resistance at " + counted(n, "Gauss point") +

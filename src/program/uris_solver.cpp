@@ -281,18 +281,19 @@ double delta_of(double distance, double half_thickness) {
   return (1 + std::cos(pi * distance / half_thickness)) / (2 * half_thickness * half_thickness);
 }
 
+double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
+                             const std::vector<double> &distances) {
+  double distance = 0;
+  for (std::size_t a = 0; a < mesh.element->n_nodes; ++a)
+    distance += at.values[a] * std::abs(view(distances)[mesh.nodes_of(e)[a]]);
+  return distance;
+}
+
 double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
                     double half_thickness) {
-  double to_leaflets = 0, to_scaffold = 0;
-  for (std::size_t a = 0; a < mesh.element->n_nodes; ++a) {
-    const std::int64_t node = mesh.nodes_of(e)[a];
-    to_leaflets += at.values[a] * std::abs(view(distances.to_leaflets)[node]);
-    if (!distances.to_scaffold.empty()) to_scaffold += at.values[a] * view(distances.to_scaffold)[node];
-  }
-  // Quadratic shape functions have negative values. At the border of the box, where nodes are far by the solver's large number,
-  // they make negative distances, and the solver's condition accepts them.
-  return delta_of(to_leaflets, half_thickness) +
-         (distances.to_scaffold.empty() ? 0 : delta_of(to_scaffold, half_thickness));
+  const double of_leaflets = delta_of(interpolated_distance(mesh, e, at, distances.to_leaflets), half_thickness);
+  if (distances.to_scaffold.empty()) return of_leaflets;
+  return of_leaflets + delta_of(interpolated_distance(mesh, e, at, distances.to_scaffold), half_thickness);
 }
 
 SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,

@@ -83,7 +83,6 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   data.fields = data.given_fields = asked.fields;
   data.k = asked.resistance != nullptr;
   if (asked.fields & RIIS_FIELD_GRADIENT) data.n_directions = request.surface.n_directions();
-  data.k_gradient = data.k && data.n_directions > 0;
   if (!data.k) return data;
   if (asked.resistance->cuts_rim) data.fields |= RIIS_FIELD_RIM;
   data.k_u_surface = !request.surface.other_distance() && !request.surface.triangles().velocity.empty();
@@ -110,7 +109,7 @@ void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &mar
 bool ListedNodes::has_room(const WantedData &data, std::int64_t n) const {
   return nodes.has_room(n) && fields.has_room(data.field_set(), n) && (!data.k || riis::has_room(k, n)) &&
          (!data.k_u_surface || riis::has_room(k_u_surface, 3 * n)) &&
-         (!data.k_gradient || riis::has_room(k_gradient, data.n_directions * n));
+         riis::has_room(k_gradient, data.n_k_gradients() * n);
 }
 
 void ListedNodes::reserve(const WantedData &data, std::int64_t n) {
@@ -118,7 +117,7 @@ void ListedNodes::reserve(const WantedData &data, std::int64_t n) {
   fields.reserve(data.field_set(), n);
   if (data.k) reserve_amply(k, n);
   if (data.k_u_surface) reserve_amply(k_u_surface, 3 * n);
-  if (data.k_gradient) reserve_amply(k_gradient, data.n_directions * n);
+  if (data.n_k_gradients() > 0) reserve_amply(k_gradient, data.n_k_gradients() * n);
 }
 
 void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks) {

@@ -22,10 +22,11 @@ namespace riis {
 struct WantedData {
   std::int32_t fields = 0;        // the sum of RIIS_FIELD_* that are computed
   std::int32_t given_fields = 0;  // the sum of the fields that the caller requested
-  bool k = false, k_u_surface = false, k_gradient = false;
+  bool k = false, k_u_surface = false;
   std::int64_t n_directions = 0;  // 0 without RIIS_FIELD_GRADIENT
 
   FieldSet field_set() const { return {fields, n_directions}; }
+  std::int64_t n_k_gradients() const { return k ? n_directions : 0; }  // of each node
 };
 
 // The nodes of a list with the data computed for them.

@@ -164,7 +164,7 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
   const std::int64_t n = list.nodes.size();
   resize(list.k, data.k ? n : 0);
   resize(list.k_u_surface, data.k_u_surface ? 3 * n : 0);
-  resize(list.k_gradient, data.k_gradient ? data.n_directions * n : 0);
+  resize(list.k_gradient, data.n_k_gradients() * n);
   if (!data.k) return;
   parallel_for_ranges(n, nodes_per_block, n_threads.for_part(n, few_nodes), [&](const Range &range, int) {
     for (std::int64_t i = range.begin; i < range.end; ++i) {
@@ -172,7 +172,7 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
       if (data.k_u_surface)
         for (std::int64_t at = 3 * i; at < 3 * i + 3; ++at)
           view(list.k_u_surface)[at] = k * view(list.fields.velocity)[at];
-      if (!data.k_gradient) continue;
+      if (data.n_directions == 0) continue;
       const double slope = slope_at(*resistance, k);
       for (std::int64_t at = data.n_directions * i; at < data.n_directions * (i + 1); ++at)
         view(list.k_gradient)[at] = slope * view(list.fields.distance_gradient)[at];
