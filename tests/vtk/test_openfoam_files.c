@@ -12,16 +12,6 @@
 #include "formats_shim.h"
 #include "scratch.h"
 
-static void rewrite(const char *from, const char *to) {
-  riis_vtk_mesh *mesh = NULL;
-  const char *notes = NULL;
-  expect_fine(riis_vtk_mesh_read(scratch_path(from), &mesh));
-  expect_fine(riis_vtk_mesh_get_notes(mesh, &notes));
-  assert_string_equal(notes, "");
-  expect_fine(riis_vtk_mesh_write(mesh, scratch_path(to)));
-  riis_vtk_mesh_destroy(&mesh);
-}
-
 /* Runs a command in the scratch folder. */
 static void run(const char *format, ...) {
   char command[2048], arguments[1024];
@@ -156,6 +146,16 @@ static void test_broken(void **state) {
 }
 
 #ifdef RIIS_BLOCKMESH
+static void rewrite(const char *from, const char *to) {
+  riis_vtk_mesh *mesh = NULL;
+  const char *notes = NULL;
+  expect_fine(riis_vtk_mesh_read(scratch_path(from), &mesh));
+  expect_fine(riis_vtk_mesh_get_notes(mesh, &notes));
+  assert_string_equal(notes, "");
+  expect_fine(riis_vtk_mesh_write(mesh, scratch_path(to)));
+  riis_vtk_mesh_destroy(&mesh);
+}
+
 static void write_case(const char *name, const char *format, const char *compression) {
   char path[128], text[1024];
   run("mkdir -p %s/system %s/constant", name, name);
