@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER
+# embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER, unless a person
+#                                   has put sources there
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
 #
 # riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
@@ -32,6 +33,11 @@ fetch_source() {
   local folder licences=/usr/share/doc/libembree-dev/copyright options package
   folder=$(realpath -m -- "$1")
   [[ -f $licences ]] || give_up "there is no $licences: install libembree-dev"
+  if [[ -f $folder/CMakeLists.txt && ! -e $folder/package ]]; then
+    echo "embree.sh: takes the sources in $folder"
+    cp "$licences" "$folder/copyright"
+    return
+  fi
   rm -rf "$folder" "$folder.part"
   source_lists "$folder.part"
   options=(-o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder.part/parts"
@@ -41,6 +47,7 @@ fetch_source() {
   package=$(dpkg-query -W -f='${source:Package}=${source:Version}' libembree-dev)
   (cd "$folder.part" && apt-get "${options[@]}" -q --download-only --tar-only source "$package")
   mkdir "$folder"
+  echo "$package" >"$folder/package"
   tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder"
   cp "$licences" "$folder/copyright"
   rm -rf "$folder.part"
