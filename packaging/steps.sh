@@ -1,6 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# Functions of the packaging scripts, which read this file.
+# Functions of the packaging scripts, which read this file, and which set $logs and $rows before they call them.
+# shellcheck disable=SC2154 # those two
 
 say() { printf '==> %s\n' "$*"; }
 
