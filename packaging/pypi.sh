@@ -46,13 +46,12 @@ logged from-sdist "$work/from-sdist/bin/pip" install "$sdist"
 marks_in_python sdist "$work/from-sdist/bin/python"
 row "sdist $(basename "$sdist")" yes "pip, the system's Embree" "Python: same bits" "$(size "$sdist")"
 
-say "the costs with the wheel's Embree, and with the system's"
-"$fresh/python" -B python/tests/embree_cost.py "$fresh/python" "$work/from-sdist/bin/python"
-
 say "fpm"
 logged fpm-library cmake --preset library -D CMAKE_INSTALL_PREFIX="$work/riis" -D CMAKE_INSTALL_LIBDIR=lib
 logged fpm-library cmake --build --preset library --parallel "$(nproc)"
 logged fpm-library cmake --install build-library
+say "the system's Embree (first) and the wheel's Embree (second)"
+python/embree.sh cost build-python/embree build-library
 rm -rf "$work/fpm" "$work/stranger"
 mkdir -p "$work/fpm/examples" "$work/stranger/app"
 cp -R fpm.toml fortran "$work/fpm"

@@ -3,6 +3,8 @@
 # embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER, unless a person
 #                                   has put sources there
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
+# embree.sh cost PREFIX BUILD       compares the costs of queries and updates with the system's Embree and with that in PREFIX. The
+#                                   folder BUILD has a shared libriis, whose objects are linked again
 #
 # riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
 # these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
@@ -76,7 +78,7 @@ build() {
   sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
     -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'
-  cmake --build "$prefix.build" --parallel
+  cmake --build "$prefix.build" --parallel "$(nproc)"
   cmake --install "$prefix.build"
   # The licences of everything in it, for the wheel.
   mkdir -p "$prefix/licences"
@@ -84,8 +86,22 @@ build() {
   rm -rf "$prefix.build"
 }
 
+cost() {
+  local prefix=$1 library=$2/src/riis/libriis.so root work objects
+  root=$(dirname -- "$(readlink -f -- "$0")")/..
+  [[ -f $library ]] || give_up "there is no $library: build the target riis there"
+  work=$(mktemp -d)
+  mapfile -t objects < <(find "$2/src/riis/CMakeFiles" -name '*.o')
+  c++ -shared -fopenmp -Wl,--gc-sections "-Wl,--version-script=$root/src/riis/riis.map" "${objects[@]}" \
+    -Wl,--start-group "$prefix"/lib/*.a -Wl,--end-group -ltbb -o "$work/own.so"
+  cc -std=gnu11 -O2 -I "$root/include" "$root/python/tests/embree_cost.c" -o "$work/embree_cost" -lm
+  "$work/embree_cost" "$(realpath -- "$library")" "$work/own.so"
+  rm -rf "$work"
+}
+
 case ${1:-}/$# in
   source/2) fetch_source "$2" ;;
   build/3) build "$2" "$3" ;;
-  *) give_up "usage: embree.sh source FOLDER, or embree.sh build SOURCE PREFIX" ;;
+  cost/3) cost "$2" "$3" ;;
+  *) give_up "usage: embree.sh source FOLDER, embree.sh build SOURCE PREFIX, or embree.sh cost PREFIX BUILD" ;;
 esac
