@@ -3,8 +3,8 @@
 # embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER, unless a person
 #                                   has put sources there
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
-# embree.sh cost PREFIX BUILD       compares the costs of queries and updates with the system's Embree and with that in PREFIX. The
-#                                   folder BUILD has a shared libriis, whose objects are linked again
+# embree.sh cost PREFIX BUILD       compares the costs of queries and updates with the system's Embree and with that in PREFIX.
+#                                   The folder BUILD has a shared libriis, whose objects are linked again
 #
 # riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
 # these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
