@@ -21,7 +21,7 @@ from riis.view._valves import ValveState, plain, refuse, rotation_of, values_tha
 
 Reals = NDArray[numpy.float64]
 
-_LEAST, _MOST = 0.3, 3.5  # by which a valve's lengths may grow; more is another unit
+_LEAST, _MOST = 0.3, 3.5  # factors of a valve's lengths; beyond them the mesh has another unit
 
 
 class Annulus(NamedTuple):
@@ -88,7 +88,7 @@ def _anterior(ends: Reals, leaflet: Any) -> Reals:
 
 
 def checked_clicks(points3: Any) -> Reals:
-    """Returns three points, or refuses values that show no circle."""
+    """Returns three points. Refuses values that define no circle."""
     try:
         clicks = numpy.array(points3, numpy.float64)
     except (TypeError, ValueError):
