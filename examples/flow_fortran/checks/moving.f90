@@ -67,7 +67,7 @@ contains
     print '(a)', ''
   end subroutine check_equal_pressures
 
-  ! Returns the displaced volume over the swept one, up to an opening.
+  ! Returns the ratio of the displaced volume to the swept volume, up to an opening.
   pure real(dp) function share_of(seen, at)
     type(motion), intent(in) :: seen
     integer, intent(in) :: at                     ! index in `openings`

@@ -24,7 +24,7 @@ WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
 SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next one has fewer pixels
-MANY_MARKED = 400_000  # so many cells around the leaflets are drawn at rest only
+MANY_MARKED = 400_000  # if more cells are marked, they are drawn only while the hand rests
 MANY_CELLS = 2_000_000  # larger meshes show the cut through the cells near the valve only
 
 
