@@ -104,7 +104,7 @@ def checked_clicks(points3: Any) -> Reals:
             raise refuse(f"points3: points {other} and {k} are in one place, {tuple(clicks[k].tolist())}")
     area = float(numpy.linalg.norm(numpy.cross(clicks[1] - clicks[0], clicks[2] - clicks[0])))
     if area <= 0.02 * size * size:
-        raise refuse(f"points3: the points {clicks.tolist()} are on a line, and show no circle")
+        raise refuse(f"points3: the points {clicks.tolist()} are on a line, so they define no circle")
     return clicks
 
 
