@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A tube of tetrahedra, as a mesh of the view's tests, of their measurement and of the check in a browser."""
+"""A tube of tetrahedra: the mesh for the view's tests, for view_cost.py and for the check in a browser."""
 
 import numpy
 
