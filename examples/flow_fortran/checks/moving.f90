@@ -87,7 +87,7 @@ contains
     type(motion) :: seen(0:1, size(names))
     real(dp) :: duration, first, longest
     integer :: i, k, n(3), with
-    print '(a)', 'Variants of the default, 24 cells: largest force in N across the axis, of steps and of 1 ms means; along the axis'
+    print '(a)', 'Variants of the default, 24 cells: largest force in N across the axis, of steps and of 1 ms means; along it'
     print '(a)', repeat(' ', 40) // 'across     mean across           along           pressure, mmHg'
     print '(a)', '  case                                  without   with' // repeat('  without   with', 2) // &
       '           without              with'

@@ -213,7 +213,7 @@ def half_thickness(scene: Scene) -> Light:
 
 
 def crossing(scene: Scene) -> Light:
-    """Judges whether leaflets go through each other. Contacts do not count, and neither do contacts of hinges with their housing."""
+    """Judges whether leaflets go through each other. Contacts do not count, and neither do hinges in their housing."""
     surface, state = scene.surface, scene.state
     info = surface.info
     if state.kind == "bileaflet":
