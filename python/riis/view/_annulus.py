@@ -64,7 +64,7 @@ def annulus_of(state: ValveState) -> Annulus:
 
 
 def _nadirs(ends: Reals, leaflet: Any) -> Reals:
-    """Returns the lowest point of each cusp's attachment: the middle of its lowest points."""
+    """Returns the nadir of each cusp: the mean of the lowest vertices of its attachment."""
     made = []
     for cusp in range(3):
         of_cusp = ends[leaflet == cusp]
