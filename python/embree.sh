@@ -5,6 +5,7 @@
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
 # embree.sh cost PREFIX BUILD       compares the costs of queries and updates with the system's Embree and with that in PREFIX.
 #                                   The folder BUILD has a shared libriis, whose objects are linked again
+# embree.sh cost isa=sse2 BUILD     the same, with the system's Embree restricted to these instructions in place of that in PREFIX
 #
 # riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
 # these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
@@ -87,13 +88,21 @@ build() {
 }
 
 cost() {
-  local prefix=$1 library=$2/src/riis/libriis.so root work objects
+  local library=$2/src/riis/libriis.so root work objects=() embree=()
   root=$(dirname -- "$(readlink -f -- "$0")")/..
   [[ -f $library ]] || give_up "there is no $library: build the target riis there"
   work=$(mktemp -d)
   mapfile -t objects < <(find "$2/src/riis/CMakeFiles" -name '*.o')
-  c++ -shared -fopenmp -Wl,--gc-sections "-Wl,--version-script=$root/src/riis/riis.map" "${objects[@]}" \
-    -Wl,--start-group "$prefix"/lib/*.a -Wl,--end-group -ltbb -o "$work/own.so"
+  if [[ $1 == isa=* ]]; then
+    printf '%s\n' 'void *__real_rtcNewDevice(const char *);' \
+      "void *__wrap_rtcNewDevice(const char *) { return __real_rtcNewDevice(\"$1\"); }" |
+      sed 's/^void/extern "C" &/' | c++ -x c++ -fPIC -c - -o "$work/device.o"
+    embree=("$work/device.o" "-Wl,--wrap=rtcNewDevice" "$(objdump -p "$library" | sed -n 's/^ *NEEDED *\(libembree.*\)/-l:\1/p')")
+  else
+    embree=("-Wl,--start-group" "$1"/lib/*.a "-Wl,--end-group")
+  fi
+  c++ -shared -fopenmp -Wl,--gc-sections "-Wl,--version-script=$root/src/riis/riis.map" "${objects[@]}" "${embree[@]}" \
+    -ltbb -o "$work/own.so"
   cc -std=gnu11 -O2 -I "$root/include" "$root/python/tests/embree_cost.c" -o "$work/embree_cost" -lm
   "$work/embree_cost" "$(realpath -- "$library")" "$work/own.so"
   rm -rf "$work"
