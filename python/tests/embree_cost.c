@@ -14,11 +14,19 @@
 enum { n_points = 60, n_rounds = 300 }; /* so few points are queried one by one, also those of a coarse surface */
 
 /* The functions of a library that this program calls. */
-#define FUNCTIONS(X)                                                                                       \
-  X(valve_create)                                                                                          \
-  X(valve_set_scalar) X(surface_options_init) X(surface_create) X(surface_update) X(points_init)           \
-      X(closest_options_init) X(closest_arrays_init) X(closest_points) X(valve_destroy) X(surface_destroy) \
-          X(last_error)
+#define FUNCTIONS(X)      \
+  X(valve_create)         \
+  X(valve_set_scalar)     \
+  X(surface_options_init) \
+  X(surface_create)       \
+  X(surface_update)       \
+  X(points_init)          \
+  X(closest_options_init) \
+  X(closest_arrays_init)  \
+  X(closest_points)       \
+  X(valve_destroy)        \
+  X(surface_destroy)      \
+  X(last_error)
 typedef struct library {
 #define MEMBER(name) __typeof__(&riis_##name) name;
   FUNCTIONS(MEMBER)
