@@ -1,0 +1,163 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run heart: a beating left heart in OpenFOAM, with a mitral and an aortic valve. `run` sources this file after
+# examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
+
+heart_here=examples/left_heart
+
+# heart [--short]
+heart() {
+  local python
+  heart_fine=2.2 heart_coarse=4.5 heart_beats=3
+  case $* in
+    '') ;;
+    --short) heart_fine=2.8 heart_coarse=6 heart_beats=1 ;;
+    *)
+      echo "./run heart: '$*' is not an option" >&2
+      exit 2
+      ;;
+  esac
+  openfoam_has_package || return 0
+  packages=("${demo_packages[@]}" "${openfoam_packages[@]}")
+  install_missing
+  of_work=$PWD/$build/openfoam
+  mkdir -p "$of_work"
+  openfoam_has_source || return 0
+  step "build the library and the plug-in" openfoam_build
+  step "build the motion of the wall" heart_build
+  step "configure" cmake --preset default
+  step "build the program" cmake --build build --target riis_program --parallel "$n_jobs"
+  openfoam_environment
+  export LD_LIBRARY_PATH=$of_work/left_heart:$LD_LIBRARY_PATH
+  of_with=()
+  python=$(python_of_packages)
+  heart_python() { "$python" -B "$heart_here/$1" "${@:2}"; }
+  of_cases=$of_work/left_heart_cases of_out=$PWD/out/heart
+  rm -rf "$of_cases" "$of_out"
+  mkdir -p "$of_cases" "$of_out"
+
+  step "mesh the heart" heart_mesh
+  step "measure what both valves leave to the flow at each opening" heart_states
+  step "measure the leaks of the closed valves" heart_leaks
+  step "a heart without space" heart_zero_d
+  cat "$of_out/zero_d.txt"
+  step "$heart_beats beats of the heart" of_run beat 1
+  heart_python check.py beat "$of_cases/beat" "$of_out/zero_d.csv" "$of_out/leaks.txt" | tee "$of_out/beat.txt"
+  step "40 steps on 1 and 2 ranks, and a restart" heart_ranks
+  heart_python check.py ranks "$of_cases/ranks-1" "$of_cases/ranks-2" | tee "$of_out/ranks.txt"
+  heart_python check.py restart "$of_cases/ranks-1" "$of_cases/restart" | tee "$of_out/restart.txt"
+  step "bad input, which must be refused" heart_refusals
+  cat "$of_out/refusals.txt"
+  step "draw" heart_python draw.py "$of_cases/beat" "$of_out/zero_d.csv" "$of_out"
+  say "wrote out/heart, and the beat in $of_cases/beat"
+}
+
+heart_build() {
+  cmake -S "$heart_here/prescribed" -B "$of_work/left_heart" -G Ninja -D CMAKE_BUILD_TYPE=Release \
+    -D OPENFOAM_SOURCE="$of_source/src" &&
+    cmake --build "$of_work/left_heart"
+}
+
+# heart_mesh: makes the mesh in the folder mesh of the cases.
+heart_mesh() {
+  local folder=$of_cases/mesh
+  cp -r "$heart_here/case" "$folder" &&
+    gmsh -3 -nt 1 -setnumber fine "$heart_fine" -setnumber coarse "$heart_coarse" -format msh22 -o "$folder/heart.msh" \
+      "$heart_here/heart.geo" &&
+    heart_held mesh 0 0 &&
+    sed -i 's/writeFormat binary/writeFormat ascii/' "$folder/system/controlDict" &&
+    gmshToFoam -case "$folder" "$folder/heart.msh" &&
+    sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" &&
+    checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" &&
+    grep -q '^Mesh OK' "$folder/checkMesh.log"
+}
+
+# heart_case NAME: copies the case and its mesh to $of_cases/NAME.
+heart_case() {
+  rm -rf "${of_cases:?}/$1"
+  cp -r "$heart_here/case" "$of_cases/$1" &&
+    cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant"
+}
+
+# heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
+heart_held() {
+  local constant=$of_cases/$1/constant valve
+  echo 'amplitude constant 0;' >"$constant/amplitude"
+  awk -v p="$2" 'BEGIN { printf "p0 constant %.10g;\n", p * 133.322 / 1060 }' >"$constant/inletPressure"
+  awk -v p="$3" 'BEGIN { printf "p0 constant %.10g;\n", p * 133.322 / 1060 }' >"$constant/outletPressure"
+  for valve in mitral aortic; do echo 'period 0.8; keys ((0 0) (0.4 0));' >"$constant/${valve}Keys"; done
+}
+
+# The same valves, placement and half thickness as in the case.
+heart_states() {
+  local valve
+  for valve in mitral coapting; do
+    "build/bin/riis" states "$of_out/$valve.csv" --valve "$valve" --scale 0.008 --half-thickness 0.0015 --quiet || return
+  done
+}
+
+# Blood that is driven through both closed valves in a row has one flow, and the pressure between them gives both leaks.
+heart_leaks() {
+  heart_case leaks && heart_held leaks 10 0 && of_set leaks system/controlDict endTime 0.04 writeInterval 0.04 &&
+    of_run leaks 1 && heart_python check.py leaks "$of_cases/leaks" >"$of_out/leaks.txt"
+}
+
+heart_zero_d() {
+  local mitral aortic
+  read -r mitral aortic <"$of_out/leaks.txt"
+  heart_case beat &&
+    heart_python zero_d.py "$of_cases/beat" "$of_out/mitral.csv" "$of_out/coapting.csv" "$mitral" "$aortic" \
+      --beats "$heart_beats" --out "$of_out/zero_d.csv" >"$of_out/zero_d.txt" &&
+    of_set beat system/controlDict endTime "$(awk -v n="$heart_beats" 'BEGIN { print 0.8 * n }')"
+}
+
+# 40 steps from the start, with both valves closed at their end. The restart begins after 20 of them.
+heart_ranks() {
+  local name
+  for name in ranks-1 ranks-2 restart; do
+    rm -rf "${of_cases:?}/$name"
+    cp -r "$of_cases/beat" "$of_cases/$name" &&
+      rm -rf "$of_cases/$name"/0.* "$of_cases/$name"/[1-9]* "$of_cases/$name"/postProcessing "$of_cases/$name"/log.* &&
+      of_set "$name" system/controlDict endTime 0.08 || return
+  done
+  of_run ranks-1 1 && of_run ranks-2 2 &&
+    cp -r "$of_cases/ranks-1/0.04" "$of_cases/restart" && of_run restart 1
+}
+
+# heart_refused NAME WORDS FILE ENTRY VALUE: the case with this entry must end with these words.
+heart_refused() {
+  local name=refused-$1
+  heart_case "$name" && heart_held "$name" 10 0 && of_set "$name" "$3" "$4" "$5" &&
+    ! pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 && tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' |
+    grep -qF -- "$2" || {
+    echo "$name: not refused with '$2'" >&2
+    return 1
+  }
+  printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/refusals.txt"
+}
+
+# heart_zero_d_refuses NAME WORDS ARGUMENT...
+heart_zero_d_refuses() {
+  local name=$1 words=$2 message
+  shift 2
+  ! message=$(heart_python zero_d.py "$@" 2>&1) && [[ $message == *"$words"* ]] || {
+    echo "$name: not refused with '$words': $message" >&2
+    return 1
+  }
+  printf '| %s | `%s` |\n' "$name" "$words" >>"$of_out/refusals.txt"
+}
+
+heart_refusals() {
+  local motion=constant/dynamicMeshDict out=$of_out
+  heart_refused "no length" "length is 0 and ramp is 0.35, and both must be positive" "$motion" beatMotionCoeffs/length 0 &&
+    heart_refused "no amplitude" "amplitude" "$motion" beatMotionCoeffs/amplitude none &&
+    heart_refused "an unknown law" "law is 'tabel', and must be" system/fvOptions mitral/opening '{ law tabel; }' &&
+    heart_refused "a valve outside the heart" "no cell centre lies within the half thickness" system/fvOptions \
+      aortic/placement '{ scale 0.008; translation (0 0 1); }' &&
+    heart_zero_d_refuses "a leak of 0" "0 is not a positive leak in ml/s/mmHg" "$of_cases/beat" "$out/mitral.csv" "$out/coapting.csv" \
+      0 0.01 &&
+    heart_zero_d_refuses "no table of states" "has no column effective_area" "$of_cases/beat" "$out/zero_d.csv" \
+      "$out/coapting.csv" 0.02 0.01 &&
+    heart_zero_d_refuses "a valve that never closes" "never repeats" "$of_cases/beat" "$out/mitral.csv" "$out/coapting.csv" \
+      0.02 1000
+}
