@@ -4,14 +4,18 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
+# shellcheck source=examples/left_heart/coupled/coupled.sh
+. "$heart_here/coupled/coupled.sh"
 
-# heart [--short]
+# heart [--short | --coupled [--short]]
 heart() {
   local python
-  heart_fine=2.2 heart_coarse=4.5 heart_beats=3
+  heart_fine=2.2 heart_coarse=4.5 heart_beats=3 heart_only=
   case $* in
     '') ;;
     --short) heart_fine=2.8 heart_coarse=6 heart_beats=1 ;;
+    --coupled) heart_only=coupled ;;
+    '--coupled --short') heart_only=coupled heart_fine=2.8 heart_coarse=6 ;;
     *)
       echo "./run heart: '$*' is not an option" >&2
       exit 2
@@ -39,6 +43,11 @@ heart() {
   step "mesh the heart" heart_mesh
   step "measure what both valves leave to the flow at each opening" heart_states
   step "measure the leaks of the closed valves" heart_leaks
+  if [[ $heart_only ]]; then
+    heart_coupled
+    say "wrote out/heart, and the beat in $of_cases/coupled"
+    return
+  fi
   step "a heart without space" heart_zero_d
   cat "$of_out/zero_d.txt"
   step "$heart_beats beats of the heart" of_run beat 1

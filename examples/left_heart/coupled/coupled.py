@@ -3,6 +3,7 @@
 
     python3 coupled.py tables CASE MITRAL.csv AORTIC.csv MITRAL_LEAK AORTIC_LEAK   # as zero_d.py, beside it
     python3 coupled.py check CASE         # residual, balance of the flow, openings, numbers of the beat
+    python3 coupled.py naive_tables CASE COUPLED START    # for a run with prescribed volumes from a time of the coupled run
     python3 coupled.py naive CASE         # the pressures of a run with prescribed volumes
     python3 coupled.py ranks CASE CASE
     python3 coupled.py restart CASE CASE  # the second one is the restart
@@ -63,8 +64,23 @@ def tables(case, mitral, aortic, mitral_leak, aortic_leak, beats=3):
     write("arteries", f"proximalResistance {zero_d.PROXIMAL * resistance:.8g}; distalResistance {zero_d.DISTAL * resistance:.8g};\n"
           f"compliance {zero_d.COMPLIANCE / resistance:.8g}; venousPressure 0;\n"
           f"pressure {(row['aorta'] - zero_d.PROXIMAL * row['aortic_flow']) * MMHG:.10g};\n")
+    volumes = np.interp((times + phase) % PERIOD, np.append(rows[:, 0], PERIOD), np.append(rows[:, 1], rows[0, 1]))
+    np.savetxt(constant / "zeroDVolume", np.column_stack([times, volumes]), fmt="%.12g")  # for the naive variant
     write("startPressure", f"internalField uniform {row['ventricle'] * MMHG / RHO:.10g};\n")
     print(f"starts at {phase:.4f} s of the beat, {row['volume']:.2f} ml, {row['ventricle']:.1f} mmHg")
+
+
+def naive_tables(case, coupled_case, start):
+    """Writes the amplitude of the naive variant, which goes on from a time of the coupled run with the volumes of the heart without
+    space."""
+    times, volumes = np.loadtxt(pathlib.Path(case) / "constant" / "zeroDVolume").T
+    run = run_of(coupled_case)
+    at = np.abs(run["time"] - float(start)).argmin()
+    rest = float(re.search(r"^volume (\S+);", foam_files.text(pathlib.Path(coupled_case) / "constant" / "elastance"), re.MULTILINE)[1]) / ML
+    volumes += run["volume"][at] - rest - np.interp(run["time"][at], times, volumes)
+    amplitudes = zero_d.amplitude_of(zero_d.Mesh(pathlib.Path(case)), volumes * ML)
+    (pathlib.Path(case) / "constant" / "amplitude").write_text("amplitude table" + zero_d.table(times, amplitudes) + ";\n",
+                                                                encoding="ascii")
 
 
 # ---- What a run wrote ----
@@ -168,7 +184,7 @@ def restart(whole, again):
         expect(difference <= bound, f"{name} after a restart differs by {difference:.1e} in {n} steps, at most {bound:g}")
 
 
-COMMANDS = {f.__name__: f for f in (tables, check, naive, ranks, restart)}
+COMMANDS = {f.__name__: f for f in (tables, check, naive_tables, naive, ranks, restart)}
 if __name__ == "__main__":
     if len(sys.argv) < 3 or sys.argv[1] not in COMMANDS:
         sys.exit(f"coupled.py: the first argument must be one of {', '.join(COMMANDS)}, and the second one a case")

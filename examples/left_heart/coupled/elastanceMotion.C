@@ -116,7 +116,7 @@ class elastanceMotion : public points0MotionSolver {
     state_.add("slope", search_.slope);
     state_.add("weight", search_.weight);
     state_.add("drift", search_.drift);
-    state_.add("surprise", search_.surprise);
+    state_.add("surprise", search_.largestSurprise());
     state_.add("amplitude", amplitude_);
   }
 
@@ -153,6 +153,10 @@ class elastanceMotion : public points0MotionSolver {
     meshAtRest_ = meshVolume(0);
     search_.leastSlope = positive(coeffDict(), "leastSlope");
     search_.largestSlope = positive(coeffDict(), "largestSlope");
+    if (search_.leastSlope >= search_.largestSlope) {
+      FatalIOErrorInFunction(coeffDict()) << "leastSlope is " << search_.leastSlope << ", and must be below largestSlope, which is "
+                                          << search_.largestSlope << exit(FatalIOError);
+    }
     search_.jump = positive(coeffDict(), "jump");
     search_.safeguards = coeffDict().getOrDefault<bool>("safeguards", true);
     const bool found = state_.found("volume");
@@ -250,6 +254,7 @@ class elastance : public option {
       : option(name, modelType, dict, mesh) {
     fieldNames_ = wordList(1, "U");
     applied_.setSize(1, true);
+    active_ = dict.getOrDefault<Switch>("active", true);
   }
   using option::correct;
   void correct(volVectorField &) override { elastanceMotion::of(mesh_).measure(mesh_.lookupObject<volScalarField>("p")); }
