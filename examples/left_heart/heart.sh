@@ -8,10 +8,10 @@ heart_here=examples/left_heart
 # heart [--short]
 heart() {
   local python
-  heart_fine=2.2 heart_coarse=4.5 heart_beats=3
+  heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3
   case $* in
     '') ;;
-    --short) heart_fine=2.8 heart_coarse=6 heart_beats=1 ;;
+    --short) heart_fine=2.8 heart_coarse=6 heart_half_thickness=2e-3 heart_beats=1 ;;
     *)
       echo "./run heart: '$*' is not an option" >&2
       exit 2
@@ -74,7 +74,8 @@ heart_mesh() {
 heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
-    cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant"
+    cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
+    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness"
 }
 
 # heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
