@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blood of a left heart, in mm: half an ellipsoid below the base z = 0, with two tubes above it. The aortic tube is a cylinder.
-// The mitral tube has the outline of the mitral valve's annulus, as riis draws it (docs/theory.md). A point on the valves is
-// 8 mm/cm times the valve's own.
+// The mitral tube has the outline of the mitral valve's annulus, as riis draws it (docs/theory.md).
 //
 //   gmsh -3 -setnumber fine 2.2 -setnumber coarse 4.5 -format msh22 heart.geo
 SetFactory("OpenCASCADE");
 DefineConstant[ fine = 2.2, coarse = 4.5 ]; // edges near the valves, and at the apex
 ventricle_radius = 28;
 ventricle_length = 73;
-unit = 8;            // mm per cm of the valves' tables
+unit = 8;            // mm per cm of the mitral valve's table
 mitral_y = -14;      // the middle of the annulus
-aortic_y = 14.5;
-aortic_radius = 1.25 * unit; // the coapting valve's root_radius
+aortic_y = 15;
+aortic_radius = 1.25 * 9.2; // 9.2 mm per cm of the coapting valve's root_radius
 mitral_top = 26;
-aortic_top = 32;
+aortic_top = 34;
 overlap = 1;         // so far the tubes reach into the ventricle before they are united
 
 Sphere(1) = {0, 0, 0, 1, -Pi / 2, 0};

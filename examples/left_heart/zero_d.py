@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A left heart without space: it writes the wall's motion, both end pressures and the openings for the flow in space.
 
-    python3 zero_d.py CASE MITRAL.csv AORTIC.csv MITRAL_LEAK AORTIC_LEAK [--out TABLE.csv]
+    python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
 
 The ventricle has the elastance E(t), so p = E (V - V0). An atrium, which the pulmonary veins fill, lies before it, and a windkessel
-behind it. Each valve has the leak in ml/s/mmHg that was measured in the mesh, and the effective area that the band leaves to the
-flow, from the table of `riis states`. So the isovolumetric phases have the same lengths as in space. A few milliseconds more or
-less would cost hundreds of mmHg there, because blood is incompressible.
+behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow, both as measured in the
+mesh (check.py orifice). So the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would cost
+hundreds of mmHg there, because blood is incompressible.
 
 The model runs until its beats repeat. The case's tables begin when the A wave ends, because the blood in
 the open mitral valve is at rest then.
@@ -52,11 +52,9 @@ def atrial_elastance(t):
 class Valve:
     """Flow L dQ/dt = dp - Q |Q| rho / (2 A^2) beside the leak, with the effective area A of the opening."""
 
-    def __init__(self, name, table, leak):
-        self.name, self.leak = name, leak
-        self.openings = np.array([float(row["opening"]) for row in table])
-        self.areas = np.array([float(row["effective_area"]) for row in table])  # m2
-        self.sealed = max((o for o, a in zip(self.openings, self.areas) if a <= 0), default=0.0)
+    def __init__(self, name, orifice):
+        self.name = name
+        self.openings, self.areas, self.leak, self.sealed = orifice
         self.flow, self.progress, self.opens, self.turned = 0.0, 0.0, False, -1.0
 
     def opening(self):
@@ -207,19 +205,20 @@ def write_tables(case, rows, n_beats):
     return start
 
 
-def positive(text):
-    value = float(text)
-    if not (value > 0 and math.isfinite(value)):
-        raise argparse.ArgumentTypeError(f"{text} is not a positive leak in ml/s/mmHg")
-    return value
-
-
-def read_states(path):
+def read_orifice(path):
+    """Returns openings, areas in m2, the leak in ml/s/mmHg, and the largest opening without an area."""
     with open(path, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
-    if not rows or "effective_area" not in rows[0]:
-        sys.exit(f"zero_d.py: {path} has no column effective_area; make it by riis states")
-    return rows
+    for column in ("opening", "area", "leak"):
+        if not rows or column not in rows[0]:
+            sys.exit(f"zero_d.py: {path} has no column {column}; make it by check.py orifice")
+    openings, areas = (np.array([float(row[column]) for row in rows]) for column in ("opening", "area"))
+    leak = float(rows[0]["leak"])
+    if not (leak > 0 and math.isfinite(leak)):
+        sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
+    if not (np.isfinite(areas).all() and areas[0] == 0 and areas[-1] > 0 and openings[0] == 0 and openings[-1] == 1 and (np.diff(openings) > 0).all()):
+        sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
+    return openings, areas, leak, openings[np.flatnonzero(areas > 0)[0] - 1]
 
 
 def main():
@@ -227,13 +226,10 @@ def main():
     parser.add_argument("case", type=pathlib.Path)
     parser.add_argument("mitral")
     parser.add_argument("aortic")
-    parser.add_argument("mitral_leak", type=positive)
-    parser.add_argument("aortic_leak", type=positive)
     parser.add_argument("--beats", type=int, default=1, choices=range(1, 10))
     parser.add_argument("--out", default="zero_d.csv")
     options = parser.parse_args()
-    valves = (Valve("mitral", read_states(options.mitral), options.mitral_leak),
-              Valve("aortic", read_states(options.aortic), options.aortic_leak))
+    valves = Valve("mitral", read_orifice(options.mitral)), Valve("aortic", read_orifice(options.aortic))
     rows = beats(valves)
     report(rows, valves)
     start = write_tables(options.case, rows, options.beats)
