@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the files of the coupled heart, and checks its runs.
 
-    python3 coupled.py tables CASE MITRAL.csv AORTIC.csv MITRAL_LEAK AORTIC_LEAK   # as zero_d.py, beside it
-    python3 coupled.py check CASE         # residual, balance of the flow, openings, numbers of the beat
+    python3 coupled.py tables CASE MITRAL.csv AORTIC.csv   # the tables of check.py orifice
+    python3 coupled.py check CASE MITRAL.csv AORTIC.csv    # residual, balance of the flow, openings, numbers of the beat
     python3 coupled.py naive_tables CASE COUPLED START    # for a run with prescribed volumes from a time of the coupled run
     python3 coupled.py naive CASE         # the pressures of a run with prescribed volumes
     python3 coupled.py ranks CASE CASE
@@ -40,10 +40,9 @@ def isovolumetric(rows):
     return rows[closed[0]]
 
 
-def tables(case, mitral, aortic, mitral_leak, aortic_leak, beats=3):
-    leaks = [float(mitral_leak), float(aortic_leak)]
-    valves = (zero_d.Valve("mitral", zero_d.read_states(mitral), leaks[0]),
-              zero_d.Valve("aortic", zero_d.read_states(aortic), leaks[1]))
+def tables(case, mitral, aortic, beats=3):
+    valves = zero_d.Valve("mitral", zero_d.read_orifice(mitral)), zero_d.Valve("aortic", zero_d.read_orifice(aortic))
+    leaks = [valve.leak for valve in valves]
     rows = zero_d.beats(valves)
     row = dict(zip(zero_d.COLUMNS, isovolumetric(rows)))
     phase = row["time"]
@@ -125,15 +124,10 @@ def seconds(case):
     return float(re.findall(r"ExecutionTime = (\S+) s", foam_files.text(pathlib.Path(case) / "log.pimpleFoam"))[-1])
 
 
-def sealed(states):
-    rows = zero_d.read_states(states)
-    return max((float(r["opening"]) for r in rows if float(r["effective_area"]) <= 0), default=0.0)
-
-
 # ---- Checks ----
 
 
-def check(case, mitral_states, aortic_states):
+def check(case, mitral, aortic):
     run = run_of(case)
     residual = np.abs(run["residual"])
     worst = residual.argmax()
@@ -144,7 +138,8 @@ def check(case, mitral_states, aortic_states):
     peak = max(run["aortic_flow"].max(), run["mitral_flow"].max())
     balance = np.abs(run["flow"] - run["mitral_flow"] + run["aortic_flow"]).max()
     expect(balance <= 1e-5 * peak, f"|dV/dt - (Qm - Qa)| is at most {balance:.2g} ml/s, {balance / peak:.1e} of the peak flow {peak:.0f} ml/s")
-    both = (run["mitral_opening"] > sealed(mitral_states)) & (run["aortic_opening"] > sealed(aortic_states))
+    sealed = [zero_d.Valve("", zero_d.read_orifice(path)).sealed for path in (mitral, aortic)]
+    both = (run["mitral_opening"] > sealed[0]) & (run["aortic_opening"] > sealed[1])
     expect(not both.any(), f"both valves are above their dead bands in {both.sum()} steps")
     volume, pressure = run["volume"], run["pressure"]
     work = np.trapz(pressure, volume) * MMHG * ML

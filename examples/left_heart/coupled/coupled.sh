@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
 # The steps of ./run heart --coupled: the valves open by the pressures of the flow, and the wall moves by its elastance. heart.sh
-# sources this file, and has made the mesh, the tables of both valves and the leaks.
+# sources this file, and has made the mesh, the tables of both valves.
 
 heart_coupled() {
   step "build the motion by elastance" heart_coupled_build
@@ -9,7 +9,7 @@ heart_coupled() {
   heart_python coupled/study.py "$of_work/left_heart_coupled/libvolumeSearch.so" | tee "$of_out/coupled_study.txt"
   step "the files of the coupled heart" heart_coupled_case coupled
   step "a beat of the coupled heart" of_run coupled 1
-  heart_python coupled/coupled.py check "$of_cases/coupled" "$of_out/mitral.csv" "$of_out/coapting.csv" | tee "$of_out/coupled.txt"
+  heart_python coupled/coupled.py check "$of_cases/coupled" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/coupled.txt"
   step "prescribed volumes with valves that switch" heart_naive
   heart_python coupled/coupled.py naive "$of_cases/naive" | tee "$of_out/coupled_naive.txt"
   step "40 steps on 1 and 2 ranks, and a restart" heart_coupled_ranks
@@ -27,10 +27,9 @@ heart_coupled_build() {
 
 # heart_coupled_case NAME: the case with the files of the coupled heart over it.
 heart_coupled_case() {
-  local mitral aortic
-  read -r mitral aortic <"$of_out/leaks.txt"
   heart_case "$1" && cp -r "$heart_here"/coupled/case/. "$of_cases/$1" &&
-    heart_python coupled/coupled.py tables "$of_cases/$1" "$of_out/mitral.csv" "$of_out/coapting.csv" "$mitral" "$aortic"
+    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness" &&
+    heart_python coupled/coupled.py tables "$of_cases/$1" "$of_out/mitral.csv" "$of_out/aortic.csv"
 }
 
 # The coupled run at 0.04 s, with both valves closed, goes on with the volumes of the heart without space and the same valves.
