@@ -12,9 +12,9 @@ heart_coupled() {
   heart_python coupled/coupled.py check "$of_cases/coupled" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/coupled.txt"
   step "prescribed volumes with valves that switch" heart_naive
   heart_python coupled/coupled.py naive "$of_cases/naive" | tee "$of_out/coupled_naive.txt"
-  step "40 steps on 1 and 2 ranks, and a restart" heart_coupled_ranks
-  heart_python coupled/coupled.py ranks "$of_cases/coupled-1" "$of_cases/coupled-2" | tee "$of_out/coupled_ranks.txt"
-  heart_python coupled/coupled.py restart "$of_cases/coupled-1" "$of_cases/coupled-restart" | tee -a "$of_out/coupled_ranks.txt"
+  step "20 steps on 2 ranks, and a restart" heart_coupled_ranks
+  heart_python coupled/coupled.py ranks "$of_cases/coupled" "$of_cases/coupled-2" | tee "$of_out/coupled_ranks.txt"
+  heart_python coupled/coupled.py restart "$of_cases/coupled" "$of_cases/coupled-restart" | tee -a "$of_out/coupled_ranks.txt"
   step "bad input, which must be refused" heart_coupled_refusals
   cat "$of_out/coupled_refusals.txt"
 }
@@ -32,31 +32,39 @@ heart_coupled_case() {
     heart_python coupled/coupled.py tables "$of_cases/$1" "$of_out/mitral.csv" "$of_out/aortic.csv"
 }
 
+# heart_coupled_again NAME [TIME]: the files of the coupled run, with its state at this time.
+heart_coupled_again() {
+  local coupled=$of_cases/coupled
+  rm -rf "${of_cases:?}/$1"
+  mkdir "$of_cases/$1" && cp -r "$coupled"/{0,constant,system} ${2:+"$coupled/$2"} "$of_cases/$1"
+}
+
 # The coupled run at 0.04 s, with both valves closed, goes on with the volumes of the heart without space and the same valves.
 heart_naive() {
   local naive=$of_cases/naive
-  heart_coupled_case naive && cp "$heart_here/case/constant/dynamicMeshDict" "$naive/constant" &&
+  heart_coupled_again naive 0.04 && cp "$heart_here/case/constant/dynamicMeshDict" "$naive/constant" &&
     heart_python coupled/coupled.py naive_tables "$naive" "$of_cases/coupled" 0.04 &&
-    cp "$heart_here/case/system/fvSolution" "$naive/system" && cp -r "$of_cases/coupled/0.04" "$naive" &&
+    cp "$heart_here/case/system/fvSolution" "$naive/system" &&
     sed -i '/^wall /d' "$naive/system/fvOptions" &&
     sed -i '/elastanceTable/d; s/"libelastanceMotion.so"//' "$naive/system/controlDict" &&
     of_set naive system/controlDict endTime 0.12 && of_run naive 1
 }
 
-# The aortic valve opens in the 40 steps. The restart begins after 20 of them.
+# The coupled run at 0.04 s goes on for 20 steps, in which the aortic valve opens: on 2 ranks, and on one.
 heart_coupled_ranks() {
   local name
-  for name in coupled-1 coupled-2 coupled-restart; do
-    heart_coupled_case "$name" && of_set "$name" system/controlDict endTime 0.08 || return
+  for name in coupled-2 coupled-restart; do
+    heart_coupled_again "$name" 0.04 && of_set "$name" system/controlDict endTime 0.08 || return
   done
-  of_run coupled-1 1 && of_run coupled-2 2 &&
-    cp -r "$of_cases/coupled-1/0.04" "$of_cases/coupled-restart" && of_run coupled-restart 1
+  of_run coupled-restart 1 &&
+    of_logged coupled-2 decomposePar "${of_with[@]}" decomposePar -copyUniform -case "$of_cases/coupled-2" &&
+    of_logged coupled-2 pimpleFoam timeout 3600 mpirun -n 2 "${of_with[@]}" pimpleFoam -case "$of_cases/coupled-2" -parallel
 }
 
 # heart_coupled_refused NAME WORDS FILE ENTRY VALUE: the coupled case with this entry must end with these words.
 heart_coupled_refused() {
-  local name=refused-$1
-  heart_coupled_case "$name" >/dev/null && of_set "$name" "$3" "$4" "$5" &&
+  local name=refused-${1// /_}
+  heart_coupled_again "$name" && of_set "$name" "$3" "$4" "$5" &&
     ! pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 && tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' |
     grep -qF -- "$2" || {
     echo "$name: not refused with '$2'" >&2

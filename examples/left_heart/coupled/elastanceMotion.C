@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves the wall of a ventricle by its elastance: the pressure of the blood on the wall equals E(t) (V - V0).
 //
-// elastanceMotion is a motion solver. In each outer corrector volumeSearch.H says which volume to try, and the amplitude of the
-// motion gives the mesh this volume. elastance is an fvOption without a source. It takes the pressure after each pressure equation,
-// and tells the outer correctors of PIMPLE when the step is solved: the residual of `elastance` in residualControl is
-// |p - E (V - V0)| in Pa. elastanceTable is a function object that writes a row for each step.
+// elastanceMotion is a motion solver. In each outer corrector volumeSearch.H says which volume to try. The amplitude of the motion
+// then gives the mesh this volume. elastance is an fvOption that adds nothing to the equations. It takes the pressure after each
+// pressure equation, and tells the outer correctors of PIMPLE when the step is solved, by the residual `elastance` in residualControl.
+// elastanceTable is a function object that writes a row for each step.
 //
-// p is the pressure that does the wall's work: sum of p_f dV_f / sum of dV_f, where dV_f is the volume that the face f sweeps if the
-// amplitude grows. The work of the blood on the wall is then exactly the integral of p dV.
+// p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the face f sweeps
+// if the amplitude grows. So the work of the blood on the wall is exactly the integral of p dV.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -123,8 +123,9 @@ class elastanceMotion : public points0MotionSolver {
   void checkCase() const {
     const dictionary &pimple = fvMesh_.solutionDict().subDict("PIMPLE");
     if (!pimple.getOrDefault<bool>("moveMeshOuterCorrectors", false)) {
-      FatalIOErrorInFunction(pimple) << "moveMeshOuterCorrectors is no, and elastanceMotion needs yes: each outer corrector "
-                                     << "tries another volume" << exit(FatalIOError);
+      FatalIOErrorInFunction(pimple)
+          << "moveMeshOuterCorrectors is no, and elastanceMotion needs yes: each outer corrector "
+          << "tries another volume" << exit(FatalIOError);
     }
   }
 
@@ -154,8 +155,9 @@ class elastanceMotion : public points0MotionSolver {
     search_.leastSlope = positive(coeffDict(), "leastSlope");
     search_.largestSlope = positive(coeffDict(), "largestSlope");
     if (search_.leastSlope >= search_.largestSlope) {
-      FatalIOErrorInFunction(coeffDict()) << "leastSlope is " << search_.leastSlope << ", and must be below largestSlope, which is "
-                                          << search_.largestSlope << exit(FatalIOError);
+      FatalIOErrorInFunction(coeffDict())
+          << "leastSlope is " << search_.leastSlope << ", and must be below largestSlope, which is "
+          << search_.largestSlope << exit(FatalIOError);
     }
     search_.jump = positive(coeffDict(), "jump");
     search_.safeguards = coeffDict().getOrDefault<bool>("safeguards", true);
@@ -188,7 +190,8 @@ class elastanceMotion : public points0MotionSolver {
       reach(search_.begin(time.deltaTValue(), elastanceAt(time.value()), unstressed_));
     } else {
       if (!measured_) {
-        FatalErrorInFunction << "fvOptions has no option of type elastance, which takes the pressure" << exit(FatalError);
+        FatalErrorInFunction << "fvOptions has no option of type elastance, which takes the pressure"
+                             << exit(FatalError);
       }
       reach(search_.next());
     }
@@ -236,7 +239,8 @@ class elastanceMotion : public points0MotionSolver {
   static elastanceMotion &of(const fvMesh &mesh) {
     elastanceMotion *found = mesh.getObjectPtr<elastanceMotion>("dynamicMeshDict");
     if (!found) {
-      FatalErrorInFunction << "the motion solver of constant/dynamicMeshDict is not elastanceMotion" << exit(FatalError);
+      FatalErrorInFunction << "the motion solver of constant/dynamicMeshDict is not elastanceMotion"
+                           << exit(FatalError);
     }
     return *found;
   }
@@ -257,7 +261,9 @@ class elastance : public option {
     active_ = dict.getOrDefault<Switch>("active", true);
   }
   using option::correct;
-  void correct(volVectorField &) override { elastanceMotion::of(mesh_).measure(mesh_.lookupObject<volScalarField>("p")); }
+  void correct(volVectorField &) override {
+    elastanceMotion::of(mesh_).measure(mesh_.lookupObject<volScalarField>("p"));
+  }
   bool read(const dictionary &) override { return true; }
 };
 
@@ -282,7 +288,8 @@ class elastanceTable : public fvMeshFunctionObject, public writeFile {
     if (!writtenHeader_) {
       writeHeader(file(), "The cavity, SI units");
       writeCommented(file(), "Time");
-      for (const char *column : {"volume", "dVdt", "pressure", "wall_pressure", "residual", "slope", "trials", "amplitude"})
+      for (const char *column :
+           {"volume", "dVdt", "pressure", "wall_pressure", "residual", "slope", "trials", "amplitude"})
         writeTabbed(file(), column);
       file() << endl;
       writtenHeader_ = true;

@@ -3,7 +3,7 @@
 
     python3 study.py LIBRARY         # LIBRARY: libvolumeSearch.so
 
-The blood of this heart answers as OpenFOAM does. It tells the pressure that a volume has, the valves move once in a step, and each
+The blood of this heart answers as OpenFOAM does. It tells the pressure that a volume has. The valves move once in a step. Each
 outer corrector uses the flows of the corrector before.
 """
 import ctypes
@@ -23,7 +23,10 @@ PROXIMAL, DISTAL, COMPLIANCE = 0.065, 1.1, 1.4  # mmHg s/ml, ml/mmHg
 
 def elastance(time):  # mmHg/ml
     t = time % PERIOD
-    active = (1 - math.cos(math.pi * t / 0.38)) / 2 if t < 0.38 else (1 + math.cos(math.pi * (t - 0.38) / 0.15)) / 2 if t < 0.53 else 0
+    if t < 0.38:
+        active = (1 - math.cos(math.pi * t / 0.38)) / 2
+    else:
+        active = (1 + math.cos(math.pi * (t - 0.38) / 0.15)) / 2 if t < 0.53 else 0
     return 0.074 + 2.126 * active
 
 
@@ -88,7 +91,7 @@ class Blood:
 def library(path):
     search = ctypes.CDLL(path)
     search.search_new.restype = ctypes.c_void_p
-    search.search_new.argtypes = [ctypes.c_double] * 6 + [ctypes.c_int]
+    search.search_new.argtypes = [ctypes.c_double] * 5 + [ctypes.c_int]
     for name, arguments in (("begin", 3), ("measured", 1), ("next", 0), ("residual", 0), ("miss", 0), ("slope", 0)):
         function = getattr(search, "search_" + name)
         function.restype = ctypes.c_double
@@ -102,7 +105,7 @@ def coupled(search, beats, most, safeguards):
     volume = 119.0
     pressure = elastance(START) * (volume - UNSTRESSED)
     largest = 1 / sum(LEAK.values())
-    state = search.search_new(0.05 * MMHG / ML, largest * MMHG / ML, 20 * MMHG, 0.5 * MMHG, volume * ML, pressure * MMHG, safeguards)
+    state = search.search_new(0.05 * MMHG / ML, largest * MMHG / ML, 20 * MMHG, volume * ML, pressure * MMHG, safeguards)
     blood, rows = Blood(), []
     for step in range(round(beats * PERIOD / STEP)):
         time = START + step * STEP
@@ -146,12 +149,13 @@ def prescribed(volumes):
 
 def main():
     search = library(sys.argv[1])
-    print("search, most trials | steps | mean trials | residual above 0.5 mmHg | largest residual | largest pressure of a trial, mmHg")
+    print("search, most trials | steps | mean trials | above 0.5 mmHg | largest residual | largest pressure of a trial, mmHg")
     for safeguards in (0, 1):
         for most in (4, 6, 8, 12):
             rows = coupled(search, 3, most, safeguards)
             trials = [row[4] for row in rows]
-            print(f"{'with safeguards' if safeguards else 'bare secant'}, {most} | {len(rows)} | {sum(trials) / len(trials):.2f} | "
+            name = "with safeguards" if safeguards else "bare secant"
+            print(f"{name}, {most} | {len(rows)} | {sum(trials) / len(trials):.2f} | "
                   f"{sum(not abs(row[3]) <= 0.5 for row in rows)} | {max(abs(row[3]) for row in rows):.2g} | "
                   f"{max(row[5] for row in rows):.0f}")
     rows = coupled(search, 3, 12, 1)
@@ -164,7 +168,8 @@ def main():
         volumes = [row[1] for row in coupled(search, 1, 12, 1)]
         DEAD.update(bands)
         found = prescribed(volumes)
-        print(f"volumes of a heart with {share:g} of the dead bands, valves that switch: {min(found):.0f} to {max(found):.0f} mmHg")
+        print(f"volumes of a heart with {share:g} of the dead bands, valves that switch: "
+              f"{min(found):.0f} to {max(found):.0f} mmHg")
 
 
 main()

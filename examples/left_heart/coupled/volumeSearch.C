@@ -3,13 +3,12 @@
 #include "volumeSearch.H"
 
 extern "C" {
-volumeSearch *search_new(double leastSlope, double largestSlope, double jump, double tolerance, double volume, double pressure,
+volumeSearch *search_new(double leastSlope, double largestSlope, double jump, double volume, double pressure,
                          int safeguards) {
   auto *search = new volumeSearch;
   search->leastSlope = leastSlope;
   search->largestSlope = search->slope = largestSlope;
   search->jump = jump;
-  search->tolerance = tolerance;
   search->safeguards = safeguards != 0;
   search->drift = search->flow = 0;
   search->volume = volume;
