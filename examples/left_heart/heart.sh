@@ -104,7 +104,7 @@ heart_orifice() {
   heart_case "$name" && heart_held "$name" 12 0 &&
     heart_python check.py keys >"$of_cases/$name/constant/$1Keys" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
-    of_set "$name" system/controlDict endTime 0.39 writeInterval 0.39 &&
+    of_set "$name" system/controlDict endTime 0.45 writeInterval 0.45 &&
     of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" >"$of_out/$1.csv"
 }
 

@@ -8,8 +8,8 @@ behind it. The tables have the leak of each closed valve, and the area that each
 mesh (check.py orifice). So the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would cost
 hundreds of mmHg there, because blood is incompressible.
 
-The model runs until its beats repeat. The case's tables begin when the A wave ends, because the blood in
-the open mitral valve is at rest then.
+The model runs until its beats repeat. The case's tables begin between the E and the A wave, because
+no phase between closed valves can start from blood at rest.
 """
 import argparse
 import csv
@@ -20,7 +20,7 @@ import sys
 import numpy as np
 
 MMHG, ML, RHO = 133.322, 1e-6, 1060.0       # Pa, m3, kg/m3
-PERIOD, STEP = 0.8, 5e-5                    # s
+PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
 SYSTOLE, RELAXATION, STEEP = 0.32, 0.13, 0.75  # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
 E_MIN, E_MAX, V_0 = 0.055, 2.3, 6.0         # mmHg/ml, ml
@@ -28,7 +28,8 @@ ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
 MOVE = {"mitral": 0.06, "aortic": 0.04}     # s, to open and to close
-OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, -2.0, 0.03  # mmHg, ml/s, s
+# A valve begins to close when its flow falls below CLOSE_BELOW. Closing at full backflow would stop blood abruptly.
+OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, 60.0, 0.06  # mmHg, ml/s, s
 INERTANCE = {"mitral": 5e-4, "aortic": 9e-4}      # mmHg s2/ml, of the tube and the blood before it
 
 
@@ -55,13 +56,15 @@ class Valve:
     def __init__(self, name, orifice):
         self.name = name
         self.openings, self.areas, self.leak, self.sealed = orifice
-        self.flow, self.progress, self.opens, self.turned = 0.0, 0.0, False, -1.0
+        self.flow, self.before, self.progress, self.opens, self.turned = 0.0, 0.0, 0.0, False, -1.0
 
     def opening(self):
         return self.progress**2 * (3 - 2 * self.progress)
 
     def step(self, t, difference):
-        if t - self.turned > DWELL and (self.flow < CLOSE_BELOW if self.opens else difference > OPEN_ABOVE):
+        falls = self.flow < min(CLOSE_BELOW, self.before)
+        self.before = self.flow
+        if t - self.turned > DWELL and (falls if self.opens else difference > OPEN_ABOVE):
             self.opens, self.turned = not self.opens, t
         change = STEP / MOVE[self.name]
         self.progress = min(1.0, max(0.0, self.progress + (change if self.opens else -change)))
@@ -74,11 +77,12 @@ class Valve:
         self.flow = (self.flow + STEP / inertance * difference) / (1 + STEP / (inertance * conductance))
 
 
+REPEATS = 2e-3  # ml
 COLUMNS = ("time", "volume", "ventricle", "atrium", "aorta", "mitral_opening", "aortic_opening", "mitral_flow", "aortic_flow")
 
 
 def beats(valves, most=40):
-    """Returns one beat, row by row in COLUMNS, once the volume repeats to 0.02 ml."""
+    """Returns one beat, row by row in COLUMNS, once the volume repeats to REPEATS."""
     mitral, aortic = valves
     volume, stored, atrium, before = 120.0, 85.0, 60.0, 0.0
     n = round(PERIOD / STEP)
@@ -97,15 +101,17 @@ def beats(valves, most=40):
         for valve in valves:
             valve.turned -= PERIOD
         change, before = volume - before, volume
-        if abs(change) < 0.02:
+        if abs(change) < REPEATS:
+            # A jump of the volume at the end of the beat would be a flow into a closed chamber, so the rest is spread over the beat.
+            rows[:, 1] -= change * rows[:, 0] / PERIOD
             return rows
     sys.exit(f"zero_d.py: the volume still changes by {change:g} ml after {most} beats")
 
 
 def start_of(rows):
-    """Returns the row at which the A wave ends: the mitral valve is open, and the blood in it is at rest."""
-    ending = np.flatnonzero((rows[:, 0] > KICK_START) & (rows[:, 5] > 0.9))
-    return ending[np.argmin(np.abs(rows[ending, 7]))]
+    """Returns the row between the E and the A wave at which the flow is least."""
+    between = np.flatnonzero((rows[:, 0] > SYSTOLE + RELAXATION + 0.1) & (rows[:, 0] < KICK_START + KICK / 2))
+    return between[np.argmin(rows[between, 7])]
 
 
 def report(rows, valves, out=sys.stdout):
@@ -196,11 +202,13 @@ def write_tables(case, rows, n_beats):
 
     change = (at("volume", times) - at("volume", np.zeros(1))) * ML
     constant = case / "constant"
+    # OpenFOAM takes dV/dt as the mean over a step, and the opening of the step's end. So openings lag by half a step.
+    lagged = keys - STEP_IN_SPACE / 2
     (constant / "amplitude").write_text("amplitude table" + table(times, amplitude_of(Mesh(case), change)) + ";\n", encoding="ascii")
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
         (constant / file).write_text("p0 table" + table(times, at(name, times) * MMHG / RHO) + ";\n", encoding="ascii")
     for name in ("mitral", "aortic"):
-        (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys" + table(keys, at(f"{name}_opening", keys)) + ";\n",
+        (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys" + table(keys, at(f"{name}_opening", lagged)) + ";\n",
                                               encoding="ascii")
     return start
 
