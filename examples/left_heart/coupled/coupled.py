@@ -180,7 +180,8 @@ def compare(whole, part, what, bounds):
     a, b = both_of(whole, part)
     for name, (bound, unit) in bounds.items():
         difference = np.abs(a[name] - b[name]).max()
-        expect(difference <= bound, f"{what}: {name} differs by at most {difference:.1e}{unit} in {len(b['time'])} steps ({bound:g})")
+        expect(difference <= bound,
+               f"{what}: {name} differs by at most {difference:.1e}{unit} in {len(b['time'])} steps ({bound:g})")
 
 
 def ranks(whole, part):

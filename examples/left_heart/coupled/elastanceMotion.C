@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moves the wall of a ventricle by its elastance: the pressure of the blood on the wall equals E(t) (V - V0).
 //
-// elastanceMotion is a motion solver. In each outer corrector volumeSearch.H says which volume to try. The amplitude of the motion
-// then gives the mesh this volume. elastance is an fvOption that adds nothing to the equations. It takes the pressure after each
-// pressure equation, and tells the outer correctors of PIMPLE when the step is solved, by the residual `elastance` in residualControl.
-// elastanceTable is a function object that writes a row for each step.
+// elastanceMotion is a motion solver. In each outer corrector volumeSearch.H says which volume to try. The amplitude
+// of the motion then gives the mesh this volume. elastance is an fvOption that adds nothing to the equations. It
+// takes the pressure after each pressure equation. By the residual `elastance` in residualControl it tells PIMPLE
+// when the step is solved. elastanceTable is a function object that writes a row for each step.
 //
-// p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the face f sweeps
-// if the amplitude grows. So the work of the blood on the wall is exactly the integral of p dV.
+// p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the
+// face f sweeps if the amplitude grows. So the work of the blood on the wall is exactly the integral of p dV.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
