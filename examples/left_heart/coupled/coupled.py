@@ -191,7 +191,7 @@ def ranks(whole, part):
 
 def restart(whole, part):
     compare(whole, part, "restart", {"mitral_opening": (1e-6, ""), "aortic_opening": (1e-6, ""),
-                                     "volume": (1e-4, " ml"), "pressure": (0.1, " mmHg")})
+                                     "volume": (1e-3, " ml"), "pressure": (0.1, " mmHg")})
 
 
 COMMANDS = {f.__name__: f for f in (tables, check, naive_tables, naive, ranks, restart)}
