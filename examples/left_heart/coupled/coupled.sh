@@ -50,11 +50,11 @@ heart_naive() {
     of_set naive system/controlDict endTime 0.12 && of_run naive 1
 }
 
-# The coupled run at 0.04 s goes on for 20 steps, in which the aortic valve opens: on 2 ranks, and on one.
+# The coupled run at 0.08 s goes on for 20 steps, in which the aortic valve opens: on 2 ranks, and on one.
 heart_coupled_ranks() {
   local name
   for name in coupled-2 coupled-restart; do
-    heart_coupled_again "$name" 0.04 && of_set "$name" system/controlDict endTime 0.08 || return
+    heart_coupled_again "$name" 0.08 && of_set "$name" system/controlDict endTime 0.12 || return
   done
   of_run coupled-restart 1 &&
     of_logged coupled-2 decomposePar "${of_with[@]}" decomposePar -copyUniform -case "$of_cases/coupled-2" &&
