@@ -5,6 +5,8 @@
 # the word `archive` it also unpacks the archive, and runs ./run test from it in a bare Debian 12 and a bare Debian 13.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
+# shellcheck source=packaging/steps.sh
+. packaging/steps.sh
 case $* in
   '' | archive) ;;
   *)
@@ -14,8 +16,6 @@ case $* in
 esac
 [[ -e .git ]] || { echo "./run dist: the archive is made from a commit, and this is no git work tree" >&2; exit 2; }
 out=$PWD/out/dist scratch=$PWD/build/dist roots=$(realpath -m -- "${RIIS_ROOTS:-.}")/build-dist
-
-say() { printf '==> %s\n' "$*"; }
 
 # archive_of REPOSITORY FILE: writes the last commit's archive. All times in it are the commit's time. Neither the user's umask
 # nor git's settings matter.
@@ -58,8 +58,7 @@ git clone --quiet --depth 1 --no-checkout "file://$PWD" "$scratch/clone"
 cmp "$archive" "$scratch/again.tar.xz"
 (cd "$out" && sha256sum "${archive##*/}" >"${archive##*/}.sha256")
 notes >"$out/release-notes-$version.md"
-size=$(numfmt --to=si --suffix=B --format=%.1f "$(stat -c %s "$archive")")
-say "made twice with the same bytes: out/dist/${archive##*/}, $size"
+say "made twice with the same bytes: out/dist/${archive##*/}, $(size "$archive")"
 say "the release notes: out/dist/release-notes-$version.md"
 [[ ${1:-} != archive ]] || exit 0
 
