@@ -51,13 +51,18 @@ python_build_folder() {
   echo "$python_folder/${wheel#riis-*-}"
 }
 
-# python_wheel: builds the wheel into build-python/built, together with the C program of the tests.
+# python_wheel [SETTING...]: builds the wheel into build-python/built with these options of pip.
 python_wheel() {
-  local tools=$PWD/$python_folder/tools/bin settings
-  mapfile -t settings < <(python_embree_settings)
+  local tools=$PWD/$python_folder/tools/bin
   rm -rf "$python_folder/built" "$python_folder/repaired"
-  PATH=$tools:$PATH "$tools/pip" wheel . --no-build-isolation --no-deps --verbose --wheel-dir "$python_folder/built" \
-    "${settings[@]}" &&
+  PATH=$tools:$PATH "$tools/pip" wheel . --no-build-isolation --no-deps --verbose --wheel-dir "$python_folder/built" "$@"
+}
+
+# python_own_wheel: builds the wheel with its own Embree, together with the C program of the tests.
+python_own_wheel() {
+  local settings
+  mapfile -t settings < <(python_embree_settings)
+  python_wheel "${settings[@]}" &&
     cmake --build "$(python_build_folder)" --target riis_python_c_marks
 }
 
@@ -78,12 +83,12 @@ python_licences() {
     "$tools/wheel" pack --dest-dir "$python_folder/repaired" "$(echo "$folder"/riis-*)"
 }
 
-# python_environment PYTHON: installs the repaired wheel into a fresh environment.
+# python_environment PYTHON FOLDER: installs the wheel in this folder of build-python into a fresh environment.
 python_environment() {
   local venv=$python_folder/fresh
   rm -rf "$venv"
   "$1" -m venv "$venv" &&
-    "$venv/bin/pip" install "$(echo "$PWD/$python_folder"/repaired/riis-*.whl)" "${python_test_tools[@]}"
+    "$venv/bin/pip" install "$(echo "$PWD/$python_folder/$2"/riis-*.whl)" "${python_test_tools[@]}"
 }
 
 # python_is_alone: checks that the module loads no Embree, TBB or libgomp of the system.
@@ -139,7 +144,7 @@ view() {
     echo "./run view: '${*:2}' is not an argument of ./run view --check" >&2
     exit 2
   }
-  [[ -x $python_folder/fresh/bin/python ]] || python_make
+  [[ -x $python_folder/fresh/bin/python ]] || python_make_here
   packages=("${demo_packages[@]}" "${view_packages[@]}")
   install_missing
   step "configure" cmake --preset default
@@ -176,18 +181,29 @@ fit_study() {
   OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python_folder/fresh/bin/python" -B python/tests/fit_study.py "$n"
 }
 
-# python_make: makes the wheel, and a fresh environment with it.
-python_make() {
-  local interpreter
-  interpreter=$(python_of_packages)
+# python_start: installs the packages and the build tools.
+python_start() {
   packages=("${python_packages[@]}")
   install_missing
-  step "build tools from PyPI" python_tools "$interpreter"
+  step "build tools from PyPI" python_tools "$(python_of_packages)"
+}
+
+# python_make: makes the wheel, and a fresh environment with it.
+python_make() {
+  python_start
   step "build an Embree for the wheel (once, some minutes)" python_embree
-  step "build the wheel" python_wheel
+  step "build the wheel" python_own_wheel
   step "repair the wheel" python_repair
   step "add the licences of its libraries" python_licences
-  step "install it into a fresh environment" python_environment "$interpreter"
+  step "install it into a fresh environment" python_environment "$(python_of_packages)" repaired
+}
+
+# python_make_here: makes the environment with a wheel that uses the distribution's Embree. This takes minutes less, and the wheel
+# only works on this system.
+python_make_here() {
+  python_start
+  step "build the wheel with the distribution's Embree" python_wheel
+  step "install it into a fresh environment" python_environment "$(python_of_packages)" built
 }
 
 # python_package [tests|fit|tutorial|manylinux]
