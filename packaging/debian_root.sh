@@ -20,7 +20,8 @@ logged() {
 }
 install_packages() { logged install apt-get install -y --no-install-recommends "$@"; }
 
-# The archive in a folder, beside Debian's folder. The version for Debian 12 is older than that for Debian 13.
+# unpack FOLDER: unpacks the archive into the folder, with Debian's folder in it. The version for Debian 12 sorts before the
+# version for Debian 13.
 unpack() {
   local folder=$1 entry date
   mkdir -p "$folder"
@@ -113,7 +114,7 @@ try() {
   nice autopkgtest --no-built-binaries --output-dir "$out/autopkgtest" "$tree" -- null >"$logs/tests.log" 2>&1 </dev/null ||
     status=$?
   cat "$out/autopkgtest/summary"
-  # 2: a test was skipped, that of python3-riis where there is no such package
+  # 2: a test was skipped. Debian 12 has no python3-riis, so its test is skipped there.
   ((status == 0 || (status == 2 && debian == 12))) || { tail -n 60 "$logs/tests.log" >&2 && exit 1; }
   find "$out/autopkgtest" -name marks.txt -exec cp -- {} "$out/marks.txt" \;
   for name in "${packages[@]}"; do
@@ -132,7 +133,7 @@ try() {
   say "installed, tested and removed without a trace: ${packages[*]}"
 }
 
-# look_for_traces FILE: no file of the packages may be left, and no file of their name.
+# look_for_traces FILE: fails if a file that the list names is left, or any file with riis in its name.
 look_for_traces() {
   local path left=()
   while IFS= read -r path; do

@@ -23,7 +23,7 @@ logged() {
   "$@" >"$log" 2>&1 || { tail -n 40 "$log" >&2 && exit 1; }
 }
 
-# The numbers that mark_box.f90 of fpm and this program of the Python package must print alike, to the last bit.
+# marks_in_python PYTHON: prints the same numbers as fpm's mark_box.f90. They must agree to the last bit.
 marks_in_python() {
   "$1" - <<'PYTHON'
 import numpy, riis

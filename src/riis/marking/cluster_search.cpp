@@ -80,7 +80,7 @@ class ClusterSearch {
       }
       if (gap_sq <= task_.reach_sq) own_.near_regions.push_back(region);
     }
-    constexpr std::int64_t few = 64;  // searching so few regions takes a few tenths of a millisecond
+    constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
     const auto n_near = view(own_.near_regions).size();
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
       search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
@@ -96,7 +96,7 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    constexpr std::int64_t few = 128;  // searching so few clusters takes about half a millisecond
+    constexpr std::int64_t few = 128;  // searching this many clusters takes about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread);
@@ -110,7 +110,7 @@ class ClusterSearch {
     const auto n = view(clusters_.clusters).size();
     // A thread compares a region anew if another thread had some of its clusters.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
-    constexpr std::int64_t few = 4;  // searching so few takes about half a millisecond
+    constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
     n_threads_ =
         parallel_for_ranges(n, per_block, request_.n_threads.for_part(n, few), [&](const Range &range, int thread) {
           for (std::int64_t cluster = range.begin; cluster < range.end; ++cluster)
