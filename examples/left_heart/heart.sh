@@ -130,13 +130,14 @@ heart_ranks() {
 }
 
 # heart_tell_refused NAME TEXT: adds a row to the table of refusals.
-# shellcheck disable=SC2016 # the backquotes are the table's
-heart_tell_refused() { printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/refusals.txt"; }
+heart_tell_refused() { printf '| %s | %s%s%s |\n' "$1" "\`" "$2" "\`" >>"$of_out/refusals.txt"; }
 
 # heart_refused NAME TEXT FILE ENTRY VALUE: the case with this entry must end with this text.
 heart_refused() {
   local folder=refused-${1// /_}
-  heart_case "$folder" && heart_held "$folder" 10 0 && of_set "$folder" "$3" "$4" "$5" || return
+  heart_case "$folder" || return
+  heart_held "$folder" 10 0 || return
+  of_set "$folder" "$3" "$4" "$5" || return
   if pimpleFoam -case "$of_cases/$folder" >"$of_cases/$folder/log" 2>&1 ||
     ! tr '\n' ' ' <"$of_cases/$folder/log" | tr -s ' ' | grep -qF -- "$2"; then
     echo "$1: not refused with '$2'" >&2
