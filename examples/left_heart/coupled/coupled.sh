@@ -64,13 +64,14 @@ heart_coupled_ranks() {
 # heart_coupled_refused NAME WORDS FILE ENTRY VALUE: the coupled case with this entry must end with these words.
 heart_coupled_refused() {
   local name=refused-${1// /_}
-  heart_coupled_again "$name" && of_set "$name" "$3" "$4" "$5" &&
-    ! pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 && tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' |
-    grep -qF -- "$2" || {
+  heart_coupled_again "$name" || return
+  of_set "$name" "$3" "$4" "$5" || return
+  if pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 ||
+    ! tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' | grep -qF -- "$2"; then
     echo "$name: not refused with '$2'" >&2
     return 1
-  }
-  printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/coupled_refusals.txt"
+  fi
+  printf '| %s | %s%s%s |\n' "$1" "\`" "$2" "\`" >>"$of_out/coupled_refusals.txt"
 }
 
 heart_coupled_refusals() {
