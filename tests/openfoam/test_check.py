@@ -414,14 +414,14 @@ class Expected(Files):
         self.restart(1.25, numpy.array([0, 7.25, 3, 0]))
 
     def case(self, name, size=1, share=0.8, measured=(0.81, 1.01), duct="expected"):
-        area = 0.008 ** 2 / numpy.cos(numpy.pi / 9 * (not name.endswith("-0")))
+        area = float(0.008 ** 2 / numpy.cos(numpy.pi / 9 * (not name.endswith("-0"))))
         times = 1e-3 * numpy.arange(1, 11)
         for calibrate, drop in zip(("no", "yes"), measured):
             case = self.folder / f"{duct}-{name}-{calibrate}"
             factor = ". K is multiplied by 1.25" if calibrate == "yes" else ""
             self.write(case / "log.pimpleFoam",
                        f"Time = 0.001\n\nriis aorticValve: the closed valve has {area * size!r} m2 in the mesh, and is expected"
-                       f" to drop {share!r} of (R / eps) u, u = flow / area{factor}\n")
+                       f" to drop {float(share)!r} of (R / eps) u, u = flow / area{factor}\n")
             self.write(case / "system/fvOptions", "aorticValve { resistance 1e4; halfThickness 1.5e-3; }\n")
             self.write(case / "constant/polyMesh/owner", 'FoamFile { note "nPoints: 9 nCells: 1536 nFaces: 9"; }\n')
             self.table(case, "inflow", times, [-6.4e-7] * 10)
@@ -512,12 +512,12 @@ class Table(Files):
         case, restarted = self.folder / "beat", self.folder / "restart"
         log = "Create time\n"
         before = (0.0, 0.0)
-        for i, time in enumerate(self.times):
-            force = sum(self.columns[f"force_{leaflet}"][i] for leaflet in range(3))
-            log += (f"\nTime = {time!r}\n\nriis aorticValve: opening {self.opening[i]!r}, 9 cells marked, integral of K 1 kg/s,"
+        for i, (time, opening) in enumerate(zip(self.times.tolist(), self.opening.tolist())):
+            force = sum(self.columns[f"force_{leaflet}"][i] for leaflet in range(3)).tolist()
+            log += (f"\nTime = {time!r}\n\nriis aorticValve: opening {opening!r}, 9 cells marked, integral of K 1 kg/s,"
                     f" 0.1 s in the library, pressure difference {before[0]!r} Pa, flow {before[1]!r} m3/s\n"
                     f"riis aorticValve: force of the flow ({force[0]!r} {force[1]!r} {force[2]!r}) N\nExecutionTime = 1 s\n")
-            before = self.columns["pressure_difference"][i], self.columns["flow"][i]
+            before = float(self.columns["pressure_difference"][i]), float(self.columns["flow"][i])
         self.write(case / "log.pimpleFoam", log)
         self.table(case, "flow", self.times, self.columns["flow"])
         shifted = dict(self.columns)
@@ -569,7 +569,7 @@ class Physiological(Table):
         self.write(case / "system/fvOptions", "aorticValve { resistance 1e4; halfThickness 1.8e-3; }\n")
         self.table(case, "downstream", self.times, [12.0] * 1400)
         for time, stored in (("0", 12000.0), ("1.4", self.stored)):
-            self.write(case / time / "p", f"distalResistance 1.7e8; compliance 1e-8; pressure {stored!r};")
+            self.write(case / time / "p", f"distalResistance 1.7e8; compliance 1e-8; pressure {float(stored)!r};")
         ones = numpy.ones(1400)
         self.written(case, "valve", {"opening": self.opening, "flow": self.q, "forward_volume": 6e-5 * ones,
                                      "pressure_difference": numpy.where(self.opening > 0, 500, pressure),
