@@ -40,12 +40,21 @@ END
   gmsh -3 -format msh2 -setnumber h "$2" -o "$3.msh" "$3.geo" >"$3.log" || { cat "$3.log" >&2; return 1; }
 }
 
-# Prints the expected drop and the share of the sum of delta for a flat valve that is moved along the duct.
-drop_in_duct() { # arguments: path without ending, half thickness, shift along the duct
+# export_in_duct PATH HALF_THICKNESS SHIFT: exports the flat valve, moved along the duct of PATH.msh, to PATH and PATH.xml.
+export_in_duct() {
   rm -rf "$1"
   "$build/bin/riis" export "$1" "$1.msh" --valve "$build/uris/flat.json" --resistance 1e4 --time-step 0.002 \
     --opening-seconds 0.002 --closing-seconds 0.002 --half-thickness "$2" --largest-edge 0.03 --translate "0,0,$3" \
-    2>/dev/null | sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p; s/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' | tr '\n' ' '
+    >"$1.xml" 2>/dev/null
+}
+
+# expected_drop PATH: prints the drop over (R/eps) u that the export forecasts.
+expected_drop() { sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p' "$1.xml"; }
+
+# Prints the expected drop and the share of the sum of delta for a flat valve that is moved along the duct.
+drop_in_duct() { # arguments: path without ending, half thickness, shift along the duct
+  export_in_duct "$1" "$2" "$3" &&
+    printf '%s %s' "$(expected_drop "$1")" "$(sed -n 's/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' "$1.xml")"
 }
 
 # Writes the flat valve of ./run uris drop and ./run uris solver.
@@ -89,7 +98,7 @@ uris_drop() {
 
 # uris_solver PROGRAM: runs svMultiPhysics in the same ducts, and prints its drop beside the expected one.
 uris_solver() {
-  local program python elements ratio shift edge path expected
+  local program python elements ratio shift edge path
   program=$(realpath -- "$1") python=$(python_of_packages)
   flat_valve
   printf '\n| elements | eps / h | shift / h | expected drop over (R/eps) u | in the solver |\n|---|---|---|---|---|\n'
@@ -99,14 +108,11 @@ uris_solver() {
       path=$build/uris/duct_${elements}_$ratio
       duct_of_edge $elements "$edge" "$path" || return
       for shift in 0 0.5; do
-        rm -rf "$path" "$path.case"
-        "$build/bin/riis" export "$path" "$path.msh" --valve "$build/uris/flat.json" --resistance 1e4 --time-step 0.002 \
-          --opening-seconds 0.002 --closing-seconds 0.002 --half-thickness 0.2 --largest-edge 0.03 \
-          --translate "0,0,$(awk "BEGIN { print $edge * $shift }")" >"$path.xml" 2>/dev/null &&
+        rm -rf "$path.case"
+        export_in_duct "$path" 0.2 "$(awk "BEGIN { print $edge * $shift }")" &&
           "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$path.case" 0.002 || return
         (cd "$path.case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$path.case/log.txt" >&2; return 1; }
-        expected=$(sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p' "$path.xml")
-        printf '| %s | %s | %s | %s | %s |\n' $elements $ratio $shift "$expected" \
+        printf '| %s | %s | %s | %s | %s |\n' $elements $ratio $shift "$(expected_drop "$path")" \
           "$("$python" -B bench/peers/uris_case.py drop "$path.case")"
       done
     done

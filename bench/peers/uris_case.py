@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a case of svMultiPhysics for ./run uris solver, and reads its drop.
 
-    uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # BLOCK.xml is in FOLDER's parent, and its paths are relative to
-    there
+    uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # makes FOLDER; the working folder is that of `riis export`
     uris_case.py drop FOLDER                                 # prints the drop over (R/eps) u
 
-The duct is that of duct_of_edge. Blood enters at the top and flows down, so the valve stays closed. Units are CGS.
+duct_of_edge of uris.sh makes the duct. Blood enters at the top and flows down, so the valve stays closed. Units are CGS.
 """
 import collections
 import pathlib

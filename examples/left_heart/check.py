@@ -8,6 +8,7 @@
     check.py restart CASE CASE                     # compares a run with a run that was restarted
 """
 import csv
+import functools
 import pathlib
 import re
 import sys
@@ -15,10 +16,8 @@ import sys
 import numpy as np
 
 import zero_d
+from zero_d import ML, MMHG, PERIOD, RHO, foam
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "openfoam"))
-
-MMHG, ML, RHO, PERIOD = 133.322, 1e-6, 1060.0, 0.8
 # The openings at which the orifice is measured. Each is held for HOLD seconds.
 HELD, HOLD = (0.0, 0.1, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.5, 0.6, 0.8, 1.0), 0.03
 
@@ -31,24 +30,11 @@ def demand(fine, words):
         failures.append(words)
 
 
-def read_table(case, name):
-    """Returns the rows of a function object, over all restarts. Vectors and brackets are taken apart."""
-    folder = case / "postProcessing" / name
-    rows = {}
-    for start in sorted(folder.iterdir(), key=lambda path: float(path.name)):
-        (file,) = [path for path in start.iterdir() if path.suffix == ".dat" or path.name == "p"]
-        for line in file.read_text(encoding="ascii").splitlines():
-            if not line.startswith("#"):
-                numbers = [float(word) for word in re.sub("[()]", " ", line).split()]
-                rows[round(numbers[0], 9)] = numbers
-    return np.array([rows[time] for time in sorted(rows)])
-
-
 def read_valves(case):
-    """Returns the openings in the log: for each valve an array of time, opening and number of cells."""
+    """Returns the log's lines of each valve: time, opening, number of marked cells and integral of K."""
     found = {}
     time = None
-    for line in (case / "log.pimpleFoam").read_text(encoding="ascii").splitlines():
+    for line in foam.text(case / "log.pimpleFoam").splitlines():
         if line.startswith("Time = "):
             time = float(line.split()[-1])
         match = re.match(r"riis (\w+): opening ([^,]+), (\d+) cells marked, integral of K (\S+)", line)
@@ -60,37 +46,41 @@ def read_valves(case):
 def volumes(case, times):
     """Returns the volume of the mesh at the start, and at the times, in ml: from its outer faces, moved as beatMotion.C does."""
     mesh = zero_d.Mesh(case)
-    text = (case / "constant" / "amplitude").read_text(encoding="ascii")
+    text = foam.text(case / "constant" / "amplitude")
     numbers = np.array(re.findall(r"(?<![a-z])[-+]?[0-9][-+.e0-9]*", text), float)
-    if len(numbers) == 1:  # `constant 0`
-        return mesh.volume(numbers[0]) / ML, np.full(len(times), mesh.volume(numbers[0]) / ML)
     rows = numbers.reshape(-1, 2)
-    found = [mesh.volume(np.interp(time, rows[:, 0], rows[:, 1])) / ML for time in (0.0, *times)]
-    return found[0], np.array(found[1:])
+    return np.array([mesh.volume(np.interp(time, rows[:, 0], rows[:, 1])) / ML for time in (0.0, *times)])
 
 
 class Beat:
     """Time series of a case, in s, ml, ml/s and mmHg. Inflow and outflow are forward if positive."""
 
     def __init__(self, case):
-        inflow, outflow = read_table(case, "inflow"), read_table(case, "outflow")
-        pressures = read_table(case, "pressures")
-        self.time = inflow[:, 0]
+        inflow, outflow = foam.table(case, "inflow"), foam.table(case, "outflow")
+        pressures = foam.columns(case, "postProcessing/pressures/*/p", 5)
+        self.case, self.time = case, inflow[:, 0]
         self.mitral, self.aortic = -inflow[:, 1] / ML, outflow[:, 1] / ML
-        self.before, self.volume = volumes(case, self.time)
         to_mmhg = RHO / MMHG
         self.ventricle, self.below, self.atrium, self.aorta = (pressures[:, 1 + i] * to_mmhg for i in range(4))
         valves = read_valves(case)
         self.openings = {name: np.interp(self.time, rows[:, 0], rows[:, 1]) for name, rows in valves.items()}
-        log = (case / "log.pimpleFoam").read_text(encoding="ascii")
+        log = foam.text(case / "log.pimpleFoam")
         self.processor_seconds = float(re.findall(r"ExecutionTime = (\S+)", log)[-1])
         self.courant = max(float(word) for word in re.findall(r"Courant Number mean: \S+ max: (\S+)", log))
+
+    @functools.cached_property
+    def volumes(self):
+        return volumes(self.case, self.time)
+
+    @property
+    def volume(self):
+        return self.volumes[1:]
 
 
 def keys():
     """The valve takes the first tenth of each hold to move to the next opening."""
-    pairs = [pair for i, opening in enumerate(HELD) for pair in ((i + 0.1) * HOLD, opening, (i + 0.999) * HOLD, opening)]
-    print("period 0.8; keys (" + " ".join(f"({t:.6g} {o:g})" for t, o in zip(pairs[::2], pairs[1::2])) + ");")
+    keys_of_holds = (f"({(i + share) * HOLD:.6g} {opening:g})" for i, opening in enumerate(HELD) for share in (0.1, 0.999))
+    print(f"period {PERIOD}; keys ({' '.join(keys_of_holds)});")
 
 
 def orifice(case, valve):
@@ -128,7 +118,7 @@ def check_beat(case, model_file, mitral, aortic):
     step = beat.time[1] - beat.time[0]
     peak = max(beat.mitral.max(), beat.aortic.max())
 
-    balance = np.diff(beat.volume, prepend=beat.before) / step - (beat.mitral - beat.aortic)
+    balance = np.diff(beat.volumes) / step - (beat.mitral - beat.aortic)
     demand(np.abs(balance).max() <= 1e-5 * peak,
            f"balance: |dV/dt - (Qm - Qa)| is at most {np.abs(balance).max() / peak:.1e} of the peak flow (1e-5)")
     n = round(PERIOD / step)
@@ -193,7 +183,7 @@ def check_ranks(one, two):
     a, b = read_valves(pathlib.Path(one)), read_valves(pathlib.Path(two))
     for name in a:
         demand(np.array_equal(a[name][:, :3], b[name][:, :3]),
-            f"{name}: openings and marked cells of {len(a[name])} lines are equal")
+               f"{name}: openings and marked cells of {len(a[name])} lines are equal")
         k = np.abs(a[name][:, 3] / b[name][:, 3] - 1).max()
         demand(k <= 1e-5, f"{name}: integrals of K differ by {k:.1e}, by the digits of the log (1e-5)")
     peak = max(np.abs(first.mitral).max(), np.abs(first.aortic).max())
@@ -212,7 +202,7 @@ def check_restart(whole, restarted):
 
 
 COMMANDS = {"keys": (keys, 0), "orifice": (orifice, 2), "beat": (check_beat, 4), "ranks": (check_ranks, 2),
-    "restart": (check_restart, 2)}
+            "restart": (check_restart, 2)}
 
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] not in COMMANDS or len(sys.argv) - 2 != COMMANDS[sys.argv[1]][1]:

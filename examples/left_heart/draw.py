@@ -14,11 +14,10 @@ import matplotlib.collections
 import numpy as np
 
 import check
+from check import foam
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
-
-import foam_files as foam  # noqa: E402
 
 # Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
 BLUE, ORANGE, RED, GREY = "#0072b2", "#e69f00", "#d55e00", "0.6"
@@ -55,21 +54,6 @@ def loop(beat, model, path):
     plt.close(figure)
 
 
-def _cut(points, corners):
-    """Returns the segments in which triangles cut the plane x = 0, in mm."""
-    segments = []
-    for triangle in points[corners]:
-        ends = []
-        for k in range(3):
-            a, b = triangle[k], triangle[(k + 1) % 3]
-            if (a[0] > 0) != (b[0] > 0):
-                t = a[0] / (a[0] - b[0])
-                ends.append(1e3 * (a + t * (b - a))[1:])
-        if len(ends) == 2:
-            segments.append(ends)
-    return segments
-
-
 def slice_at(axes, case, time, largest):
     """Draws the speed and the leaflets in the plane x = 0 at a written time."""
     points, corners, vectors = foam.triangles(case / "postProcessing/slice" / time / "middle.vtk")
@@ -81,7 +65,7 @@ def slice_at(axes, case, time, largest):
         width=4e-3)
     for name in ("mitral", "aortic"):
         leaflets = foam.triangles(case / "postProcessing" / name / time / "leaflets.vtk")
-        lines = _cut(*leaflets[:2])
+        lines = [[1e3 * a, 1e3 * b] for a, b in foam.cut(*leaflets[:2])]
         axes.add_collection(matplotlib.collections.LineCollection(lines, colors="white", linewidths=3))
         axes.add_collection(matplotlib.collections.LineCollection(lines, colors=RED, linewidths=1.5))
     axes.set_aspect("equal")

@@ -3,15 +3,13 @@
 
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
 
-The ventricle has the elastance E(t), so p = E (V - V0). An atrium, which the pulmonary veins fill, lies before it, and a
-windkessel behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow,
-both as measured
-in the
-mesh (check.py orifice). So the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would cost
-hundreds of mmHg there, because blood is incompressible.
+The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before it, and a windkessel lies
+behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow. check.py orifice
+measures both in the mesh, so the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would
+cost hundreds of mmHg there, because blood is incompressible.
 
-The model runs until its beats repeat. The case's tables begin between the E and the A wave, because
-no phase between closed valves can start from blood at rest.
+The model runs until its beats repeat. The case's tables begin between the E and the A wave, because no phase between closed
+valves can start from blood at rest.
 """
 import argparse
 import csv
@@ -21,12 +19,15 @@ import sys
 
 import numpy as np
 
-MMHG, ML, RHO = 133.322, 1e-6, 1060.0       # Pa, m3, kg/m3
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "openfoam"))
+import foam_files as foam  # noqa: E402
+
+MMHG, ML, RHO = 133.322, 1e-6, 1060.0  # Pa, m3, kg/m3
 PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
 SYSTOLE, RELAXATION, STEEP = 0.32, 0.13, 0.75  # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
-E_MIN, E_MAX, V_0 = 0.055, 2.3, 6.0         # mmHg/ml, ml
-ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, ml
+E_MIN, E_MAX, V_0 = 0.055, 2.3, 6.0         # mmHg/ml, mmHg/ml, ml
+ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
 MOVE = {"mitral": 0.06, "aortic": 0.04}     # s, to open and to close
@@ -135,11 +136,14 @@ def report(rows, valves, out=sys.stdout):
 # ---- The tables of the case ----
 
 
-def ascii_list(path, scalars):
-    """Returns the numbers of an ascii file of OpenFOAM: points, or faces with their numbers of points."""
-    text = path.read_text(encoding="ascii")
+def triangles(path):
+    """Returns the corners of all faces. The file is text, and has only triangles."""
+    text = foam.text(path)
     body = text[text.index("(", text.index("// * *")) + 1 : text.rindex(")")]
-    return np.array(body.replace("(", " ").replace(")", " ").split(), float if scalars else int)
+    numbers = np.array(body.replace("(", " ").replace(")", " ").split(), int)
+    if len(numbers) % 4 or (numbers[::4] != 3).any():
+        sys.exit(f"zero_d.py: {path} has other faces than triangles")
+    return numbers.reshape(-1, 4)[:, 1:]
 
 
 class Mesh:
@@ -147,14 +151,9 @@ class Mesh:
 
     def __init__(self, case):
         folder = case / "constant" / "polyMesh"
-        self.points = ascii_list(folder / "points", True).reshape(-1, 3)
-        faces = ascii_list(folder / "faces", False)
-        if faces[0] != 3:
-            sys.exit(f"zero_d.py: {folder} is not a mesh of tetrahedra")
-        faces = faces.reshape(-1, 4)[:, 1:]
-        neighbours = ascii_list(folder / "neighbour", False)
-        self.outer = faces[len(neighbours):]
-        text = (case / "constant" / "dynamicMeshDict").read_text(encoding="ascii")
+        self.points = foam.vectors(folder / "points")
+        self.outer = triangles(folder / "faces")[len(foam.labels(folder / "neighbour")):]
+        text = foam.text(case / "constant" / "dynamicMeshDict")
         words = text.replace(";", " ").split()
         self.length, self.ramp, self.radial, self.axial = (float(words[words.index(key) + 1])
                                                            for key in ("length", "ramp", "radial", "axial"))
@@ -190,8 +189,17 @@ def amplitude_of(mesh, change):
     return found
 
 
+def at(rows, name, times):
+    """Returns a column of a beat at any times after its start."""
+    return np.interp(times, rows[:, 0], rows[:, COLUMNS.index(name)], period=PERIOD)
+
+
 def table(times, values):
     return "\n(\n" + "\n".join(f"({t:.6g} {v:.15g})" for t, v in zip(times, values)) + "\n)"
+
+
+def write_table(path, key, times, values):
+    path.write_text(f"{key} table{table(times, values)};\n", encoding="ascii")
 
 
 def write_tables(case, rows, n_beats):
@@ -200,21 +208,16 @@ def write_tables(case, rows, n_beats):
     times = np.arange(round(n_beats * PERIOD / 1e-3) + 1) * 1e-3
     keys = np.arange(round(PERIOD / 1e-3)) * 1e-3
 
-    def at(name, t):
-        i = COLUMNS.index(name)
-        return np.interp((t + start) % PERIOD, np.append(rows[:, 0], PERIOD), np.append(rows[:, i], rows[0, i]))
-
-    change = (at("volume", times) - at("volume", np.zeros(1))) * ML
+    change = (at(rows, "volume", start + times) - at(rows, "volume", start)) * ML
     constant = case / "constant"
     # OpenFOAM takes dV/dt as the mean over a step, and the opening of the step's end. So openings lag by half a step.
     lagged = keys - STEP_IN_SPACE / 2
-    (constant / "amplitude").write_text("amplitude table" + table(times, amplitude_of(Mesh(case), change)) + ";\n",
-        encoding="ascii")
+    write_table(constant / "amplitude", "amplitude", times, amplitude_of(Mesh(case), change))
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
-        (constant / file).write_text("p0 table" + table(times, at(name, times) * MMHG / RHO) + ";\n", encoding="ascii")
+        write_table(constant / file, "p0", times, at(rows, name, start + times) * MMHG / RHO)
     for name in ("mitral", "aortic"):
-        (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys" + table(keys, at(f"{name}_opening", lagged)) + ";\n",
-                                              encoding="ascii")
+        openings = table(keys, at(rows, f"{name}_opening", start + lagged))
+        (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys{openings};\n", encoding="ascii")
     return start
 
 

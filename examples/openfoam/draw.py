@@ -46,21 +46,6 @@ def beat(case, still, path):
     plt.close(figure)
 
 
-def _cut(points, corners):
-    """Returns the segments in which triangles cut the plane x = 0. Each segment has y and z of both ends."""
-    segments = []
-    for triangle in points[corners]:
-        ends = []
-        for k in range(3):
-            a, b = triangle[k], triangle[(k + 1) % 3]
-            if (a[0] > 0) != (b[0] > 0):
-                t = a[0] / (a[0] - b[0])
-                ends.append((a + t * (b - a))[1:])
-        if len(ends) == 2:
-            segments.append(ends)
-    return segments
-
-
 def velocity(case, path):
     """Draws the speed and the leaflets in the plane x = 0, at six of the written times."""
     case = pathlib.Path(case)
@@ -82,7 +67,7 @@ def velocity(case, path):
         colours = one.tripcolor(100 * points[:, 1], 100 * points[:, 2], corners, speed, shading="gouraud", vmin=0, vmax=largest,
                                 cmap="viridis")
         leaflets = foam.triangles(case / "postProcessing/aorticValve" / folder.name / "leaflets.vtk")
-        lines = [[100 * a, 100 * b] for a, b in _cut(*leaflets[:2])]
+        lines = [[100 * a, 100 * b] for a, b in foam.cut(*leaflets[:2])]
         one.add_collection(matplotlib.collections.LineCollection(lines, colors="white", linewidths=2.5))
         one.add_collection(matplotlib.collections.LineCollection(lines, colors=LEAFLET, linewidths=1.2))
         now = opening[numpy.abs(time - float(folder.name)).argmin()]

@@ -69,13 +69,22 @@ def field(path, n_cells):
     return numpy.tile(value, (n_cells, 1)) if len(value) > 1 else numpy.full(n_cells, value[0])
 
 
-def labels(path):
-    """Reads a list of labels, such as constant/polyMesh/owner."""
+def _list(path, kind):
     data = _bytes(path)
     found = re.search(rb"\}.*?\n(\d+)\s*(?=\()", data, re.DOTALL)
     if not found:
-        raise SystemExit(f"{path} has no list of labels")
-    return _values(path, data, found.end(), "label", int(found.group(1)), _is_binary(data))
+        raise SystemExit(f"{path} has no list of {kind}s")
+    return _values(path, data, found.end(), kind, int(found.group(1)), _is_binary(data))
+
+
+def labels(path):
+    """Reads a list of labels, such as constant/polyMesh/owner."""
+    return _list(path, "label")
+
+
+def vectors(path):
+    """Reads a list of vectors, such as constant/polyMesh/points."""
+    return _list(path, "vector")
 
 
 def n_cells(mesh):
@@ -124,21 +133,25 @@ def times(case):
     return sorted(names, key=float)
 
 
-def table(case, name):
-    """Returns the table of a function object: times and values."""
-    paths = sorted(pathlib.Path(case).glob(f"postProcessing/{name}/*/surfaceFieldValue.dat"))
+def columns(case, pattern, n):
+    """Returns the first n columns of all tables of a function object, those of the first start first."""
     rows = []
-    for path in paths:
+    for path in sorted(pathlib.Path(case).glob(pattern), key=lambda path: float(path.parent.name)):
         for i, line in enumerate(text(path).splitlines()):
             words = line.split()
             if line.startswith("#"):
                 continue
-            if len(words) < 2:
-                raise SystemExit(f"{path}: line {i + 1} has {len(words)} columns, and needs 2")
-            rows.append([_number(word, f"{path}: line {i + 1}") for word in words[:2]])
+            if len(words) < n:
+                raise SystemExit(f"{path}: line {i + 1} has {len(words)} columns, and needs {n}")
+            rows.append([_number(word, f"{path}: line {i + 1}") for word in words[:n]])
     if not rows:
-        raise SystemExit(f"{case} has no rows in a file postProcessing/{name}/*/surfaceFieldValue.dat")
+        raise SystemExit(f"{case} has no rows in a file {pattern}")
     return numpy.array(rows)
+
+
+def table(case, name):
+    """Returns the table of a function object: times and values."""
+    return columns(case, f"postProcessing/{name}/*/surfaceFieldValue.dat", 2)
 
 
 def steps(case):
@@ -177,6 +190,21 @@ def triangles(path):
     at = words.index("POINT_DATA") if "POINT_DATA" in words else len(words)
     vectors = numpy.array(words[-3 * count:], float).reshape(-1, 3) if at + 3 * count < len(words) else None
     return points, corners, vectors
+
+
+def cut(points, corners):
+    """Returns the segments in which triangles cut the plane x = 0. Each segment has y and z of both ends."""
+    segments = []
+    for triangle in points[corners]:
+        ends = []
+        for k in range(3):
+            a, b = triangle[k], triangle[(k + 1) % 3]
+            if (a[0] > 0) != (b[0] > 0):
+                t = a[0] / (a[0] - b[0])
+                ends.append((a + t * (b - a))[1:])
+        if len(ends) == 2:
+            segments.append(ends)
+    return segments
 
 
 def area(points, corners):

@@ -23,23 +23,13 @@ openfoam() {
     echo "./run openfoam: '$of_size' is not a size of edges in centimetres, such as 0.1" >&2
     exit 2
   }
-  openfoam_has_package || return 0
-  packages=("${openfoam_packages[@]}")
-  install_missing
-  of_work=$PWD/$build/openfoam
-  mkdir -p "$of_work"
-  openfoam_has_source || return 0
-  step "build the library and the plug-in" openfoam_build
-  openfoam_environment
+  openfoam_start cases openfoam || return 0
   step "mesh the root" openfoam_mesh "$of_size"
   openfoam_digests
 
   local python
   python=$(python_of_packages)
   of_check() { "$python" -B "$openfoam_here/check.py" "$@"; }
-  of_cases=$of_work/cases of_out=$PWD/out/openfoam
-  rm -rf "$of_cases" "$of_out"
-  mkdir -p "$of_cases" "$of_out"
 
   step "bad input, which must be refused" openfoam_refusals
   cat "$of_out/refusals.txt"
@@ -67,6 +57,22 @@ openfoam() {
   fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
+}
+
+# openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes empty folders: build/openfoam/CASES, and out/OUT for results.
+# Returns 1 after a message if OpenFOAM is left out.
+openfoam_start() {
+  openfoam_has_package || return
+  packages=("${openfoam_packages[@]}" "${@:3}")
+  install_missing
+  of_work=$PWD/$build/openfoam
+  mkdir -p "$of_work"
+  openfoam_has_source || return
+  step "build the library and the plug-in" openfoam_build
+  openfoam_environment
+  of_cases=$of_work/$1 of_out=$PWD/out/$2
+  rm -rf "$of_cases" "$of_out"
+  mkdir -p "$of_cases" "$of_out"
 }
 
 # Tells whether the distribution has the package openfoam. Prints the reason if the package is missing.
@@ -167,11 +173,17 @@ openfoam_mesh() {
   cp -r "$openfoam_here/case" "$folder" &&
     gmsh -3 -nt 1 -setnumber Mesh.ScalingFactor 0.01 -setnumber size "$1" -format msh22 -o "$folder/root.msh" \
       "$openfoam_here/root.geo" &&
-    gmshToFoam -case "$folder" "$folder/root.msh" &&
-    sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" &&
-    checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" &&
-    grep -q '^Mesh OK' "$folder/checkMesh.log" &&
-    touch "$folder/complete"
+    of_from_gmsh "$folder" "$folder/root.msh" && of_mesh_is_fine "$folder" && touch "$folder/complete"
+}
+
+# of_from_gmsh FOLDER FILE: turns a mesh by gmsh into the case's mesh. Its patch wall becomes a wall.
+of_from_gmsh() {
+  gmshToFoam -case "$1" "$2" && sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$1/constant/polyMesh/boundary"
+}
+
+# of_mesh_is_fine FOLDER: checks the mesh by OpenFOAM's own checkMesh.
+of_mesh_is_fine() {
+  checkMesh -case "$1" -constant | tee "$1/checkMesh.log" && grep -q '^Mesh OK' "$1/checkMesh.log"
 }
 
 # of_case NAME [SIZE]: copies the case and a mesh to $of_cases/NAME.
@@ -277,8 +289,7 @@ out[] = Extrude {0, 0, 0.024} { Surface{1}; };
 Physical Surface("inlet") = {1}; Physical Surface("outlet") = {out[0]};
 Physical Surface("wall") = {out[2], out[3], out[4], out[5]}; Physical Volume("blood") = {out[1]};
 END
-    gmsh -3 -nt 1 -format msh22 -o "$folder/duct.msh" "$folder/duct.geo" && gmshToFoam -case "$folder" "$folder/duct.msh" &&
-      sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" || return
+    gmsh -3 -nt 1 -format msh22 -o "$folder/duct.msh" "$folder/duct.geo" && of_from_gmsh "$folder" "$folder/duct.msh" || return
     if [[ $1 == polyhedra ]]; then
       (cd "$folder" && polyDualMesh -overwrite 75) || return # it leaves pictures in the present folder
     fi
@@ -357,8 +368,7 @@ actions
 );
 END
   blockMesh -case "$folder" && (cd "$folder" && topoSet && subsetMesh -overwrite root -patch wall) &&
-    checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" &&
-    grep -q '^Mesh OK' "$folder/checkMesh.log" && touch "$folder/complete"
+    of_mesh_is_fine "$folder" && touch "$folder/complete"
 }
 
 # of_block FOLDER LOWER UPPER CELLS: writes blockMesh's dictionary of a box with an inlet, an outlet and walls.
@@ -560,8 +570,11 @@ of_refused() {
     echo "$1: the solver ended, but it had written $left" >&2
     return 1
   }
-  printf '  %-34s refused: %s\n' "$1" "$3" >>"$of_out/refusals.txt"
+  of_tell_refused "$1" "$3"
 }
+
+# of_tell_refused TEXT WORDS: adds a line to the table of refusals.
+of_tell_refused() { printf '  %-34s refused: %s\n' "$1" "$2" >>"$of_out/refusals.txt"; }
 
 # of_bad NAME: makes a case of two steps, to which a check gives bad input.
 of_bad() {

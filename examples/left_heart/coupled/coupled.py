@@ -14,19 +14,12 @@ import sys
 
 import numpy as np
 
-sys.path[:0] = [str(pathlib.Path(__file__).parent.parent), str(pathlib.Path(__file__).parent.parent.parent / "openfoam")]
-import foam_files  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+import check as prescribed  # noqa: E402
 import zero_d  # noqa: E402
+from zero_d import ML, MMHG, PERIOD, RHO, foam  # noqa: E402
 
-MMHG, ML, RHO, PERIOD = zero_d.MMHG, zero_d.ML, zero_d.RHO, zero_d.PERIOD
 TABLE = ("time", "volume", "flow", "pressure", "wall", "residual", "slope", "trials", "amplitude")
-failed = []
-
-
-def expect(good, text):
-    print(f"{'ok  ' if good else 'FAIL'} {text}")
-    if not good:
-        failed.append(text)
 
 
 # ---- The files of the case ----
@@ -57,14 +50,13 @@ def tables(case, mitral, aortic, beats=3):
           f"unstressedVolume {zero_d.V_0 * ML:.10g};\nlargestSlope {1.5 * MMHG / ML / sum(leaks):.6g}; // 1.5 over both leaks\n"
           f"elastance table{law};\n")
     times = np.arange(round((beats * PERIOD + 0.1) / 2e-3) + 1) * 2e-3
-    atrium = np.interp((times + phase) % PERIOD, np.append(rows[:, 0], PERIOD), np.append(rows[:, 3], rows[0, 3]))
-    write("inletPressure", "p0 table" + zero_d.table(times, atrium * MMHG / RHO) + ";\n")
+    zero_d.write_table(constant / "inletPressure", "p0", times, zero_d.at(rows, "atrium", phase + times) * MMHG / RHO)
     resistance = MMHG / ML
     write("arteries", f"proximalResistance {zero_d.PROXIMAL * resistance:.8g};\n"
           f"distalResistance {zero_d.DISTAL * resistance:.8g};\n"
           f"compliance {zero_d.COMPLIANCE / resistance:.8g}; venousPressure 0;\n"
           f"pressure {(row['aorta'] - zero_d.PROXIMAL * row['aortic_flow']) * MMHG:.10g};\n")
-    volumes = np.interp((times + phase) % PERIOD, np.append(rows[:, 0], PERIOD), np.append(rows[:, 1], rows[0, 1]))
+    volumes = zero_d.at(rows, "volume", phase + times)
     np.savetxt(constant / "zeroDVolume", np.column_stack([times, volumes]), fmt="%.12g")  # for the naive variant
     write("startPressure", f"internalField uniform {row['ventricle'] * MMHG / RHO:.10g};\n")
     print(f"starts at {phase:.4f} s of the beat, {row['volume']:.2f} ml, {row['ventricle']:.1f} mmHg")
@@ -75,33 +67,18 @@ def naive_tables(case, coupled_case, start):
     times, volumes = np.loadtxt(pathlib.Path(case) / "constant" / "zeroDVolume").T
     run = run_of(coupled_case)
     at = np.abs(run["time"] - float(start)).argmin()
-    law = foam_files.text(pathlib.Path(coupled_case) / "constant" / "elastance")
+    law = foam.text(pathlib.Path(coupled_case) / "constant" / "elastance")
     rest = float(re.search(r"^volume (\S+);", law, re.MULTILINE)[1]) / ML
     volumes += run["volume"][at] - rest - np.interp(run["time"][at], times, volumes)
     amplitudes = zero_d.amplitude_of(zero_d.Mesh(pathlib.Path(case)), volumes * ML)
-    (pathlib.Path(case) / "constant" / "amplitude").write_text("amplitude table" + zero_d.table(times, amplitudes) + ";\n",
-                                                                encoding="ascii")
+    zero_d.write_table(pathlib.Path(case) / "constant" / "amplitude", "amplitude", times, amplitudes)
 
 
 # ---- What a run wrote ----
 
 
 def columns(case, pattern, names):
-    rows = []
-    for path in sorted(pathlib.Path(case).glob(pattern), key=lambda p: float(p.parent.name)):
-        rows += [[float(word) for word in line.split()[:len(names)]]
-                 for line in foam_files.text(path).splitlines() if line.strip() and not line.startswith("#")]
-    if not rows:
-        sys.exit(f"{case} has no rows in a file {pattern}")
-    found = np.array(rows)
-    return {name: found[:, i] for i, name in enumerate(names)}
-
-
-def openings(case):
-    """Returns the openings of both valves in each step, from the log."""
-    log = foam_files.text(pathlib.Path(case) / "log.pimpleFoam")
-    return {name: np.array([float(x) for x in re.findall(rf"^riis {name}: opening (\S+),", log, re.MULTILINE)])
-            for name in ("mitral", "aortic")}
+    return dict(zip(names, foam.columns(case, pattern, len(names)).T))
 
 
 def run_of(case):
@@ -111,10 +88,10 @@ def run_of(case):
         run[name] = run[name] / ML
     for name in ("pressure", "wall", "residual"):
         run[name] = run[name] / MMHG
-    run["mitral_flow"] = -foam_files.table(case, "inflow")[:, 1] / ML
-    run["aortic_flow"] = foam_files.table(case, "outflow")[:, 1] / ML
-    for name, values in openings(case).items():
-        run[name + "_opening"] = values
+    run["mitral_flow"] = -foam.table(case, "inflow")[:, 1] / ML
+    run["aortic_flow"] = foam.table(case, "outflow")[:, 1] / ML
+    for name, rows in prescribed.read_valves(pathlib.Path(case)).items():
+        run[name + "_opening"] = rows[:, 1]
     lengths = {name: len(values) for name, values in run.items()}
     if len(set(lengths.values())) != 1:
         sys.exit(f"{case}: its tables have different numbers of steps: {lengths}")
@@ -122,7 +99,7 @@ def run_of(case):
 
 
 def seconds(case):
-    return float(re.findall(r"ExecutionTime = (\S+) s", foam_files.text(pathlib.Path(case) / "log.pimpleFoam"))[-1])
+    return float(re.findall(r"ExecutionTime = (\S+) s", foam.text(pathlib.Path(case) / "log.pimpleFoam"))[-1])
 
 
 # ---- Checks ----
@@ -132,27 +109,27 @@ def check(case, mitral, aortic):
     run = run_of(case)
     residual = np.abs(run["residual"])
     worst = residual.argmax()
-    expect(residual.max() <= 0.5,
+    prescribed.demand(residual.max() <= 0.5,
            f"the largest of {len(residual)} residuals is {residual.max():.3f} mmHg, at {run['time'][worst]:.3f} s; "
            f"median {np.median(residual):.3f}; above 0.5: {(residual > 0.5).sum()}")
-    print(f"     trials a step: mean {run['trials'].mean():.2f}, largest {run['trials'].max():.0f}; "
+    print(f"trials a step: mean {run['trials'].mean():.2f}, largest {run['trials'].max():.0f}; "
           f"{seconds(case):.0f} s of processor time, {seconds(case) / len(residual):.2f} s a step")
     peak = max(run["aortic_flow"].max(), run["mitral_flow"].max())
     balance = np.abs(run["flow"] - run["mitral_flow"] + run["aortic_flow"]).max()
-    expect(balance <= 1e-5 * peak,
+    prescribed.demand(balance <= 1e-5 * peak,
            f"|dV/dt - (Qm - Qa)| is at most {balance:.2g} ml/s, {balance / peak:.1e} of the peak flow {peak:.0f} ml/s")
     sealed = [zero_d.Valve("", zero_d.read_orifice(path)).sealed for path in (mitral, aortic)]
     both = (run["mitral_opening"] > sealed[0]) & (run["aortic_opening"] > sealed[1])
-    expect(not both.any(), f"both valves are above their dead bands in {both.sum()} steps")
+    prescribed.demand(not both.any(), f"both valves are above their dead bands in {both.sum()} steps")
     volume, pressure = run["volume"], run["pressure"]
     work = np.trapz(pressure, volume) * MMHG * ML
-    print(f"     volume {volume.max():.1f} to {volume.min():.1f} ml, ejection fraction {1 - volume.min() / volume.max():.2f}, "
+    print(f"volume {volume.max():.1f} to {volume.min():.1f} ml, ejection fraction {1 - volume.min() / volume.max():.2f}, "
           f"pressure {pressure.min():.1f} to {pressure.max():.1f} mmHg, stroke work {abs(work):.2f} J")
     step = np.diff(run["time"]).mean()
     for name in ("mitral", "aortic"):
         flow, opening = run[name + "_flow"], run[name + "_opening"]
         moves = run["time"][1:][(opening[1:] > 0) != (opening[:-1] > 0)]
-        print(f"     {name}: peak {flow.max():.0f} ml/s, {np.clip(flow, 0, None).sum() * step:.1f} ml forward, "
+        print(f"{name}: peak {flow.max():.0f} ml/s, {np.clip(flow, 0, None).sum() * step:.1f} ml forward, "
               f"{np.clip(flow, None, 0).sum() * step:.1f} ml back; leaves or reaches the closed state at "
               f"{', '.join(f'{t:.3f}' for t in moves)} s")
 
@@ -161,9 +138,9 @@ def naive(case):
     """The same valves with volumes of the heart without space."""
     probes = columns(case, "postProcessing/pressures/*/p", ("time", "ventricle"))
     pressure = probes["ventricle"] * RHO / MMHG
-    print(f"     prescribed volumes, valves that switch: {pressure.min():.0f} to {pressure.max():.0f} mmHg "
+    print(f"prescribed volumes, valves that switch: {pressure.min():.0f} to {pressure.max():.0f} mmHg "
           f"in {len(pressure)} steps")
-    expect(np.abs(pressure).max() > 300, "the prescribed volumes with valves that switch fail by hundreds of mmHg")
+    prescribed.demand(np.abs(pressure).max() > 300, "the prescribed volumes with valves that switch fail by hundreds of mmHg")
 
 
 def both_of(whole, part):
@@ -180,7 +157,7 @@ def compare(whole, part, what, bounds):
     a, b = both_of(whole, part)
     for name, (bound, unit) in bounds.items():
         difference = np.abs(a[name] - b[name]).max()
-        expect(difference <= bound,
+        prescribed.demand(difference <= bound,
                f"{what}: {name} differs by at most {difference:.1e}{unit} in {len(b['time'])} steps ({bound:g})")
 
 
@@ -199,4 +176,4 @@ if __name__ == "__main__":
     if len(sys.argv) < 3 or sys.argv[1] not in COMMANDS:
         sys.exit(f"coupled.py: the first argument must be one of {', '.join(COMMANDS)}, and the second one a case")
     COMMANDS[sys.argv[1]](*sys.argv[2:])
-    sys.exit(1 if failed else 0)
+    sys.exit(1 if prescribed.failures else 0)

@@ -20,21 +20,10 @@
 #include "solverPerformance.H"
 #include "volFields.H"
 #include "volumeSearch.H"
+#include "wallMotion.H"
 #include "writeFile.H"
 
 namespace Foam {
-
-namespace {
-
-scalar positive(const dictionary &dict, const word &key) {
-  const scalar value = dict.get<scalar>(key);
-  if (!(value > 0)) {
-    FatalIOErrorInFunction(dict) << key << " is " << value << ", and must be positive" << exit(FatalIOError);
-  }
-  return value;
-}
-
-}  // namespace
 
 // The state that a restart needs, as text with all digits: <time>/uniform/elastanceState.
 class elastanceState : public IOdictionary {
@@ -54,7 +43,7 @@ class elastanceState : public IOdictionary {
 
 class elastanceMotion : public points0MotionSolver {
   const fvMesh &fvMesh_;
-  scalar length_, ramp_, radial_, axial_;
+  wallMotion wall_;
   autoPtr<Function1<scalar>> elastance_;  // Pa/m3 over the phase
   scalar period_, phase_, unstressed_, rest_, rho_;
   volumeSearch search_;
@@ -64,20 +53,13 @@ class elastanceMotion : public points0MotionSolver {
   elastanceState state_;
   autoPtr<volScalarField> name_;  // PIMPLE looks for residuals of fields only
 
-  point moved(const point &from, scalar amplitude) const {
-    if (from.z() >= 0) return from;
-    const scalar depth = min(scalar(1), -from.z() / length_ / ramp_), grip = depth * depth * (3 - 2 * depth);
-    const scalar across = 1 - amplitude * radial_ * grip;
-    return point(across * from.x(), across * from.y(), (1 - amplitude * axial_ * grip) * from.z());
-  }
-
   // Returns the volume of the mesh at an amplitude, from its outer faces.
   scalar meshVolume(scalar amplitude) const {
     scalar volume = 0;
     for (const polyPatch &patch : mesh().boundaryMesh()) {
       if (patch.coupled()) continue;
       pointField points(patch.nPoints());
-      forAll(points, i) points[i] = moved(points0_[patch.meshPoints()[i]], amplitude);
+      forAll(points, i) points[i] = wall_.moved(points0_[patch.meshPoints()[i]], amplitude);
       for (const face &f : patch.localFaces()) volume += (f.centre(points) & f.areaNormal(points)) / 3;
     }
     return returnReduce(volume, sumOp<scalar>());
@@ -135,10 +117,7 @@ class elastanceMotion : public points0MotionSolver {
   elastanceMotion(const polyMesh &mesh, const IOdictionary &dict)
       : points0MotionSolver(mesh, dict, typeName),
         fvMesh_(refCast<const fvMesh>(mesh)),
-        length_(positive(coeffDict(), "length")),
-        ramp_(positive(coeffDict(), "ramp")),
-        radial_(coeffDict().get<scalar>("radial")),
-        axial_(coeffDict().get<scalar>("axial")),
+        wall_(coeffDict()),
         elastance_(Function1<scalar>::New("elastance", coeffDict())),
         period_(positive(coeffDict(), "period")),
         phase_(coeffDict().get<scalar>("phase")),
@@ -178,7 +157,7 @@ class elastanceMotion : public points0MotionSolver {
 
   tmp<pointField> curPoints() const override {
     tmp<pointField> points(new pointField(points0_));
-    for (point &p : points.ref()) p = moved(p, amplitude_);
+    for (point &p : points.ref()) p = wall_.moved(p, amplitude_);
     return points;
   }
 
@@ -209,8 +188,8 @@ class elastanceMotion : public points0MotionSolver {
       pointField more(patch.nPoints()), less(patch.nPoints());
       forAll(more, i) {
         const point &from = points0_[patch.meshPoints()[i]];
-        more[i] = moved(from, amplitude_ + 0.5e-3);
-        less[i] = moved(from, amplitude_ - 0.5e-3);
+        more[i] = wall_.moved(from, amplitude_ + 0.5e-3);
+        less[i] = wall_.moved(from, amplitude_ - 0.5e-3);
       }
       forAll(patch, i) {
         const face &f = patch.localFaces()[i];
