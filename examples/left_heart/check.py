@@ -153,6 +153,7 @@ def check_beat(case, model_file, mitral, aortic):
 def print_numbers(beat, n):
     """Prints the numbers of each whole beat, and demands that the last two agree."""
     step = beat.time[1] - beat.time[0]
+    kick = n - round((PERIOD - zero_d.KICK_START) / step)  # the run begins at the end of the A wave
     rows = []
     for first in range(0, len(beat.time) - n + 1, n):
         part = slice(first, first + n)
@@ -162,8 +163,8 @@ def print_numbers(beat, n):
             "stroke volume, ml": volume.max() - volume.min(),
             "largest pressure, mmHg": pressure.max(),
             "aortic peak, ml/s": beat.aortic[part].max(),
-            "A wave, ml/s": filling[: n // 2].max(),  # the run begins between the E and the A wave
-            "E wave, ml/s": filling[n // 2:].max(),
+            "E wave, ml/s": filling[: kick].max(),
+            "A wave, ml/s": filling[kick:].max(),
             "backflow mitral, ml": -filling[filling < 0].sum() * step,
             "backflow aortic, ml": -beat.aortic[part][beat.aortic[part] < 0].sum() * step,
             "stroke work, J": -np.sum(pressure * np.gradient(volume)) * MMHG * ML,

@@ -59,8 +59,8 @@ openfoam() {
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
 }
 
-# openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes empty folders: build/openfoam/CASES, and out/OUT for results.
-# Returns 1 after a message if OpenFOAM is left out.
+# openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and
+# out/OUT, for results. Returns 1 after a message if OpenFOAM is left out.
 openfoam_start() {
   openfoam_has_package || return
   packages=("${openfoam_packages[@]}" "${@:3}")
