@@ -105,15 +105,15 @@ def beat(folder, half_thickness, resistance):
     require(len(shut) > 1 and opening[-1] == 0, "the valve closes again, and stays so for two steps")
     shut = last_open + shut[1:]  # not the step in which the leaflets arrive
     balance, leak = numpy.abs(steps["inflow"] - flow).max() / largest, numpy.abs(flow[shut]).max() / largest
-    closed_form = drop * float(half_thickness) / float(resistance) * steps["leaflet_area"]
-    share = (flow / closed_form)[shut[-1]]
+    most = shut[numpy.abs(drop[shut]).argmax()]
+    share = flow[most] / (drop * float(half_thickness) / float(resistance) * steps["leaflet_area"])[most]
     bernoulli = (2 * numpy.abs(drop).max() / DENSITY) ** 0.5
     print("The trileaflet valve beats:")
     for i in range(0, len(opening), 2):
         print(f"  {steps['time'][i]:.3f} s: opening {opening[i]:.3f}, drop {drop[i]:8.2f} Pa, flow {1e6 * flow[i]:8.3f} ml/s,"
               f" at most {speed[i]:.3f} m/s, {int(steps['cells'][i])} cells, {int(steps['iterations'][i])} iterations")
     print(f"  flow {1e6 * flow.min():.2f} to {1e6 * flow.max():.2f} ml/s; inflow and outflow differ by {balance:.1e}"
-          f" of the largest; the closed valve passes {100 * leak:.2f} %, and at the end {share:.3f} of drop eps / R times its area")
+          f" of the largest; the closed valve passes {100 * leak:.2f} %, which is {share:.3f} of drop eps / R times its area")
     print(f"  speeds up to {speed.max():.3f} m/s; sqrt(2 drop / rho) is {bernoulli:.3f} m/s for the largest drop")
     print(f"  eps/h {steps['eps_h'].min():.2f} to {steps['eps_h'].max():.2f}, {int(steps['cells'].min())} to"
           f" {int(steps['cells'].max())} cells, {int(steps['unknowns'].min())} to {int(steps['unknowns'].max())} unknowns,"

@@ -146,10 +146,10 @@ void Parameters::read(const std::vector<std::string> &files) {
 // nearly a mass matrix: a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So
 // S is close to B D^-1 B^T, where D is the lumped mass matrix. It is a Laplacian of the pressure with the coefficient
 // 1/(rho/dt + K), and B gives it the boundary conditions of the flow. Each velocity in D has its own K. With one K for each cell,
-// a cell would look shut along the band if the band covers a part of it. Where viscosity and the grad-div term rule, S is close to
-// the pressure's mass matrix divided by their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
+// a cell would look shut along the band if the band covers a part of it. Where viscosity and the grad-div term rule, S is close
+// to the pressure's mass matrix divided by their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
 //
-// A is factorised, by MUMPS. In the band the grad-div term is larger than all other terms of A, and couples the components of the
+// MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and couples the components of the
 // velocity, so an incomplete LU or SOR does not converge there.
 class Preconditioner {
  public:

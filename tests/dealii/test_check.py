@@ -105,10 +105,10 @@ class Checks(unittest.TestCase):
     def test_beats(self):
         half_thickness, resistance = "1e-3", "1"
         said = self.said(check.beat, self.run_of("a"), half_thickness, resistance)
-        self.assertIn("the closed valve passes 0.10 %, and at the end 1.000 of", said)
+        self.assertIn("the closed valve passes 0.10 %, which is 1.000 of", said)
         for step, column, value, words in ((1, "inflow", 1.1, "inflow and outflow are equal"),
                                            (6, "outflow", -0.2, "passes less than 2 %"),
-                                           (6, "outflow", -0.0005, "passes what R lets through, to 20 %, not 0.5"),
+                                           (5, "outflow", -0.0005, "passes what R lets through, to 20 %, not 0.5"),
                                            (2, "largest_speed", 0.09, "no speed exceeds 0.09 m/s"),
                                            (6, "opening", 0.5, "closes again"), (0, "opening", 1, "the valve opens")):
             kept = dict(self.steps[step])
