@@ -261,7 +261,8 @@ Flow::Flow(const Parameters &parameters)
   cell_mass.reinit(dof[3].size(), dof[3].size());
 }
 
-// Makes the coarse mesh, which every rank has.
+// Makes the coarse mesh, which every rank has. Only its nodes lie on the round wall. The refinement at the valve keeps its faces
+// plane: new nodes on the round wall would leave gaps between small and large cells, through which blood would be lost.
 void Flow::make_mesh() {
   Triangulation<3> coarse;
   const double r = parameters.radius, length = parameters.length;
@@ -284,7 +285,11 @@ void Flow::make_mesh() {
     }
   }
   if (parameters.distortion > 0) GridTools::distort_random(parameters.distortion, coarse);
-  triangulation.copy_triangulation(coarse);
+  coarse.refine_global(parameters.refinements);
+  Triangulation<3> flat;
+  GridGenerator::flatten_triangulation(coarse, flat);
+  flat.reset_all_manifolds();
+  triangulation.copy_triangulation(flat);
 }
 
 // Numbers the unknowns, and makes everything that depends on their number.
@@ -347,14 +352,14 @@ bool Flow::adapt_mesh() {
   for (const auto &cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned()) centres.push_back(cell->center());
   const std::vector<double> distance = obstacle.distances(centres);
-  const int coarsest = parameters.refinements, finest = coarsest + parameters.refinements_at_valve;
+  const int finest = parameters.refinements_at_valve;
   std::size_t i = 0;
   for (const auto &cell : triangulation.active_cell_iterators()) {
     if (!cell->is_locally_owned()) continue;
     const double gap = distance[i++] - parameters.obstacle.half_thickness, diameter = cell->diameter();
-    if (cell->level() < coarsest || (cell->level() < finest && gap < 0.5 * diameter))
+    if (cell->level() < finest && gap < 0.5 * diameter)
       cell->set_refine_flag();
-    else if (cell->level() > coarsest && gap > 1.6 * diameter)
+    else if (cell->level() > 0 && gap > 1.6 * diameter)
       cell->set_coarsen_flag();
   }
   triangulation.prepare_coarsening_and_refinement();
