@@ -9,7 +9,9 @@ import numpy
 
 EQUAL = 1e-6  # runs on several ranks, and a restarted run, agree to this share of the largest value
 DENSITY = 1060  # of the blood, kg/m3
-LEAK = 0.2  # the leak through curved leaflets is that of a flat valve of their area to this share
+# The leak over drop eps / R times the leaflets' area. It is below 1, because the walls cut off a part of the leaflets, and bands
+# of leaflets that touch overlap.
+LEAK = (0.5, 1.1)
 FIELDS = {"velocity": ("u", "v", "w"), "pressure": ("p",), "K": ("K",), "K u_valve": ("K_u", "K_v", "K_w")}
 
 
@@ -120,7 +122,7 @@ def beat(folder, half_thickness, resistance):
           f" {int(steps['iterations'].min())} to {int(steps['iterations'].max())} iterations")
     require(balance < 1e-6, f"inflow and outflow are equal to 1e-6 of the largest flow, not {balance}")
     require(leak < 0.02, f"the closed valve passes less than 2 % of the largest flow, not {leak}")
-    require(abs(share - 1) < LEAK, f"the closed valve passes what R lets through, to {100 * LEAK:g} %, not {share} of it")
+    require(LEAK[0] < share < LEAK[1], f"the closed valve passes {LEAK} of what R lets through, not {share}")
     require(speed.max() < 2 * bernoulli, f"no speed exceeds {2 * bernoulli:.2f} m/s, as {speed.max():.2f} does")
 
 

@@ -108,7 +108,8 @@ class Checks(unittest.TestCase):
         self.assertIn("the closed valve passes 0.10 %, which is 1.000 of", said)
         for step, column, value, words in ((1, "inflow", 1.1, "inflow and outflow are equal"),
                                            (6, "outflow", -0.2, "passes less than 2 %"),
-                                           (5, "outflow", -0.0005, "passes what R lets through, to 20 %, not 0.5"),
+                                           (5, "outflow", -0.0004, "of what R lets through, not 0.4"),
+                                           (5, "outflow", -0.0012, "of what R lets through, not 1.2"),
                                            (2, "largest_speed", 0.09, "no speed exceeds 0.09 m/s"),
                                            (6, "opening", 0.5, "closes again"), (0, "opening", 1, "the valve opens")):
             kept = dict(self.steps[step])
