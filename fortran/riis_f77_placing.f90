@@ -58,8 +58,8 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
 end subroutine riisf_place
 
 !> Makes a warp from landmarks on a valve, which are in mesh units: give the placement of riisf_surface_create. Until
-!! riisf_warp_set_targets, it is the identity. Errors: RIIS_INVALID_ARGUMENT naming the landmark, counted from 0, also for two in
-!! one place, and for landmarks on a line.
+!! riisf_warp_set_targets, it is the identity. Errors: RIIS_INVALID_ARGUMENT naming the landmark, counted from 0. Two landmarks in
+!! one place are refused, and so are landmarks on a line.
 subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64

@@ -37,7 +37,7 @@ module riis_valves
     real(c_double) :: maximum = 0                    !< The greatest allowed value, for each value.
     character(len=:), allocatable :: rule            !< The value if it is not set, such as '0.5 leaflet_height'. '': the default.
     character(len=:), allocatable :: other_name      !< A second name for riis_valve%set, such as 'annulus'. '': none.
-    real(c_double) :: other_factor = 0               !< The value by other_name is this times the parameter's: 1, 2, or 0 if none.
+    real(c_double) :: other_factor = 0               !< The value of other_name over the parameter's value: 1, 2, or 0 if none.
   end type riis_parameter_info
 
   !> A parametric valve: its kind and its parameters' values. It is empty before %create or %create_from_patches and after

@@ -32,7 +32,8 @@ contains
 
   !> Makes a warp from landmarks on the valve at rest. Until %set_targets, it is the identity. Without a placement, landmarks are
   !! in the valve's own coordinates. Otherwise they are in the mesh's: give the placement of the surface. Errors:
-  !! RIIS_INVALID_ARGUMENT naming the landmark, counted from 0, also for two in one place, and for landmarks on a line.
+  !! RIIS_INVALID_ARGUMENT naming the landmark, counted from 0. Two landmarks in one place are refused, and so are landmarks on a
+  !! line.
   subroutine warp_create(this, sources, noise, scale, rotation_axis, rotation_angle, translation, status)
     class(riis_warp), intent(inout) :: this                 !< Must be empty.
     real(c_double), intent(in), contiguous, target :: sources(:, :) !< (3, n): 3 to 1000 landmarks.

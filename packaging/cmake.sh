@@ -2,22 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake.sh ROWS: uses the source archive from another project, by find_package, FetchContent and add_subdirectory, with shared and
 # static libraries. The programs in C, C++ and Fortran must mark the same bits in all six ways. The libraries are built without
-# optimisation, to compile fast. Appends a line for each way to the file ROWS, with tabs between: package, built, installed,
-# tested, size. CMAKE names another CMake, such as the oldest that riis supports.
+# optimisation, to compile fast. Appends a line for each way to the file ROWS. CMAKE names another CMake, such as the oldest that
+# riis supports.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
+# shellcheck source=packaging/steps.sh
+. packaging/steps.sh
 [[ $# == 1 ]] || { echo "usage: packaging/cmake.sh ROWS" >&2; exit 2; }
 rows=$(realpath -m -- "$1") cmake=${CMAKE:-cmake} work=$PWD/build/packages-cmake
+logs=$work
 options=(-G Ninja -D CMAKE_BUILD_TYPE=Debug -D CMAKE_CXX_FLAGS_DEBUG=-O0 -D CMAKE_Fortran_FLAGS_DEBUG=-O0
   -D RIIS_KERNEL_LEVEL=-O0)
 
-say() { printf '==> %s\n' "$*"; }
-# logged NAME COMMAND...: runs the command with its output in a log, whose end it shows if the command fails.
-logged() {
-  local log=$work/$1.log
-  shift
-  "$@" >"$log" 2>&1 </dev/null || { tail -n 40 "$log" >&2 && exit 1; }
-}
 # build FOLDER: builds the folder of the work folder.
 build() { logged "build-$1" "$cmake" --build "$work/$1" --parallel "$(nproc)"; }
 
@@ -40,13 +36,10 @@ for kind in shared static; do
     build "$kind-$way"
     for language in c cpp fortran; do
       "$work/$kind-$way/marks_$language" >"$work/marks.txt"
-      [[ -e $work/expected.txt ]] || cp "$work/marks.txt" "$work/expected.txt"
-      cmp "$work/expected.txt" "$work/marks.txt" || { echo "$kind, $way, $language: other bits" >&2; exit 1; }
+      same_marks "CMake-$kind-$way-$language" "$work/marks.txt"
     done
-    size=$(find "$work/$kind" -name "libriis.so.?" -o -name libriis.a | head -n 1)
-    printf 'CMake %s, %s\t%s\t%s\t%s\t%s\n' "$version" "$way" "$kind" \
-      "$([[ $way == find_package ]] && echo "a prefix" || echo "as a part")" "C, C++, Fortran: same bits" \
-      "$(numfmt --to=si --suffix=B --format=%.1f "$(stat -L -c %s "$size")")" >>"$rows"
+    library=$(find "$work/$kind" -name "libriis.so.?" -o -name libriis.a | head -n 1)
+    row "CMake $version, $way" "$kind" "$([[ $way == find_package ]] && echo "a prefix" || echo "as a part")" \
+      "C, C++, Fortran: same bits" "$(size "$library")"
   done
 done
-(($(wc -l <"$work/expected.txt") > 1000)) || { echo "cmake.sh: too few nodes are marked" >&2; exit 1; }

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # debian.sh ROWS [12] [13]: builds Debian's packages of the last commit in a Debian of each version, twice with the same bytes.
 # Installs them in a bare Debian, tests what was installed, and removes it again. Leaves the packages in out/packages. Appends a
-# line for each package to the file ROWS, with tabs between: package, built, installed, tested, size.
+# line for each package to the file ROWS.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
+# shellcheck source=packaging/steps.sh
+. packaging/steps.sh
 (($# > 0)) || { echo "usage: packaging/debian.sh ROWS [12] [13]" >&2; exit 2; }
 rows=$(realpath -m -- "$1")
 shift
@@ -15,7 +17,6 @@ done
 roots=${RIIS_ROOTS:-$PWD} input=$PWD/build/packages
 declare -A suites=([12]=bookworm [13]=trixie)
 
-say() { printf '==> %s\n' "$*"; }
 inside() { tests/debian/in_root.sh "${suites[$1]}" "$roots/$2$1" packages inside "${@:3}"; }
 
 packaging/dist.sh archive
@@ -32,9 +33,6 @@ for debian in "$@"; do
   say "Debian $debian: install, test, remove"
   RIIS_ROOT_INPUT=$out inside "$debian" build-bare "try" "$debian"
   cp -R "$roots/build-bare$debian/root/riis/out/tried/." "$out"
+  same_marks "debian$debian" "$out/marks.txt"
   cat "$out/rows.tsv" >>"$rows"
 done
-if [[ -e out/packages/debian12/marks.txt && -e out/packages/debian13/marks.txt ]]; then
-  if cmp -s out/packages/debian1[23]/marks.txt; then same=same; else same=other; fi
-  say "a program of a stranger marks the $same bits in Debian 12 and 13"
-fi

@@ -1,26 +1,22 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# debian_root.sh build|try VERSION: the steps of debian.sh inside a Debian of this version, as root.
+# debian_root.sh build|try|wheel VERSION: the steps of debian.sh and wheels.sh inside a Debian of this version, as root.
 #   build  builds the packages twice from the archive in /riis.input, compares the bytes, and checks them by lintian; leaves them
 #          in out/packages
 #   try    installs the packages in /riis.input, runs their tests, removes them, and looks for traces; leaves a table's lines, and
 #          the marks of a program, in out/tried
+#   wheel  installs the wheel in /riis.input by pip, where there is no Embree; leaves the marks of a program in out/tried
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
+# shellcheck source=packaging/steps.sh
+. packaging/steps.sh
 input=/riis.input debian=$2
 export DEBIAN_FRONTEND=noninteractive
 
-say() { printf '==> %s\n' "$*"; }
-# logged NAME COMMAND...: runs the command with its output in a log, whose end it shows if the command fails.
-logged() {
-  local log=$logs/$1.log start=$SECONDS
-  shift
-  "$@" >"$log" 2>&1 </dev/null || { tail -n 40 "$log" >&2 && exit 1; }
-  say "$(basename "$log" .log): $((SECONDS - start)) s"
-}
 install_packages() { logged install apt-get install -y --no-install-recommends "$@"; }
 
-# The archive in a folder, beside Debian's folder. The version for Debian 12 is older than that for Debian 13.
+# unpack FOLDER: unpacks the archive into the folder, with Debian's folder in it. The version for Debian 12 sorts before the
+# version for Debian 13.
 unpack() {
   local folder=$1 entry date
   mkdir -p "$folder"
@@ -95,7 +91,8 @@ tests_of() {
 }
 
 try() {
-  local out=$PWD/out/tried tree=/tmp/riis-tree deb name packages=() debs=() test size passed
+  local out=$PWD/out/tried tree=/tmp/riis-tree deb name packages=() debs=() test passed
+  rows=$out/rows.tsv
   logs=$PWD/out/tried/logs
   rm -rf "$out" "$tree"
   mkdir -p "$logs"
@@ -113,7 +110,7 @@ try() {
   nice autopkgtest --no-built-binaries --output-dir "$out/autopkgtest" "$tree" -- null >"$logs/tests.log" 2>&1 </dev/null ||
     status=$?
   cat "$out/autopkgtest/summary"
-  # 2: a test was skipped, that of python3-riis where there is no such package
+  # 2: a test was skipped. Debian 12 has no python3-riis, so its test is skipped there.
   ((status == 0 || (status == 2 && debian == 12))) || { tail -n 60 "$logs/tests.log" >&2 && exit 1; }
   find "$out/autopkgtest" -name marks.txt -exec cp -- {} "$out/marks.txt" \;
   for name in "${packages[@]}"; do
@@ -123,8 +120,7 @@ try() {
       passed+="${passed:+, }$test"
     done
     [[ $passed ]] || { echo "$name: no test uses it" >&2; exit 1; }
-    size=$(numfmt --to=si --suffix=B --format=%.1f "$(stat -c %s "$deb")")
-    printf 'Debian %s %s\ttwice, same bytes\tbare, and removed\t%s\t%s\n' "$debian" "$name" "$passed" "$size" >>"$out/rows.tsv"
+    row "Debian $debian $name" "twice, same bytes" "bare, and removed" "$passed" "$(size "$deb")"
   done
   logged purge apt-get purge -y "${packages[@]}"
   logged strip-after strip_root
@@ -132,7 +128,7 @@ try() {
   say "installed, tested and removed without a trace: ${packages[*]}"
 }
 
-# look_for_traces FILE: no file of the packages may be left, and no file of their name.
+# look_for_traces FILE: fails if a file that the list names is left, or any file with riis in its name.
 look_for_traces() {
   local path left=()
   while IFS= read -r path; do
@@ -145,11 +141,28 @@ look_for_traces() {
   ((${#left[@]} == 0)) || { printf 'left after removal: %s\n' "${left[@]}" >&2; exit 1; }
 }
 
+wheel() {
+  local out=$PWD/out/tried venv=/tmp/riis-wheel
+  logs=$PWD/out/tried/logs
+  rm -rf "$out" "$venv"
+  mkdir -p "$logs"
+  logged update apt-get update
+  logged strip-before strip_root
+  install_packages python3-venv
+  ! find / -xdev -name 'libembree*' -not -path '/var/*' | grep . || { echo "this Debian has an Embree" >&2; exit 1; }
+  python3 -m venv "$venv"
+  logged pip "$venv/bin/pip" install "$input"/riis-*.whl
+  "$venv/bin/python" -B tests/install/stranger/marks.py >"$out/marks.txt"
+  rm -rf "$venv"
+  logged strip-after strip_root
+}
+
 case $1 in
   build) build ;;
   try) try ;;
+  wheel) wheel ;;
   *)
-    echo "debian_root.sh: '$1' is not build or try" >&2
+    echo "debian_root.sh: '$1' is not build, try or wheel" >&2
     exit 2
     ;;
 esac

@@ -5,6 +5,8 @@
 # the word `archive` it also unpacks the archive, and runs ./run test from it in a bare Debian 12 and a bare Debian 13.
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
+# shellcheck source=packaging/steps.sh
+. packaging/steps.sh
 case $* in
   '' | archive) ;;
   *)
@@ -15,9 +17,7 @@ esac
 [[ -e .git ]] || { echo "./run dist: the archive is made from a commit, and this is no git work tree" >&2; exit 2; }
 out=$PWD/out/dist scratch=$PWD/build/dist roots=$(realpath -m -- "${RIIS_ROOTS:-.}")/build-dist
 
-say() { printf '==> %s\n' "$*"; }
-
-# archive_of REPOSITORY FILE: writes the last commit's archive. The times in it are that of the commit. Neither the user's umask
+# archive_of REPOSITORY FILE: writes the last commit's archive. All times in it are the commit's time. Neither the user's umask
 # nor git's settings matter.
 archive_of() {
   git -C "$1" -c tar.umask=0022 -c core.autocrlf=false archive --format=tar --prefix="riis-$version/" HEAD |
@@ -51,20 +51,19 @@ archive=$out/riis-$version.tar.xz
 rm -rf "$out" "$scratch"
 mkdir -p "$out" "$scratch"
 archive_of . "$archive"
-# The second time from another clone, with another user's settings.
+# The second archive comes from another clone, with another user's settings.
 git clone --quiet --depth 1 --no-checkout "file://$PWD" "$scratch/clone"
 [[ $(git -C "$scratch/clone" rev-parse HEAD) == "$(git rev-parse HEAD)" ]]
 (umask 077 && TZ=XYZ-13 LC_ALL=C HOME=$scratch GIT_CONFIG_NOSYSTEM=1 archive_of "$scratch/clone" "$scratch/again.tar.xz")
 cmp "$archive" "$scratch/again.tar.xz"
 (cd "$out" && sha256sum "${archive##*/}" >"${archive##*/}.sha256")
 notes >"$out/release-notes-$version.md"
-size=$(numfmt --to=si --suffix=B --format=%.1f "$(stat -c %s "$archive")")
-say "made twice with the same bytes: out/dist/${archive##*/}, $size"
+say "made twice with the same bytes: out/dist/${archive##*/}, $(size "$archive")"
 say "the release notes: out/dist/release-notes-$version.md"
 [[ ${1:-} != archive ]] || exit 0
 
-# The roots are those of these tests alone. In other roots ninja would keep objects of newer sources, because the files of an
-# archive are older.
+# Only these tests use these roots. In another root ninja would keep the objects of other sources, because the archive's files are
+# older than those objects.
 for debian in 12 13; do
   rm -rf "$scratch/tree"
   mkdir -p "$scratch/tree"

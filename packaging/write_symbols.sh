@@ -12,7 +12,7 @@ for library in riis riis_vtk; do
   text=$(
     echo "lib$library.so.$major $package #MINVER#"
     echo "* Build-Depends-Package: lib${library/_/-}-dev"
-    # A name comes with the package of the version that introduced it. Constants are no symbols.
+    # Beside each symbol stands the version of the package that introduced it. Constants are not symbols.
     { echo "$node 1.0.0" && grep -E '^riis_[a-z0-9_]+ [0-9.]+$' "abi/$library.symbols"; } | LC_ALL=C sort |
       sed -E "s/^([A-Za-z0-9_]+) (.*)/ \1@$node \2/"
   )

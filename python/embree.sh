@@ -1,7 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER
+# embree.sh source FOLDER           downloads Embree's sources from the distribution's source package into FOLDER, unless a person
+#                                   has put sources there
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
+# embree.sh cost PREFIX BUILD       compares the costs of queries and updates with the system's Embree and with that in PREFIX.
+#                                   The folder BUILD has a shared libriis, whose objects are linked again
+# embree.sh cost isa=sse2 BUILD     the same, with the system's Embree restricted to these instructions in place of that in PREFIX
 #
 # riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
 # these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
@@ -32,6 +36,11 @@ fetch_source() {
   local folder licences=/usr/share/doc/libembree-dev/copyright options package
   folder=$(realpath -m -- "$1")
   [[ -f $licences ]] || give_up "there is no $licences: install libembree-dev"
+  if [[ -f $folder/CMakeLists.txt && ! -e $folder/package ]]; then
+    echo "embree.sh: takes the sources in $folder"
+    cp "$licences" "$folder/copyright"
+    return
+  fi
   rm -rf "$folder" "$folder.part"
   source_lists "$folder.part"
   options=(-o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder.part/parts"
@@ -41,6 +50,7 @@ fetch_source() {
   package=$(dpkg-query -W -f='${source:Package}=${source:Version}' libembree-dev)
   (cd "$folder.part" && apt-get "${options[@]}" -q --download-only --tar-only source "$package")
   mkdir "$folder"
+  echo "$package" >"$folder/package"
   tar -xf "$folder.part"/*.orig.tar.* --strip-components 1 -C "$folder"
   cp "$licences" "$folder/copyright"
   rm -rf "$folder.part"
@@ -69,7 +79,7 @@ build() {
   sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
     -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'
-  cmake --build "$prefix.build" --parallel
+  cmake --build "$prefix.build" --parallel "$(nproc)"
   cmake --install "$prefix.build"
   # The licences of everything in it, for the wheel.
   mkdir -p "$prefix/licences"
@@ -77,8 +87,30 @@ build() {
   rm -rf "$prefix.build"
 }
 
+cost() {
+  local library=$2/src/riis/libriis.so root work objects=() embree=()
+  root=$(dirname -- "$(readlink -f -- "$0")")/..
+  [[ -f $library ]] || give_up "there is no $library: build the target riis there"
+  work=$(mktemp -d)
+  mapfile -t objects < <(find "$2/src/riis/CMakeFiles" -name '*.o')
+  if [[ $1 == isa=* ]]; then
+    printf '%s\n' 'void *__real_rtcNewDevice(const char *);' \
+      "void *__wrap_rtcNewDevice(const char *) { return __real_rtcNewDevice(\"$1\"); }" |
+      sed 's/^void/extern "C" &/' | c++ -x c++ -fPIC -c - -o "$work/device.o"
+    embree=("$work/device.o" "-Wl,--wrap=rtcNewDevice" "$(objdump -p "$library" | sed -n 's/^ *NEEDED *\(libembree.*\)/-l:\1/p')")
+  else
+    embree=("-Wl,--start-group" "$1"/lib/*.a "-Wl,--end-group")
+  fi
+  c++ -shared -fopenmp -Wl,--gc-sections "-Wl,--version-script=$root/src/riis/riis.map" "${objects[@]}" "${embree[@]}" \
+    -ltbb -o "$work/own.so"
+  cc -std=gnu11 -O2 -I "$root/include" "$root/python/tests/embree_cost.c" -o "$work/embree_cost" -lm
+  "$work/embree_cost" "$(realpath -- "$library")" "$work/own.so"
+  rm -rf "$work"
+}
+
 case ${1:-}/$# in
   source/2) fetch_source "$2" ;;
   build/3) build "$2" "$3" ;;
-  *) give_up "usage: embree.sh source FOLDER, or embree.sh build SOURCE PREFIX" ;;
+  cost/3) cost "$2" "$3" ;;
+  *) give_up "usage: embree.sh source FOLDER, embree.sh build SOURCE PREFIX, or embree.sh cost PREFIX BUILD" ;;
 esac

@@ -120,7 +120,7 @@ for file in files[:5]:
 PYTHON
 }
 
-# python_tutorial: runs the notebook, and leaves it with its pictures and its movie in out/python.
+# python_tutorial: runs the notebooks, and leaves them with their pictures and the movie in out/python.
 python_tutorial() {
   xvfb-run -a "$python_folder/fresh/bin/python" -B python/tests/run_tutorial.py out/python
 }
@@ -206,7 +206,7 @@ python_make_here() {
   step "install it into a fresh environment" python_environment "$(python_of_packages)" built
 }
 
-# python_package [tests|fit|tutorial|manylinux]
+# python_package [tests|fit|inverse|tutorial|manylinux]
 python_package() {
   local status=0 cost=1
   case $* in
@@ -214,11 +214,16 @@ python_package() {
     tests) cost= ;;
     tutorial)
       python_needs_environment 'python tutorial'
-      step "run the notebook" python_tutorial
+      step "run the notebooks" python_tutorial
       return
       ;;
     manylinux)
       python_manylinux
+      return
+      ;;
+    inverse)
+      python_needs_environment 'python inverse'
+      OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python_folder/fresh/bin/python" -B examples/python/inverse.py
       return
       ;;
     fit)
@@ -239,8 +244,8 @@ python_package() {
   RIIS_C_MARKS=$PWD/$(python_build_folder)/python/riis_python_c_marks \
     xvfb-run -a "$python_folder/fresh/bin/python" -B -m pytest -p no:cacheprovider -q -rs python/tests || status=$?
   [[ ! $cost ]] || {
-    step "run the notebook" python_tutorial
-    say "out/python/tutorial.html has the notebook with its pictures and its movie"
+    step "run the notebooks" python_tutorial
+    say "out/python/tutorial.html and inverse.html have the notebooks with their pictures and the movie"
     say "the cost of the Python layer at a million nodes"
     "$python_folder/fresh/bin/python" -B python/tests/cost.py || status=$?
   }

@@ -45,7 +45,7 @@ using nlohmann::json;
 constexpr double half_thickness = 0.1;
 constexpr int n_turns = 10, n_slow_turns = 5;
 constexpr double fine = 0.0034;  // the tolerance of the fine triangles of ./run bench marking
-// These points spread over so many times the cylinder. Their leaves are then larger than the valve.
+// The width of these points' box, in widths of the cylinder. Their leaves are then larger than the valve.
 constexpr double wide = 40;
 // Sizes of OpenVDB's voxels: 4 and 8 per half thickness.
 constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
@@ -87,7 +87,7 @@ struct Fields {
   }
 };
 
-// Finds closest points in pieces of so many points, on one thread. The library queries the points of short pieces one by one.
+// Finds closest points in pieces of `per_piece` points, on one thread. The library queries the points of short pieces one by one.
 constexpr std::int64_t in_one_piece = std::numeric_limits<std::int64_t>::max(), node_by_node = 63;
 void find_closest(const riis_surface *surface, const std::vector<double> &xyz, std::int64_t per_piece, Fields &to) {
   riis_closest_options options;

@@ -48,9 +48,8 @@ drop_in_duct() { # arguments: path without ending, half thickness, shift along t
     2>/dev/null | sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p; s/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' | tr '\n' ' '
 }
 
-# A flat valve in a duct: the drop that the solver will have, beside its sum of delta.
-uris_drop() {
-  local elements ratio edge shift path
+# Writes the flat valve of ./run uris drop and ./run uris solver.
+flat_valve() {
   cat >"$build/uris/flat.json" <<'END'
 {"curves": {"a": [[-1, -1, 0], [1, -1, 0]], "b": [[-1, 1, 0], [1, 1, 0]],
             "c": [[-1, -1, 0], [-1, 1, 0]], "d": [[1, -1, 0], [1, 1, 0]]},
@@ -58,6 +57,12 @@ uris_drop() {
  "open": {"curves": {"a": [[-1, -1, 0], [1, -1, 0]], "b": [[-1, -0.9, 0.9], [1, -0.9, 0.9]],
                      "c": [[-1, -1, 0], [-1, -0.9, 0.9]], "d": [[1, -1, 0], [1, -0.9, 0.9]]}}}
 END
+}
+
+# A flat valve in a duct: the drop that the solver will have, beside its sum of delta.
+uris_drop() {
+  local elements ratio edge shift path
+  flat_valve
   printf '\n| elements | eps / h | drop over (R/eps) u | sum of delta over the exact sum |\n|---|---|---|---|\n'
   for elements in hex tet; do
     for ratio in 1 1.2 1.5 2; do
@@ -82,14 +87,41 @@ END
   done
 }
 
+# uris_solver PROGRAM: runs svMultiPhysics in the same ducts, and prints its drop beside the expected one.
+uris_solver() {
+  local program python elements ratio shift edge path expected
+  program=$(realpath -- "$1") python=$(python_of_packages)
+  flat_valve
+  printf '\n| elements | eps / h | shift / h | expected drop over (R/eps) u | in the solver |\n|---|---|---|---|---|\n'
+  for elements in hex tet; do
+    for ratio in 1.2 2; do
+      edge=$(awk "BEGIN { print 0.2 / $ratio }")
+      path=$build/uris/duct_${elements}_$ratio
+      duct_of_edge $elements "$edge" "$path" || return
+      for shift in 0 0.5; do
+        rm -rf "$path" "$path.case"
+        "$build/bin/riis" export "$path" "$path.msh" --valve "$build/uris/flat.json" --resistance 1e4 --time-step 0.002 \
+          --opening-seconds 0.002 --closing-seconds 0.002 --half-thickness 0.2 --largest-edge 0.03 \
+          --translate "0,0,$(awk "BEGIN { print $edge * $shift }")" >"$path.xml" 2>/dev/null &&
+          "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$path.case" 0.002 || return
+        (cd "$path.case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$path.case/log.txt" >&2; return 1; }
+        expected=$(sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p' "$path.xml")
+        printf '| %s | %s | %s | %s | %s |\n' $elements $ratio $shift "$expected" \
+          "$("$python" -B bench/peers/uris_case.py drop "$path.case")"
+      done
+    done
+  done
+}
+
 uris() {
   local kind edge blocks
-  if [[ ${1-} == drop && $# == 1 ]]; then
+  if [[ (${1-} == drop && $# == 1) || (${1-} == solver && $# == 2) ]]; then
+    [[ $1 == drop || -x $2 ]] || { echo "./run uris solver: '$2' is not a program" >&2; exit 2; }
     install_missing
     step "configure" cmake --preset default
     step "build the program" cmake --build --preset default --parallel "$n_jobs" --target riis_program
     mkdir -p "$build/uris"
-    uris_drop
+    "uris_$1" "${@:2}"
     return
   fi
   (($# == 0)) || { echo "./run uris: '$*' is not an argument of this command" >&2; exit 2; }

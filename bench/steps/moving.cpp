@@ -157,8 +157,8 @@ class FineSteps {
 };
 
 // An annulus that moves by landmarks: new targets, a warped valve, and a moving update. One contender has the same patches, which
-// were read out before. So neither of them is symmetric. Arcs cannot be given as patches, so a mitral valve lacks this contender.
-// The other contender is the symmetric valve without a warp, which opens.
+// were read out before. Neither the warped valve nor this contender is symmetric. Arcs cannot be given as patches, so a mitral
+// valve lacks this contender. The other contender is the symmetric valve without a warp, which opens.
 class WarpedSteps {
  public:
   WarpedSteps(const char *kind, int n_landmarks)

@@ -93,8 +93,8 @@ def draw_flow(study, out, history):
         axis.set_xlabel("x, mm")
     axes[0].set_ylabel("z, mm: the ventricle is below, the aorta above")
     figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.7)
-    figure.suptitle("The aortic root in code_saturne. Orange: the leaflets; the cut runs through the middle of the right cusp, "
-                    "and between the two others, which meet in it when they close")
+    figure.suptitle("The aortic root in code_saturne. Orange: the leaflets. The cut runs through the middle of the right cusp "
+                    "and between the other two, which meet in the cut when they close")
     figure.savefig(os.path.join(out, "flow.png"), dpi=110)
     plt.close(figure)
 
@@ -137,8 +137,8 @@ def draw_closed(study, out, read_history):
     axis.set_ylabel("drop across the closed valve, Pa")
     axis.grid(alpha=0.3)
     axis.legend()
-    axis.set_title("The closed valve in a steady flow: head losses have their drop at once,\n"
-                   "a momentum source, which the pressure equation does not know, builds it up")
+    axis.set_title("The closed valve in a steady flow: head losses give the drop at once.\n"
+                   "The pressure equation does not know a momentum source, so its drop builds up")
     figure.savefig(os.path.join(out, "closed.png"), dpi=110)
     plt.close(figure)
 

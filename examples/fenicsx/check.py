@@ -10,7 +10,7 @@ import sys
 import numpy
 
 RADIUS, HINGE, DT, EPS = 0.011, 0.45, 0.02, 2e-3
-LEAFLET = "#d55e00"  # of the palette of riis, which all kinds of colour vision tell apart
+LEAFLET = "#d55e00"  # a colour of riis's palette, which every kind of colour vision tells apart
 
 
 def require(holds, text):

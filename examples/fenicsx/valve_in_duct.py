@@ -16,7 +16,7 @@ from dolfinx.fem.petsc import LinearProblem
 from mpi4py import MPI
 from ufl import FacetNormal, Measure, TestFunctions, TrialFunctions, div, dot, dx, grad, inner, max_value, split, sym
 
-RADIUS, MEAN_SPEED, RHO, MU = 0.011, 0.1, 1060.0, 0.0035  # of the duct in m, in m/s, kg/m3, Pa s
+RADIUS, MEAN_SPEED, RHO, MU = 0.011, 0.1, 1060.0, 0.0035  # the duct's radius in m; the flow in m/s, kg/m3 and Pa s
 R = 20.0  # the valve's resistance in kg/(m s)
 GRAD_DIV = 2.0  # in Pa s, about R h / eps / 10
 
@@ -56,7 +56,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=ME
     # The equations of one time step balance momentum and mass. K is in the matrix, and K u_valve on the right-hand side.
     new, u_old = fem.Function(W), fem.Function(V, name="velocity")
     (u, p), (v, q) = TrialFunctions(W), TestFunctions(W)
-    rho_dt, drag = RHO / fem.Constant(mesh, dt), max_value(K, 0)  # between its points K falls below 0 at places
+    rho_dt, drag = RHO / fem.Constant(mesh, dt), max_value(K, 0)  # K falls below 0 at some places between its points
     a = (rho_dt * inner(u, v) + RHO * inner(dot(grad(u), u_old), v) + RHO / 2 * div(u_old) * inner(u, v)) * dx
     a += (2 * MU * inner(sym(grad(u)), sym(grad(v))) + drag * inner(u, v) - p * div(v) - q * div(u)) * dx
     a += fem.Constant(mesh, GRAD_DIV) * div(u) * div(v) * dx  # holds down what the error of p in the band does to div u

@@ -88,7 +88,7 @@ openfoam_has_source() {
   # shellcheck disable=SC2016 # dpkg-query's own variable
   version=$(dpkg-query -W -f='${source:Version}' openfoam)
   of_source=$folder/$version
-  [[ ! -e $of_source/complete ]] || return 0
+  [[ ! -e $of_source/with_dynamicMesh ]] || return 0
   rm -rf "$of_source"
   mkdir -p "$of_source"
   if ! (step "OpenFOAM's headers, from its source package (45 MB)" openfoam_source "$version" "$of_source"); then
@@ -113,12 +113,12 @@ openfoam_source() {
   apt-get "${apt_options[@]}" update &&
     (cd "$folder" && apt-get "${apt_options[@]}" source --download-only --tar-only "openfoam=$1") &&
     tar -xf "$folder"/openfoam_*.orig.tar.* -C "$folder" --strip-components=1 --wildcards \
-      '*/wmake' '*/src/OpenFOAM' '*/src/OSspecific' '*/src/finiteVolume' '*/src/meshTools' || return
-  for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools; do
+      '*/wmake' '*/src/OpenFOAM' '*/src/OSspecific' '*/src/finiteVolume' '*/src/meshTools' '*/src/dynamicMesh' || return
+  for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools dynamicMesh; do
     "$folder/wmake/wmakeLnInclude" -s "$folder/src/$part" || return
   done
   rm -rf "$folder/apt" "$folder"/openfoam_*
-  touch "$folder/complete"
+  touch "$folder/with_dynamicMesh"
 }
 
 openfoam_build() {

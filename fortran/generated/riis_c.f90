@@ -22,11 +22,11 @@
 !!   TARGET, so no compiler can pass a temporary copy. Keep the array in place: no local variable that ends, no reallocation.
 !! - Arrays of the library are type(c_ptr), for c_f_pointer with the shape given here. Do not write to them. Empty
 !!   arrays are c_null_ptr.
-!! - Ids that the library gives count from 0, in Fortran too: node_id + 1 is the column of xyz(3, n). Ids in a struct count from
+!! - Ids that the library gives count from 0, also in Fortran: node_id + 1 is the column of xyz(3, n). Ids in a struct count from
 !!   its index_base, so set that to 1. Its *_bits give their kind: storage_size(the array).
 !! - Structs: call the init function with c_sizeof(the variable) as struct_size, then set the fields that differ:
 !!     status = riis_mark_options_init(options, c_sizeof(options))
-!! - Pass texts through riis_c_string and take them through riis_c_text. A bare literal compiles too, but it is wrong, because
+!! - Pass texts through riis_c_string and take them through riis_c_text. A bare literal also compiles, but it is wrong, because
 !!   it lacks the null character at the end.
 module riis_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int8_t, c_int32_t, c_int64_t, c_null_char, &

@@ -349,7 +349,7 @@ subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, s
   status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp)
 end subroutine riisf_surface_add_direction
 
-!> Adds a direction like riisf_surface_add_direction, in which the placement changes, too.
+!> Adds a direction like riisf_surface_add_direction, in which the placement also changes.
 subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
     rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)

@@ -371,7 +371,7 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
                                                           !! ranks.
-  real(c_double), intent(in) :: about(3)                  !< The point of the moments.
+  real(c_double), intent(in) :: about(3)                  !< Moments are taken about this point.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
   real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
@@ -413,7 +413,7 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
                                                           !! ranks.
-  real(c_double), intent(in) :: about(3)                  !< The point of the moments.
+  real(c_double), intent(in) :: about(3)                  !< Moments are taken about this point.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
   real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.

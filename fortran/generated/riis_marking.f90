@@ -92,8 +92,8 @@ contains
   !! as they were.
   subroutine mark_nodes_logical(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
-    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
-    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may use it too.
+    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may also use it.
+    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may also use it.
     class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
                                                             !! to 1e60. Default RIIS_AUTO: the half thickness.
@@ -120,8 +120,8 @@ contains
   !> Implements riis_mark_nodes for a mask of bytes. Only a section that is not contiguous is copied.
   subroutine mark_nodes_int8(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
-    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
-    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may use it too.
+    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may also use it.
+    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may also use it.
     class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
                                                             !! to 1e60. Default RIIS_AUTO: the half thickness.
@@ -145,8 +145,8 @@ contains
   !> Implements riis_mark_nodes for a mask of integers, which is copied.
   subroutine mark_nodes_int32(surface, mesh, marks, distance_limit, node_mask, search, n_threads, status, fields, R, &
       half_thickness, rim)
-    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may use it too.
-    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may use it too.
+    class(riis_surface), intent(in) :: surface              !< Must be created. Calls on other threads may also use it.
+    class(riis_mesh), intent(in) :: mesh                    !< Must be created. Calls on other threads may also use it.
     class(riis_marks), intent(inout) :: marks               !< Empty, or from an earlier call.
     real(c_double), intent(in), optional :: distance_limit  !< Nodes get their distance up to this limit, from the half thickness
                                                             !! to 1e60. Default RIIS_AUTO: the half thickness.

@@ -23,7 +23,7 @@ module riis_measures
     module procedure swept_volume_of_keyframes
   end interface riis_get_swept_volume
 
-  !> Finds the opening at which a valve first lets a mesh pass.
+  !> Finds the opening at which a valve first leaves a passage through a mesh.
   interface riis_find_first_passage
     module procedure find_first_passage_int32, find_first_passage_int64
   end interface riis_find_first_passage

@@ -581,7 +581,7 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  *   open    NULL: `closed` serves for all openings
  * For an annulus that moves, call riis_warp_set_targets and this function in each step, for two valves in turn, and pass
  * both to riis_surface_update_moving. Both must be warped, or neither. With RIIS_TRIANGULATION_FIXED the warp may move.
- * A disc that is the outline of the orifice is warped, too. A surface's call refuses a warp that folds at the valve
+ * A disc that is the outline of the orifice is also warped. A surface's call refuses a warp that folds at the valve
  * or turns a part of it over, as RIIS_INVALID_PARAMETER naming the place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);

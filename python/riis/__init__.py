@@ -10,9 +10,9 @@
     marks.ids, marks.distance                           # views without a copy
     marks.add_resistance(K, R=1e4)
 
-Lengths have one unit of the caller's choice, and angles are in degrees. Ids count from 0. Errors are exceptions of subclasses of
-riis.Error, or TypeError, and name the argument. Calls release the interpreter's lock. Results are the same to the last bit for
-any number of threads.
+Lengths have one unit of the caller's choice, and angles are in degrees. Ids count from 0. A refused call raises TypeError or a
+subclass of riis.Error, whose message names the argument. Calls release the interpreter's lock. Results are the same to the last
+bit for any number of threads.
 """
 
 from enum import IntEnum

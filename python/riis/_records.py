@@ -25,7 +25,7 @@ class Parameter(NamedTuple):
     maximum: float  #: of every value, inclusive
     rule: str = ""  #: value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default
     other_name: str = ""  #: second name that sets it, such as "annulus"; "": none
-    other_factor: float = 0.0  #: the value by other_name is this times the parameter's
+    other_factor: float = 0.0  #: the value of other_name is the parameter's value times this factor
 
 
 class SurfaceInfo(NamedTuple):
@@ -86,7 +86,7 @@ class WarpInfo(NamedTuple):
     largest_residual: float  #: the largest distance between a mapped source and its target
     largest_landmark_id: int  #: its landmark
     smoothing: float  #: lambda of the smoothing; 0 without noise, infinite if the map is affine
-    least_determinant: float  #: half way from each landmark to its nearest
+    least_determinant: float  #: of the map's derivative, half way from each landmark to the nearest other one
     least_point: Reals  #: (3,): the point between the sources where the determinant is least
     is_planar: bool  #: the landmarks lie nearly in a plane
 
@@ -172,7 +172,7 @@ class Passage(NamedTuple):
 
 
 class FirstPassage(NamedTuple):
-    """The opening at which a valve first lets a mesh pass."""
+    """The opening at which a valve first leaves a passage through a mesh."""
 
     state: Literal["found", "always", "never", "none"]  #: "always": open at 0; "none": the mesh itself has no path
     opening: float  #: the first opening with a passage; 0 for "always" and "none", 1 for "never"

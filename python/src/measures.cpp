@@ -229,7 +229,7 @@ mesh  the mesh of the marking)");
                      "to_ids: numpy.typing.NDArray[numpy.int64], *, opening_tolerance: float = 1e-3, mask: "
                      "numpy.typing.NDArray[numpy.bool_] | numpy.typing.NDArray[numpy.uint8] | None = None, n_threads: "
                      "int = 0, **options: typing.Any) -> riis._records.FirstPassage"),
-             R"(Finds the opening at which a valve first lets the mesh pass from one set of nodes to another.
+             R"(Finds the opening at which a valve first leaves a passage from one set of nodes to another.
 
 from_ids, to_ids   as for find_passage
 opening_tolerance  1e-6 to 1

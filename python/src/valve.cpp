@@ -352,7 +352,7 @@ The valve's parameters are 'opening' and 'skirt_length'. Arrays are copied.)")
           nb::sig("def __deepcopy__(self, memo: object) -> Valve"))
       .def("set_open_state", &set_open_state, nb::arg("open").none(),
            nb::sig("def set_open_state(self, open: Valve) -> None"),
-           R"(Gives the valve an open state: its own state is at opening 0, the state of open at opening 1.
+           R"(Gives the valve an open state: its own state is at opening 0, and that of the valve `open` at opening 1.
 
 open is copied. It must be of the same kind. A valve from patches must have the same curves, degrees and sides.)")
       .def_prop_ro("parameters", &parameters, nb::sig("def parameters(self) -> dict[str, riis._records.Parameter]"),

@@ -12,7 +12,7 @@ import riis
 
 @pytest.fixture(scope="session")
 def xyz():
-    """Returns nodes around the valves, in cm. There are so many that marking starts threads."""
+    """Returns nodes around the valves, in cm. Marking this many nodes starts threads."""
     return numpy.random.default_rng(2025).uniform(-2.0, 2.0, (60_000, 3))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The programs in docs/python.md run unchanged, README contains the first of them, and the notebook is consistent."""
+"""The programs in docs/python.md run unchanged, README contains the first of them, and the notebooks are consistent."""
 
 import ast
 import json
@@ -7,6 +7,7 @@ import pathlib
 import re
 
 import numpy
+import pytest
 
 import riis
 
@@ -30,16 +31,17 @@ def test_the_programs_of_the_document_run(xyz):
     assert len(slopes) == len(names["marks"]) > 100 and slopes.min() < 0.0 < slopes.max()
 
 
-def test_the_notebook_is_committed_without_outputs():
-    """The notebook is committed without outputs, because nobody would check them. ./run python runs it."""
-    notebook = json.loads((ROOT / "examples/python/tutorial.ipynb").read_text(encoding="utf-8"))
+@pytest.mark.parametrize("name, n_least, used", [("tutorial", 10, {"Mesh", "mark", "animate", "fit"}), ("inverse", 4, set())])
+def test_notebooks_are_committed_without_outputs(name, n_least, used):
+    """A notebook is committed without outputs, because nobody would check them. ./run python runs it."""
+    notebook = json.loads((ROOT / f"examples/python/{name}.ipynb").read_text(encoding="utf-8"))
     assert notebook["cells"][0]["source"][0].startswith("<!-- SPDX-License-Identifier: Apache-2.0 -->")
     cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
-    assert len(cells) > 10
+    assert len(cells) > n_least
     names = set()
     for cell in cells:
         assert cell["outputs"] == [] and cell["execution_count"] is None
         for node in ast.walk(ast.parse("".join(cell["source"]))):
             if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "riis":
                 names.add(node.attr)
-    assert {"Mesh", "mark", "animate", "fit"} <= names and all(hasattr(riis, name) for name in names)
+    assert used <= names and all(hasattr(riis, name) for name in names)

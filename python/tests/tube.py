@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A tube of tetrahedra, as a mesh of the view's tests, of their measurement and of the check in a browser."""
+"""A tube of tetrahedra: the mesh for the view's tests, for view_cost.py and for the check in a browser."""
 
 import numpy
 
@@ -35,5 +35,5 @@ def mesh(n, radius=1.3, length=4.0, n_z=None, middle=0.0):
 
 
 def of_nodes(n_nodes, radius=1.3, length=4.0):
-    """Returns a tube with about so many nodes."""
+    """Returns a tube with about this many nodes."""
     return mesh(round((n_nodes / (length / (2.0 * radius))) ** (1 / 3)), radius, length)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints how near warped valves come to random patients, whether they cross or leak, and how right velocities are.
+"""Prints how near warped valves come to random patients, whether they cross or leak, and how accurate velocities are.
 
 warp_table.py [N] takes N random patients, by default 100. warp_table.py factors [N] tries other factors of the noise. Lengths are
 in centimetres, results in millimetres.
@@ -97,7 +97,7 @@ def attachment_off(root, surface):
 
 
 def factors(n, noise, seed, n_landmarks):
-    """Tries factors of the noise. A factor f of theory.md is had by the noise times sqrt(f / 0.6). A patient whose warp folds
+    """Tries factors of the noise. The noise times sqrt(f / 0.6) acts as a factor f of theory.md. A patient whose warp folds
     counts as 99 mm away."""
     random, tried = numpy.random.default_rng(seed), (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
     off = [[] for _ in tried]

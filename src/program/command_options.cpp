@@ -232,7 +232,7 @@ void declare_pictures(Command &command, MarkOptions &options) {
           ->allow_extra_args(false);
   command
       .values("--view", "VIEW",
-              "Of each --picture: side, top, oblique (default), three; valve-side, ...: by the valve's axes",
+              "View of --picture: side, top, oblique (default), three; valve-side, ...: by the valve's axes",
               [&options](const std::vector<std::string> &views) {
                 if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
                 for (std::size_t i = 0; i < views.size(); ++i)

@@ -108,7 +108,7 @@ struct Answer {
   if (status == RIIS_OK) status = riis_vtk_mesh_get_notes(mesh, &notes);
   if (status == RIIS_OK) status = riis_vtk_mesh_write(mesh, passed.c_str());
   const char *const text = status == RIIS_OK ? notes : riis_last_error();
-  // A pipe takes so few bytes at once.
+  // A pipe takes as few bytes as these in one call.
   const auto n_bytes = static_cast<ssize_t>(std::strlen(text));
   const bool is_written =
       write(answer, &status, sizeof status) == sizeof status && write(answer, text, std::strlen(text)) == n_bytes;

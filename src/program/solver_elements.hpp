@@ -36,7 +36,7 @@ struct SolverElement {
   std::vector<ShapeFunctions> at_fine;
 };
 
-// Returns the element of a type of VTK's, or NULL if svMultiPhysics does not have it.
+// Returns the element for a VTK cell type, or NULL if svMultiPhysics lacks it.
 const SolverElement *solver_element_of(std::uint8_t vtk_type);
 // Returns the names of all elements, for messages.
 const char *solver_element_names();

@@ -353,9 +353,9 @@ Solved solve(const Matrix &m, const Vector &right, const Matrix &factors) {
 
 // ---- The solver's equations ----
 
-// The share of R / eps^2 that resists the flow everywhere. It replaces the inertia, without which the equations outside the band
-// would have next to no terms of velocity. It adds a thousandth to the drop. The matrix of the incomplete factors has a larger
-// share, because the factors may otherwise be nearly singular. If the first one is too small, a later one may do.
+// The share of R / eps^2 that resists the flow everywhere. This share replaces the inertia: otherwise the equations outside the
+// band would have almost no velocity terms. It adds a thousandth to the drop. The matrix of the incomplete factors has a larger
+// share, because the factors may otherwise be nearly singular. If the first of these shares is too small, the next one is tried.
 constexpr double share_everywhere = 1e-4, shares_in_factors[] = {2e-3, 2e-2, 0.2};
 // The constant of the solver's stabilisation.
 constexpr double viscous_constant = 36;
@@ -371,7 +371,8 @@ void add_element(const SolverMesh &mesh, const Region &region, std::int64_t e, c
                  double half_thickness, const SolverFluid &fluid, double share, Equations &equations) {
   const SolverElement &element = *mesh.element;
   const std::size_t n = element.n_nodes;
-  // Velocities are in units in which a drop of 1 over R / eps gives 1, so that all terms have about the same size.
+  // The unit of velocity is the one that a drop of 1 gives across the resistance R / eps. All terms then have about the same
+  // size.
   const double unit = fluid.resistance / half_thickness, mu = fluid.viscosity / unit;
   std::vector<Block> blocks(n * n, Block{});
   ElementMap map;

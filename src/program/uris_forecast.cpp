@@ -114,7 +114,7 @@ class Forecaster {
   void check_open(double opening) {
     const SolverBand before = band_before(distances_at(opening, false), false);
     if (before.n_nodes == 0)
-      refuse_motion("close", "no node of its box is before the open leaflets at a distance of " +
+      refuse_motion("close", "no node of the solver's box is before the open leaflets at a distance of " +
                                  shown(half_thickness_) + " or more, where the solver takes the mean flow");
     say("it closes once the mean flow before the open leaflets reverses");
     say("  before: " + text_of(before));

@@ -70,7 +70,7 @@ double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions
 // Returns (1 + cos(pi d / eps)) / (2 eps^2), or 0 beyond eps.
 double delta_of(double distance, double half_thickness);
 
-// The nodes with signed distances from one number to another. Places are along the direction of forward flow.
+// The nodes whose signed distances lie in a range. Their places are measured along the direction of forward flow.
 struct SolverBand {
   std::int64_t n_nodes = 0;
   double volume = 0, from = 0, to = 0;

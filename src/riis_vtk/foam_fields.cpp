@@ -39,7 +39,7 @@ const char *dimensions_of(const std::string &array) {
   return ends_with(array, "_velocity") ? "[0 1 -1 0 0 0 0]" : "[0 0 0 0 0 0 0]";
 }
 
-// Types of patches that a field must have too.
+// Types of patches that a field must also have.
 bool is_constraint(const std::string &type) {
   const char *const types[] = {"empty",
                                "wedge",

@@ -444,7 +444,8 @@ static void test_refusals(void **state) {
   REFUSED(1, "before.vtk: svMultiPhysics would never open the valve: no node is behind the closed leaflets",
           "before.vtk", "--valve", flap);
   REFUSED(1,
-          "short.vtk: svMultiPhysics would never close the valve: no node of its box is before the open leaflets at a "
+          "short.vtk: svMultiPhysics would never close the valve: no node of the solver's box is before the open "
+          "leaflets at a "
           "distance of 0.3 or more, where the solver takes the mean flow",
           "short.vtk", "--valve", far);
   const char *const head =

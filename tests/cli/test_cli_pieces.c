@@ -395,7 +395,7 @@ static void vtk_reads_and_writes_pieces(void **state) {
   free(joined);
   free(pieces);
   forget_whole();
-  /* Each of these pieces has the points of all, which would count several times. */
+  /* Each of these pieces has the points of all pieces, so every point would count several times. */
   plain_mesh box = plain_hexahedra(5, (double[3]){-1.7, -1.6, -1.3}, (double[3]){1.5, 1.6, 0.5});
   plain_write("parts.vtu", &box, PLAIN_CELLS, 2);
   assert_int_equal(shim_write_pieces(scratch_path("parts.vtu"), scratch_path("full.pvtu"), 2), 1);
@@ -456,7 +456,7 @@ static void broken_pieces_are_refused(void **state) {
   scratch_write_text("bad.pvtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   RUN_REFUSED(1, "holds UnstructuredGrid, not PUnstructuredGrid", "mark", scratch_path("bad.pvtu"));
   RUN_REFUSED(1, "gone.pvtu", "mark", scratch_path("gone.pvtu"));
-  /* Pieces: not a grid, cut short, and without the array of the others. */
+  /* These pieces are refused: not a grid, cut short, and without an array that the others have. */
   scratch_write_text("text.vtu", "no grid");
   expect_bad("<Piece Source=\"piece0.vtu\"/><Piece Source=\"text.vtu\"/>", "text.vtu: is not a VTK XML file");
   size_t n = 0;

@@ -4,12 +4,12 @@
 // faces make a surface, frames make keyframes.
 #include <riis/riis_vtk.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 #include "expect.hpp"
+#include "read_mesh.hpp"
 #include "scratch_file.hpp"
 
 namespace {
@@ -19,51 +19,12 @@ const fuzz::ScratchFile &file() {
   return scratch;
 }
 
-// Returns whether the status is RIIS_OK. Any other status must be a refusal of one of two kinds, with a message.
 bool is_fine(riis_status status, riis_status refusal) {
-  if (status == RIIS_OK) return true;
-  const char *text = riis_last_error();
-  EXPECT(status == refusal || status == RIIS_OUT_OF_MEMORY, "status %d: %s", status, text);
-  EXPECT(std::strlen(text) > 8 && std::strlen(text) < 512, "the text '%s'", text);
-  if (refusal == RIIS_FILE_ERROR) EXPECT(std::strstr(text, "input." RIIS_FUZZ_ENDING ": "), "no file in '%s'", text);
-  return false;
-}
-
-void use_rows(riis_mesh *mesh, const riis_vtk_mesh *read, std::int64_t n_nodes) {
-  riis_adjacency *adjacency = nullptr;
-  if (!is_fine(riis_vtk_mesh_create_adjacency(read, 1, &adjacency), RIIS_OUT_OF_MEMORY)) return;
-  riis_csr rows;
-  EXPECT(riis_adjacency_get_csr(adjacency, &rows, sizeof rows) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(rows.n_rows == n_nodes, "%lld rows", static_cast<long long>(rows.n_rows));
-  if (mesh) EXPECT(riis_mesh_set_adjacency(mesh, &rows) == RIIS_OK, "%s", riis_last_error());
-  riis_adjacency_destroy(&adjacency);
+  return fuzz::is_fine(status, refusal, "input." RIIS_FUZZ_ENDING ": ");
 }
 
 void read_mesh() {
-  riis_vtk_mesh *read = nullptr;
-  if (!is_fine(riis_vtk_mesh_read(file().path().c_str(), &read), RIIS_FILE_ERROR)) {
-    EXPECT(read == nullptr, "a refused mesh was written");
-    return;
-  }
-  std::int64_t n_nodes = 0, n_cells = -1;
-  const double *xyz = nullptr;
-  EXPECT(riis_vtk_mesh_get_nodes(read, &n_nodes, &n_cells, &xyz) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(n_nodes > 0 && n_cells >= 0, "%lld nodes", static_cast<long long>(n_nodes));
-  double sum = 0;
-  // Reads all numbers, so that the sanitizer checks the reads.
-  for (std::int64_t i = 0; i < 3 * n_nodes; ++i) sum += xyz[i];
-  riis_mesh *mesh = nullptr;
-  if (is_fine(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), RIIS_INVALID_MESH))
-    EXPECT(std::isfinite(sum), "%g", sum);
-  use_rows(mesh, read, n_nodes);
-  std::int64_t n_volume_cells = -1, n_left_out = -1;
-  EXPECT(riis_vtk_mesh_get_volume_cells(read, &n_volume_cells, &n_left_out) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(0 <= n_left_out && n_left_out <= n_volume_cells && n_volume_cells <= n_cells, "%lld cells of volume",
-         static_cast<long long>(n_volume_cells));
-  double edge = -1;
-  EXPECT(riis_vtk_mesh_get_median_edge(read, &edge) == RIIS_OK, "%s", riis_last_error());
-  EXPECT(edge >= 0 && std::isfinite(edge), "edge %g", edge);
-  riis_mesh_destroy(&mesh);
+  riis_vtk_mesh *read = fuzz::read_mesh(file().path().c_str(), "input." RIIS_FUZZ_ENDING ": ");
   riis_vtk_mesh_destroy(&read);
 }
 

@@ -67,7 +67,7 @@ refuses shell SC2086
 echo 'step $1' >>steps.sh
 refuses shell SC2086
 echo '# shellcheck shell=bash' >alone.sh
-refuses shell "alone.sh has no #!, and run does not read it"
+refuses shell "alone.sh has no #!, and no script reads it"
 printf '# %0129d\n' 0 >>run
 refuses columns 'run:5: 131 columns; at most 130'
 printf '// %0128d\n' 0 >>src/twice.cpp

@@ -187,8 +187,8 @@ static void check_equal(const results *a, int64_t i, const riis_closest *one) {
   assert_int_equal(a->side[i], one->side);
 }
 
-/* So many points are searched together, in several batches. Masks, lists, limits and single precision give the results of
- * single queries. No other entry is written. */
+/* The points fill several batches, which are searched over clusters. Masks, lists, limits and single precision give the results
+ * of single queries. No other entry is written. */
 static void many_points_equal_single_queries(void **state) {
   (void)state;
   const int64_t n = is_long_test() ? 3000000 : fewer_if_sanitized(140000), stride = is_long_test() ? 1 : 5;

@@ -263,7 +263,7 @@ static void skirts_cross_nothing(void **state) {
   }
 }
 
-/* Beside the skirt, the side is that of its normals. */
+/* The side of a point beside the skirt follows the skirt's normals. */
 static void sides_are_right_beside_the_skirt(void **state) {
   (void)state;
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {

@@ -333,7 +333,7 @@ static void an_identity_changes_nothing(void **state) {
 }
 
 /* A rigid warp gives the same shape as the placement: points of either surface lie on the other, as exactly as both are made. The
- * orifice, the swept volume and the attachment agree, too. */
+ * orifice, the swept volume and the attachment also agree. */
 static void a_rigid_warp_equals_a_placement(void **state) {
   (void)state;
   for (int trial = 0; trial < 9; ++trial) {

@@ -263,6 +263,40 @@ static const char xdmf[] =
     "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1</DataItem>\n"
     "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
     "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
+
+/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh", reads the
+ * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside
+ * the text, or in the text if riis has no HDF5. */
+static void test_xdmf_for_others(void **state) {
+  (void)state;
+  scratch_write_text("tet.xdmf", xdmf);
+  rewrite("tet.xdmf", "out.xdmf", "");
+  char *text = scratch_read(scratch_path("out.xdmf"), NULL);
+  const int has_hdf5 = scratch_exists("out.h5");
+  const char *begin =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" xmlns:xi=\"https://www.w3.org/2001/XInclude\">\n"
+      "<Domain>\n<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+      "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">\n"
+      "<DataItem NumberType=\"Int\" Precision=\"8\" Dimensions=\"1 4\" ";
+  const char *geometry_begin =
+      "</DataItem>\n</Topology>\n<Geometry GeometryType=\"XYZ\">\n"
+      "<DataItem NumberType=\"Float\" Precision=\"8\" Dimensions=\"4 3\" ";
+  const char *attribute_begin =
+      "</DataItem>\n</Geometry>\n<Attribute Name=\"p\" AttributeType=\"Scalar\" Center=\"Node\">\n"
+      "<DataItem NumberType=\"Float\" Precision=\"8\" Dimensions=\"4\" ";
+  const char *end = "</DataItem>\n</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
+  const char *in_hdf5[] = {"Format=\"HDF\">out.h5:/topology", "Format=\"HDF\">out.h5:/geometry",
+                           "Format=\"HDF\">out.h5:/Node_p"};
+  const char *in_text[] = {"Format=\"XML\">\n0 1 2 3\n", "Format=\"XML\">\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
+                           "Format=\"XML\">\n1\n2\n3\n4\n"};
+  const char *const *numbers = has_hdf5 ? in_hdf5 : in_text;
+  char wanted[2048];
+  snprintf(wanted, sizeof wanted, "%s%s%s%s%s%s%s", begin, numbers[0], geometry_begin, numbers[1], attribute_begin,
+           numbers[2], end);
+  assert_string_equal(text, wanted);
+  free(text);
+}
+
 /* A file that is broken in one place: the first `from` becomes `to`. */
 typedef struct broken {
   const char *name, *whole, *from, *to, *text;
@@ -474,6 +508,7 @@ int main(void) {
       cmocka_unit_test(test_vtm),
       cmocka_unit_test(test_exodus),
       cmocka_unit_test(test_xdmf),
+      cmocka_unit_test(test_xdmf_for_others),
       cmocka_unit_test(test_meshio),
       cmocka_unit_test(test_broken),
       cmocka_unit_test(test_cut_and_changed),

@@ -213,8 +213,8 @@ contains
     type(leaflets) :: valve
     real(dp) :: u(2), displaced(2), least(2), time, short
     integer :: i, with
-    print '(a)', 'A plate moves at 0.1 m/s through a duct with equal pressures at its ends; the aortic valve closes within 40 ms,'
-    print '(a)', 'also between equal pressures: what goes back through the root meanwhile'
+    print '(a)', 'A plate moves at 0.1 m/s through a duct, and the aortic valve closes within 40 ms in its root.'
+    print '(a)', 'The pressures at both ends are equal. The table shows the flow that they drive:'
     print '(a)', '  K u_surface  flow behind plate, m/s  back through root, ml  most, ml/s'
     do with = 1, 2
       fluid = flow()

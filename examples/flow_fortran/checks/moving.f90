@@ -67,7 +67,7 @@ contains
     print '(a)', ''
   end subroutine check_equal_pressures
 
-  ! Returns the displaced volume over the swept one, up to an opening.
+  ! Returns the ratio of the displaced volume to the swept volume, up to an opening.
   pure real(dp) function share_of(seen, at)
     type(motion), intent(in) :: seen
     integer, intent(in) :: at                     ! index in `openings`
@@ -87,7 +87,7 @@ contains
     type(motion) :: seen(0:1, size(names))
     real(dp) :: duration, first, longest
     integer :: i, k, n(3), with
-    print '(a)', 'Beside the default, 24 cells: largest force in N across the axis, of steps and of means over 1 ms; along it'
+    print '(a)', 'Variants of the default, 24 cells: largest force in N across the axis, of steps and of 1 ms means; along it'
     print '(a)', repeat(' ', 40) // 'across     mean across           along           pressure, mmHg'
     print '(a)', '  case                                  without   with' // repeat('  without   with', 2) // &
       '           without              with'

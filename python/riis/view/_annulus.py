@@ -21,7 +21,7 @@ from riis.view._valves import ValveState, plain, refuse, rotation_of, values_tha
 
 Reals = NDArray[numpy.float64]
 
-_LEAST, _MOST = 0.3, 3.5  # by which a valve's lengths may grow; more is another unit
+_LEAST, _MOST = 0.3, 3.5  # factors of a valve's lengths; beyond them the mesh has another unit
 
 
 class Annulus(NamedTuple):
@@ -64,7 +64,7 @@ def annulus_of(state: ValveState) -> Annulus:
 
 
 def _nadirs(ends: Reals, leaflet: Any) -> Reals:
-    """Returns the lowest point of each cusp's attachment: the middle of its lowest points."""
+    """Returns the nadir of each cusp: the mean of the lowest vertices of its attachment."""
     made = []
     for cusp in range(3):
         of_cusp = ends[leaflet == cusp]
@@ -88,7 +88,7 @@ def _anterior(ends: Reals, leaflet: Any) -> Reals:
 
 
 def checked_clicks(points3: Any) -> Reals:
-    """Returns three points, or refuses values that show no circle."""
+    """Returns three points. Refuses values that define no circle."""
     try:
         clicks = numpy.array(points3, numpy.float64)
     except (TypeError, ValueError):
@@ -104,7 +104,7 @@ def checked_clicks(points3: Any) -> Reals:
             raise refuse(f"points3: points {other} and {k} are in one place, {tuple(clicks[k].tolist())}")
     area = float(numpy.linalg.norm(numpy.cross(clicks[1] - clicks[0], clicks[2] - clicks[0])))
     if area <= 0.02 * size * size:
-        raise refuse(f"points3: the points {clicks.tolist()} are on a line, and show no circle")
+        raise refuse(f"points3: the points {clicks.tolist()} are on a line, so they define no circle")
     return clicks
 
 

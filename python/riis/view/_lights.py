@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The lights of the view name the faults of a valve in a mesh, their places and their cures.
 
-The limits of sizes are those of the warnings of the program (riis help warnings).
+The size limits are those of the program's warnings (riis help warnings).
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ Reals = NDArray[numpy.float64]
 NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are cured
 LEVELS = ("bad", "warn", "good", "off")  # the worst first
 
-# The mesh is 0.5 to 40 times as large as the valve, and its edges are at most 0.3 times as long. Three times is usual.
+# The limits for the mesh's extent over the valve's extent, its usual value, and the limit for the mesh's edges over this extent.
 _SMALLEST, _LARGEST, _USUAL, _LONGEST_EDGE = 0.5, 40.0, 3.0, 0.3
-_SUSPICIOUS = 12.0  # a mesh without a unit that is so many times as large may have another unit
+_SUSPICIOUS = 12.0  # a mesh without a unit may have another unit if it is this many times as large as the valve
 _LARGEST_HALF, _USUAL_HALF = 0.25, 0.04  # of the largest side of the valve
 _SMALLEST_HALF = 0.3  # of the mesh's edges
 _FACTORS = (0.1, 10.0, 0.01, 100.0, 0.001, 1000.0)
@@ -213,7 +213,7 @@ def half_thickness(scene: Scene) -> Light:
 
 
 def crossing(scene: Scene) -> Light:
-    """Judges whether leaflets go through each other. Contacts do not count, nor those of hinges with their housing."""
+    """Judges whether leaflets go through each other. Contacts do not count, and neither do hinges in their housing."""
     surface, state = scene.surface, scene.state
     info = surface.info
     if state.kind == "bileaflet":

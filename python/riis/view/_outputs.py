@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the view writes: a case of the program riis, a command, a script, OpenFOAM's dictionary, and the session.
 
-Numbers are written with all their digits, so that each of them gives the same marks, to the last bit.
+Numbers are written with all their digits, so that each file gives the same marks, to the last bit.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ def _law(law: OpeningTable | OpeningTimes) -> dict[str, Any]:
 
 
 def _times_of_surfaces(states: Iterable[ValveState]) -> list[float] | None:
-    """Returns the present time of surfaces that move, and a later one, because a series has two. None without such a surface."""
+    """Returns two times of a series: the present time of moving surfaces, and a later one. Returns None if no surface moves."""
     moving = [state for state in states if state.surface is not None and state.surface.moves]
     if len({state.time for state in moving}) > 1:
         places = ", ".join(f"{state.name} at {state.time!r}" for state in moving)

@@ -16,7 +16,7 @@ class Part:
     model: Any  #: riis.view.model.Model, or None before the first mesh
     scene: Any  #: riis.view.scene.Scene, or None before the first mesh
     state: Any  #: trame's variables of the page
-    folder: Path  #: to which the page writes, and from which relative paths count
+    folder: Path  #: the folder to which the page writes, and at which relative paths begin
     _grid: Any
     _shown: Any
     _busy: str

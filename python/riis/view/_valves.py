@@ -56,7 +56,7 @@ class Parameter(NamedTuple):
     high: float  #: where a slider ends
     rule: str  #: the value unless it is set, such as "0.5 leaflet_height"; "": the default
     other_name: str  #: a surgeon's name of the same size, such as "annulus", which is then a parameter of its own
-    other_factor: float  #: the value by the other name is this times the parameter's
+    other_factor: float  #: the other name's value is the parameter's value times this factor
 
 
 class Cycle(NamedTuple):
@@ -261,7 +261,7 @@ def _slider(unit: str, least: float, greatest: float, default: Value) -> tuple[f
 
 @lru_cache(maxsize=None)
 def parameters_of(kind: str) -> tuple[Parameter, ...]:
-    """Returns the parameters of a kind, the first sizes first. A size with a surgeon's name is there by both names."""
+    """Returns the parameters of a kind, the first sizes first. A size with a surgeon's name is listed under both names."""
     table = Valve(check_kind(kind)).parameters
     first: list[Parameter] = []
     rest: list[Parameter] = []
@@ -297,7 +297,7 @@ def parameters_of(kind: str) -> tuple[Parameter, ...]:
 
 
 def values_of(state: ValveState) -> dict[str, Value]:
-    """Returns the present values of all parameters, also by the surgeon's names and of sizes that follow a rule."""
+    """Returns the present values of all parameters, also under surgeons' names. Sizes that follow a rule are included."""
     valve = state.valve()
     if valve is None:
         return {}

@@ -16,7 +16,7 @@
           const { kind, dx, dy, shift } = gesture;
           gesture = null;
           await send("riis_gesture", kind, dx, dy, shift);
-        } else {  // after the last gesture, which may have waited for an answer
+        } else {  // the last gesture was sent before this
           ended = false;
           await send("riis_gesture_ends");
         }

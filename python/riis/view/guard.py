@@ -77,7 +77,7 @@ def is_key(given: str | None, key: str) -> bool:
 
 
 def has_desktop() -> bool:
-    """Returns whether a browser can show the page. Without a desktop, Python would start a browser of text in the terminal."""
+    """Returns whether a browser can show the page. Without a desktop, Python would start a text browser in the terminal."""
     return not sys.platform.startswith("linux") or any(map(os.environ.get, ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER")))
 
 
@@ -116,7 +116,7 @@ class Guard:
                 trial.bind(("127.0.0.1", port))
             except OSError as error:
                 raise RuntimeError(f"--port: {port} on 127.0.0.1 cannot be had: {os.strerror(error.errno or 0)}") from None
-        # trame reads its options from the process's words, and takes the key from a file.
+        # trame reads its options from the process's arguments, and takes the key from a file.
         words, sys.argv = sys.argv, ["riis view", "--authKeyFile", str(self.folder / "key" if self.folder else "")]
         self.server.controller.on_server_bind.add(self._bind)
         self.server.controller.on_server_ready.add(lambda **_: self._tell(browser))

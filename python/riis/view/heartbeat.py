@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The heartbeat of riis view: its cycle, its curves, and the play of it."""
+"""The heartbeat of riis view: its cycle, its curves, and its playback."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ UNSEEN = 4.0  # seconds after which a picture that no browser shows pauses a hea
 
 
 class Heartbeat(Part):
-    """The part of a Page that plays."""
+    """The part of a Page that plays the heartbeat."""
 
     _end_drag: Any
     _begin_change: Any

@@ -69,7 +69,7 @@ class Shown(NamedTuple):
     valve: Ids  #: (n,): the valve of this leaflet
     cells_marked: Ids  #: volume cells all of whose nodes are marked
     cells_partly: Ids  #: volume cells with some marked nodes
-    milliseconds: float  #: for the last change of the surfaces, and for these marks
+    milliseconds: float  #: the time for the last change of the surfaces and for these marks
 
 
 class Model(Valves):
@@ -483,7 +483,7 @@ class Model(Valves):
         self._change(states, self._unit)
 
     def at(self, time: float) -> None:
-        """Moves all valves with a cycle, and surfaces that move, to a time. This is no step of undo."""
+        """Moves all valves with a cycle, and surfaces that move, to a time. This is not a step of undo."""
         moment = number(time, "time")
         states = tuple(_moved(state, moment) for state in self.valves)
         self._take(self._made(states), self._unit)
@@ -530,7 +530,7 @@ class Model(Valves):
         return (min(part[0] for part in parts), max(part[1] for part in parts)) if parts else (0.0, 0.0)
 
     def period(self, i: int) -> float:
-        """Returns the period of a valve's cycle or of a surface that moves; 0 without."""
+        """Returns the period of a valve's cycle or of a moving surface. Returns 0 if there is none."""
         state = self._at(i).state
         if state.surface is not None:
             times = state.surface.times

@@ -46,7 +46,7 @@ class Page(Hand, Heartbeat, saving.Files):
     path    the mesh to read, or None
     saved   a saved view to open, or None
     unit    of the meshes: "mm", "cm" or "m". None: not known
-    folder  the folder to which the page writes, and from which relative paths count
+    folder  the folder to which the page writes, and at which relative paths begin
     """
 
     def __init__(self, path: str | None, *, saved: str | None = None, unit: Any = None, folder: str = "."):
@@ -74,8 +74,8 @@ class Page(Hand, Heartbeat, saving.Files):
         self._orifice_at = 0.0
         self._playing: asyncio.Task[None] | None = None
         self._tasks: set[asyncio.Task[None]] = set()  # asyncio itself does not keep them
-        self._busy = ""  # what takes a while now, as a sentence
-        self._wanted_size: tuple[int, int] | None = None  # that a browser asked for during a movie
+        self._busy = ""  # names the present long task, in a sentence
+        self._wanted_size: tuple[int, int] | None = None  # a browser asked for it during a movie
         self._shown: Any = None
         self._build()
 
@@ -132,7 +132,7 @@ class Page(Hand, Heartbeat, saving.Files):
             except saving.REFUSALS as error:
                 self._say(saving.text_of(error))
                 with self.state as state:
-                    state.refusals += 1  # makes the fields anew, with the values that hold
+                    state.refusals += 1  # the fields are made again, with the model's values
                 self._show_numbers()
             except Exception as error:
                 self._tell_fault(error)
@@ -168,7 +168,7 @@ class Page(Hand, Heartbeat, saving.Files):
 
     @contextmanager
     def _alone(self, what: str) -> Iterator[None]:
-        """While this lasts, no mesh is read and no movie is written besides."""
+        """While this lasts, no other mesh is read and no movie is written."""
         self._need_idle()
         self._busy = what
         try:
@@ -284,7 +284,7 @@ class Page(Hand, Heartbeat, saving.Files):
         }  # fmt: skip
 
     def _show_as_saved(self, shown: dict[str, Any]) -> None:
-        """Shows what a saved view says. A view that the library or an older release saved says nothing of this."""
+        """Shows what a saved view says. Views that the library or an older release saved lack these entries."""
         if not shown:
             return
         with self.state as state:
@@ -484,7 +484,7 @@ class Page(Hand, Heartbeat, saving.Files):
 
 
 def _check_of_saved(shown: dict[str, Any], n_valves: int) -> None:
-    """Refuses a saved view whose words about the page do not fit."""
+    """Refuses a saved view whose entries for the page are not valid."""
     choices = {"current": range(n_valves), "wall": WALLS, "cells": CELLS, "speed": [speed["value"] for speed in _SPEEDS]}
     for name, value in shown.items():
         fits = isinstance(value, dict) if name == "view" else isinstance(value, (int, float, str)) and not isinstance(value, bool)

@@ -59,7 +59,7 @@ def _by_vtk(path: str, progress: dict[str, float]) -> Any:
     low.AddObserver("ErrorEvent", hear)
     try:
         grid = reader.read()
-    except Exception as error:  # PyVista raises many kinds for files that it cannot parse
+    except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
         raise Refusal(f"{path}: is not a mesh that VTK can read ({error})") from error
     if said or low.GetErrorCode() != 0:
         lines = [re.sub(r" ?\(0x[0-9a-f]+\):?", "", line).strip() for line in " ".join(said).splitlines() if line.strip()]
@@ -114,7 +114,7 @@ def read_surface(path: str) -> dict[str, Any]:
                 frames.append(_triangles_of(reader.read()[0], path))
     except Refusal:
         raise
-    except Exception as error:  # PyVista raises many kinds for files that it cannot parse
+    except Exception as error:  # PyVista raises many kinds of exceptions for files that it cannot parse
         raise Refusal(f"{path}: is not a surface that VTK can read ({error})") from error
     faces = frames[0].regular_faces if len(frames) else numpy.zeros((0, 3), int)
     if len(faces) == 0:

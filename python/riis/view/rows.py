@@ -109,7 +109,7 @@ def light_of(light: Any) -> dict[str, Any]:
 
 
 def line_of(label: str, times: Any, values: Any, colour: str, unit: str = "", *, top: float = 0.0) -> dict[str, str]:
-    """Returns a curve as the points of an SVG polyline of 300 times 44."""
+    """Returns a curve as the points of an SVG polyline, in a box of 300 by 44."""
     values = numpy.nan_to_num(numpy.asarray(values, float))
     if top == 0.0:
         top = max(float(values.max()), 1e-300)

@@ -23,8 +23,8 @@ WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000",
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
-SLOW = 0.12  # seconds for a picture, above which pictures of a moving hand get fewer pixels
-MANY_MARKED = 400_000  # so many cells around the leaflets are drawn at rest only
+SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next one has fewer pixels
+MANY_MARKED = 400_000  # if more cells are marked, they are drawn only while the hand rests
 MANY_CELLS = 2_000_000  # larger meshes show the cut through the cells near the valve only
 
 
@@ -105,7 +105,7 @@ class Scene:
         self._wall = wall if wall is not None or grid is None else boundary_of(grid)
         self._how, self._cells_shown = "cut", "partly"
         self._plane: Any = None
-        self._waiting = False  # whether marked cells wait for rest
+        self._waiting = False  # whether marked cells are drawn only once the hand rests
         self._shown: Any = None
         self._data: dict[str, Any] = {}
         self._actors: dict[str, Any] = {}

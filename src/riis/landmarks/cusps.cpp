@@ -15,7 +15,7 @@ namespace riis {
 namespace {
 
 constexpr std::size_t n_cusps = 3;
-// With the other landmarks, a warp then has at most its 1000 landmarks.
+// This limit leaves room for the other landmarks, as a warp has at most 1000 landmarks.
 constexpr std::size_t most_along_attachment = 900;
 // The cusps are in the order of leaflet ids, which is counter-clockwise about the valve's axis z.
 const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};

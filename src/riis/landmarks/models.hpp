@@ -19,8 +19,8 @@ struct KindOfLandmarks {
   std::unique_ptr<LandmarkModel> model;
   std::vector<Pose> starts;
   const char *size_name;  // the parameter that stands for the valve's size
-  // Sets parameters that are no lengths or do not grow with the valve's size. The lengths and the model's sizes have been set.
-  // `own` is the template valve. NULL: there is nothing to set.
+  // Sets parameters that are not lengths, and lengths that do not grow with the valve's size. The lengths and the model's sizes
+  // have been set. `own` is the template valve. NULL: there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve);
   // Refuses a fit that leaves something undetermined. NULL: no fit is refused.
   void (*check)(const LandmarkModel &fitted, const Landmarks &landmarks) = nullptr;

@@ -19,7 +19,7 @@
 namespace riis {
 namespace {
 
-// So many points are sorted together. They take 2 MB.
+// The number of points that are sorted together. They take 2 MB.
 constexpr std::int64_t points_per_batch = 1 << 16;
 
 constexpr std::int64_t points_per_block = 2048;

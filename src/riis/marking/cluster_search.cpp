@@ -51,7 +51,11 @@ class ClusterSearch {
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
     limit_within(limit_, task_);
-    reach_ = std::sqrt(task_.reach_sq) * (1 + 0x1p-20f);
+    of_packs_ = task_;
+    of_packs_.bounds = groups_.packs.data();
+    const auto n_groups = view(groups_.groups).size();
+    for (auto i = view(own_.all_groups).size(); i < n_groups; ++i)
+      own_.all_groups.push_back(static_cast<std::int32_t>(i));
     found.prepare(request.n_threads, request.ties);
     own_.prepare(request.n_threads);
   }
@@ -76,7 +80,7 @@ class ClusterSearch {
       }
       if (gap_sq <= task_.reach_sq) own_.near_regions.push_back(region);
     }
-    constexpr std::int64_t few = 64;  // searching so few regions takes a few tenths of a millisecond
+    constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
     const auto n_near = view(own_.near_regions).size();
     const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
       search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
@@ -92,7 +96,7 @@ class ClusterSearch {
         item.thread = static_cast<int>(thread);
         items.push_back(item);
       }
-    constexpr std::int64_t few = 128;  // searching so few clusters takes about half a millisecond
+    constexpr std::int64_t few = 128;  // searching this many clusters takes about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread);
@@ -103,13 +107,10 @@ class ClusterSearch {
   // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
   // limit (docs/theory.md, section 8).
   void search_every_cluster() {
-    const auto n_groups = view(groups_.groups).size();
-    for (auto i = view(own_.all_groups).size(); i < n_groups; ++i)
-      own_.all_groups.push_back(static_cast<std::int32_t>(i));
     const auto n = view(clusters_.clusters).size();
     // A thread compares a region anew if another thread had some of its clusters.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
-    constexpr std::int64_t few = 4;  // searching so few takes about half a millisecond
+    constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
     n_threads_ =
         parallel_for_ranges(n, per_block, request_.n_threads.for_part(n, few), [&](const Range &range, int thread) {
           for (std::int64_t cluster = range.begin; cluster < range.end; ++cluster)
@@ -132,17 +133,25 @@ class ClusterSearch {
     return {box.lower[axis] * task_.ratio + task_.shift[axis], box.upper[axis] * task_.ratio + task_.shift[axis]};
   }
 
-  void search_region(std::int64_t region, ClusterScratch::Thread &own) {
-    float centre[3], sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      const auto [from, to] = placed(view(clusters_.boxes)[region], i);
-      centre[i] = 0.5f * (from + to);
-      sum += (to - from) * (to - from);
+  // Appends the groups of all packs that have a bit.
+  void add_groups_of_packs(const std::vector<std::uint16_t> &bits, std::vector<std::int32_t> &to) const {
+    for (std::int64_t pack = 0; pack < view(groups_.packs).size(); ++pack) {
+      if (!view(bits)[pack]) continue;
+      const Range of_pack = groups_.groups_of(pack);
+      for (std::int64_t group = of_pack.begin; group < of_pack.end; ++group)
+        to.push_back(static_cast<std::int32_t>(group));
     }
+  }
+
+  void search_region(std::int64_t region, ClusterScratch::Thread &own) {
     ++own.n_queries;
     own.candidates.clear();
-    scene_.collect_groups(centre, 0.5f * std::sqrt(sum) + reach_, own.candidates);
-    if (own.candidates.empty()) return;
+    // A group's box is within its pack's box, also after rounding. So no group near a cluster is in a pack that is not.
+    own.bits.resize(groups_.packs.size());
+    if (!kernels_.near_boxes(of_packs_, view(clusters_.regions)[region], own_.all_groups.data(),
+                             static_cast<std::int32_t>(groups_.packs.size()), own.bits.data()))
+      return;
+    add_groups_of_packs(own.bits, own.candidates);
     own.bits.resize(own.candidates.size());
     if (!kernels_.near_boxes(task_, view(clusters_.regions)[region], own.candidates.data(),
                              static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
@@ -447,8 +456,7 @@ class ClusterSearch {
   const Kernels &kernels_;
   FoundNodes &found_;
   ClusterScratch &own_;
-  FilterTask task_;
-  float reach_;
+  FilterTask task_, of_packs_;
   int n_threads_ = 1;
 };
 

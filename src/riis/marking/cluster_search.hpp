@@ -58,7 +58,7 @@ struct ClusterScratch {
 // about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
-// Returns whether clusters pay off for the distances of so many nodes, if the limit leaves out few or none. For fewer nodes,
+// Returns whether clusters pay off for the distances of this many nodes, if the limit leaves out few or none. For fewer nodes,
 // comparing all groups with the first clusters takes longer than a query of each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 

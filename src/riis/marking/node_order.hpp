@@ -229,7 +229,7 @@ class NodeSorter {
 
   static std::int64_t n_units(const Part &part, std::int64_t unit) { return (part.size() + unit - 1) / unit; }
 
-  // The cuts of a part are between units of so many items, and make so many parts.
+  // A part is cut between units of `unit` items, into `n_parts` parts.
   struct Cutting {
     std::int64_t unit, n_parts;
   };

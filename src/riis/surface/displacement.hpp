@@ -59,8 +59,8 @@ class Through {
 };
 
 // Tells which points of a side are the same material in both states. Without a warp, points at equal shares of the length are. A
-// warp stretches curves unevenly. Then the point at a share now was at another share before. Besides, the curves differ a little
-// from the curves that the map takes the points along. `rest` makes up for the change of this difference.
+// warp stretches curves unevenly. Then the point at a share now was at another share before. A warped curve also differs a little
+// from the curve along which the map takes the points. `rest` makes up for the change of this difference.
 class SideMaterial {
  public:
   SideMaterial(const MovedPatch &moved, Side Patch::*side);

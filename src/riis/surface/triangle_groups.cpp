@@ -141,8 +141,8 @@ void TriangleGroups::enclose(int n_threads) {
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
   const SurfaceFrame surface_frame{{frame.centre.x, frame.centre.y, frame.centre.z}, frame.scale};
-  constexpr std::int64_t groups_per_block = 16;
-  parallel_for_ranges(view(end).size(), groups_per_block, n_threads, [&](const Range &range, int) {
+  resize(packs, (view(end).size() + groups_per_pack - 1) / groups_per_pack);
+  parallel_for_ranges(view(end).size(), groups_per_pack, n_threads, [&](const Range &range, int) {
     GroupCorners framed[groups_at_once];
     for (std::int64_t first = range.begin; first < range.end; first += groups_at_once) {
       const auto n = static_cast<std::int32_t>(std::min<std::int64_t>(groups_at_once, range.end - first));
@@ -163,7 +163,18 @@ void TriangleGroups::enclose(int n_threads) {
       }
       simd.make_groups(framed, n, &view(groups)[first], &view(bounds)[first]);
     }
+    enclose_pack(range);
   });
+}
+
+void TriangleGroups::enclose_pack(const Range &range) {
+  GroupBounds &pack = view(packs)[range.begin / groups_per_pack];
+  pack = view(bounds)[(range.begin + range.end) / 2];
+  for (std::int64_t group = range.begin; group < range.end; ++group)
+    for (int i = 0; i < 3; ++i) {
+      pack.lower[i] = std::min(pack.lower[i], view(bounds)[group].lower[i]);
+      pack.upper[i] = std::max(pack.upper[i], view(bounds)[group].upper[i]);
+    }
 }
 
 }  // namespace riis

@@ -3,11 +3,14 @@
 // In: a triangle set. Out: groups in the surface's frame, their bounds, and the unchanged corners of all triangles.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "common/array_view.hpp"
 #include "geometry/bounds.hpp"
 #include "kernels/kernels.hpp"
+#include "parallel/range.hpp"
 #include "surface/triangle_set.hpp"
 
 namespace riis {
@@ -42,11 +45,16 @@ inline float filter_tolerance(double error, double reach) { return static_cast<f
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
 
 struct TriangleGroups {
+  static constexpr std::int64_t groups_per_pack = 16;
+
   Frame frame;
   std::vector<double> corners;  // (3, 3, n_triangles), in the set's own coordinates
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
+  // Packs of groups_per_pack neighbouring groups in order, the last perhaps of fewer. Only their boxes along the coordinate axes
+  // and their corners are set, and a pack has the corner of one of its groups.
+  std::vector<GroupBounds> packs;
   float longest_edge = 0;
   // True if each group has the same triangles as before and the groups are not much larger. Then structures built over the
   // groups still fit.
@@ -57,8 +65,13 @@ struct TriangleGroups {
   // Replaces the groups by groups of the triangles whose corners were taken last. Reuses the groups' memory.
   void make(const TriangleSet &set, const Frame &surface_frame, int n_threads);
 
+  Range groups_of(std::int64_t pack) const {
+    return {pack * groups_per_pack, std::min((pack + 1) * groups_per_pack, view(groups).size())};
+  }
+
  private:
   void enclose(int n_threads);
+  void enclose_pack(const Range &range);
   double size() const;
 
   Grouping grouping_;

@@ -132,7 +132,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_by_place(memory, 0, static_cast<std::int32_t>(memory.n_triangles()), memory.grouping);
   }
-  finish(set, std::move(grids), memory);  // not with `patches`: curves that `set` shares are no rims
+  finish(set, std::move(grids), memory);  // takes `set`, not `patches`, because curves that `set` shares are not rims
   return memory;
 }
 

@@ -28,8 +28,8 @@ class MovedJoints {
     std::stable_sort(joints_.begin(), joints_.end(), [](const Joint &a, const Joint &b) { return a.from < b.from; });
   }
 
-  // Returns where a line between two others is now. The lines of an adapted grid were cut at a joint that is not too near an end,
-  // or else in the middle.
+  // Returns where the line between two others is in the other state. An adapted grid has such a line at a joint that is not too
+  // near an end, or else in the middle.
   double cut(double from, double to, double moved_from, double moved_to) const {
     for (const Joint &joint : joints_)
       if (joint.from > 0.875 * from + 0.125 * to && joint.from < 0.125 * from + 0.875 * to) return joint.to;

@@ -42,9 +42,9 @@ constexpr double least_rise = 0.05;
 // The rates of the control points are differences over this step of the opening. They only determine where vertices are dense.
 constexpr double rate_step = 1e-4;
 
-// The coaptation line is turned in so many steps until it is no crease. Each step computes the crease at the ends of so many
-// spans. The stiffness weighs the line's displacement against the crease. With these values the largest crease of random valves
-// is below one degree.
+// The coaptation line is turned in n_crease_steps steps until no crease is left. Each step computes the crease at the ends of
+// n_crease_spans spans. The stiffness weighs the line's displacement against the crease. With these values the largest crease of
+// random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;

@@ -77,9 +77,9 @@ struct Patch {
 // The points that two images have in common.
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
-// Two images that have points in common. Before both images are placed, these points are the same points of the patches. They are
-// images of one patch, or of two patches. The image `image` takes these points from the image `twin`, because turning both
-// separately would round differently.
+// Two images, of one patch or of two patches, that have points in common. Before both images are placed, these points are the
+// same points of the patches. The image `image` takes them from the image `twin`, because turning both images separately would
+// round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;

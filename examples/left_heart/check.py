@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Checks the beating left heart of ./run heart, and prints its numbers. The exit status is 1 if a check fails.
+
+    check.py keys                                  # prints the openings of `orifice` for OpenFOAM
+    check.py orifice CASE VALVE                    # prints area and leak of each opening, as a table
+    check.py beat CASE ZERO_D.csv MITRAL.csv AORTIC.csv    # checks whole beats
+    check.py ranks CASE CASE                       # compares runs on 1 and 2 ranks
+    check.py restart CASE CASE                     # compares a run with a run that was restarted
+"""
+import csv
+import pathlib
+import re
+import sys
+
+import numpy as np
+
+import zero_d
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "openfoam"))
+
+MMHG, ML, RHO, PERIOD = 133.322, 1e-6, 1060.0, 0.8
+# The openings at which the orifice is measured. Each is held for HOLD seconds.
+HELD, HOLD = (0.0, 0.1, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.5, 0.6, 0.8, 1.0), 0.03
+
+failures = []
+
+
+def demand(fine, words):
+    print(("" if fine else "FAILED: ") + words)
+    if not fine:
+        failures.append(words)
+
+
+def read_table(case, name):
+    """Returns the rows of a function object, over all restarts. Vectors and brackets are taken apart."""
+    folder = case / "postProcessing" / name
+    rows = {}
+    for start in sorted(folder.iterdir(), key=lambda path: float(path.name)):
+        (file,) = [path for path in start.iterdir() if path.suffix == ".dat" or path.name == "p"]
+        for line in file.read_text(encoding="ascii").splitlines():
+            if not line.startswith("#"):
+                numbers = [float(word) for word in re.sub("[()]", " ", line).split()]
+                rows[round(numbers[0], 9)] = numbers
+    return np.array([rows[time] for time in sorted(rows)])
+
+
+def read_valves(case):
+    """Returns the openings in the log: for each valve an array of time, opening and number of cells."""
+    found = {}
+    time = None
+    for line in (case / "log.pimpleFoam").read_text(encoding="ascii").splitlines():
+        if line.startswith("Time = "):
+            time = float(line.split()[-1])
+        match = re.match(r"riis (\w+): opening ([^,]+), (\d+) cells marked, integral of K (\S+)", line)
+        if match:
+            found.setdefault(match[1], {})[time] = (float(match[2]), int(match[3]), float(match[4].rstrip(",")))
+    return {name: np.array([(time, *row) for time, row in sorted(rows.items())]) for name, rows in found.items()}
+
+
+def volumes(case, times):
+    """Returns the volume of the mesh at the start, and at the times, in ml: from its outer faces, moved as beatMotion.C does."""
+    mesh = zero_d.Mesh(case)
+    text = (case / "constant" / "amplitude").read_text(encoding="ascii")
+    numbers = np.array(re.findall(r"(?<![a-z])[-+]?[0-9][-+.e0-9]*", text), float)
+    if len(numbers) == 1:  # `constant 0`
+        return mesh.volume(numbers[0]) / ML, np.full(len(times), mesh.volume(numbers[0]) / ML)
+    rows = numbers.reshape(-1, 2)
+    found = [mesh.volume(np.interp(time, rows[:, 0], rows[:, 1])) / ML for time in (0.0, *times)]
+    return found[0], np.array(found[1:])
+
+
+class Beat:
+    """Time series of a case, in s, ml, ml/s and mmHg. Inflow and outflow are forward if positive."""
+
+    def __init__(self, case):
+        inflow, outflow = read_table(case, "inflow"), read_table(case, "outflow")
+        pressures = read_table(case, "pressures")
+        self.time = inflow[:, 0]
+        self.mitral, self.aortic = -inflow[:, 1] / ML, outflow[:, 1] / ML
+        self.before, self.volume = volumes(case, self.time)
+        to_mmhg = RHO / MMHG
+        self.ventricle, self.below, self.atrium, self.aorta = (pressures[:, 1 + i] * to_mmhg for i in range(4))
+        valves = read_valves(case)
+        self.openings = {name: np.interp(self.time, rows[:, 0], rows[:, 1]) for name, rows in valves.items()}
+        log = (case / "log.pimpleFoam").read_text(encoding="ascii")
+        self.processor_seconds = float(re.findall(r"ExecutionTime = (\S+)", log)[-1])
+        self.courant = max(float(word) for word in re.findall(r"Courant Number mean: \S+ max: (\S+)", log))
+
+
+def keys():
+    """The valve takes the first tenth of each hold to move to the next opening."""
+    pairs = [pair for i, opening in enumerate(HELD) for pair in ((i + 0.1) * HOLD, opening, (i + 0.999) * HOLD, opening)]
+    print("period 0.8; keys (" + " ".join(f"({t:.6g} {o:g})" for t, o in zip(pairs[::2], pairs[1::2])) + ");")
+
+
+def orifice(case, valve):
+    """Prints opening, area and leak. The pressure between both sides of the valve drives the leak and the jet."""
+    beat = Beat(pathlib.Path(case))
+    flow, difference = ((beat.mitral, beat.atrium - beat.ventricle) if valve == "mitral" else
+                        (beat.aortic, beat.ventricle - beat.aorta))
+    ends = [np.argmin(np.abs(beat.time - (i + 1) * HOLD)) for i in range(len(HELD))]
+    flow, difference = flow[ends], difference[ends]
+    if not ((flow > 0).all() and (difference > 0).all()):
+        sys.exit(f"check.py: the {valve} valve has the flows {flow} ml/s at the differences {difference} mmHg")
+    leak = flow[0] / difference[0]
+    jet = flow - leak * difference
+    # Less than a tenth of the leak is no orifice.
+    area = np.where(jet > 0.1 * leak * difference, jet * ML * np.sqrt(RHO / (2 * difference * MMHG)), 0)
+    print("opening,area,leak,flow,difference")
+    for row in zip(HELD, area, flow, difference):
+        print(f"{row[0]:g},{row[1]:.6g},{leak:.8g},{row[2]:.6g},{row[3]:.6g}")
+
+
+def zero_d_at(path, times):
+    with open(path, encoding="ascii") as file:
+        rows = list(csv.DictReader(file))
+    phase = np.array([float(row["time"]) for row in rows])
+    order = np.argsort(phase)
+    return {name: np.interp(times % PERIOD, phase[order], np.array([float(row[name]) for row in rows])[order], period=PERIOD)
+            for name in rows[0] if name != "time"}
+
+
+def check_beat(case, model_file, mitral, aortic):
+    beat = Beat(pathlib.Path(case))
+    model = zero_d_at(model_file, beat.time)
+    orifices = {"mitral": zero_d.read_orifice(mitral), "aortic": zero_d.read_orifice(aortic)}
+    closed = {name: beat.openings[name] <= sealed for name, (_, _, _, sealed) in orifices.items()}
+    step = beat.time[1] - beat.time[0]
+    peak = max(beat.mitral.max(), beat.aortic.max())
+
+    balance = np.diff(beat.volume, prepend=beat.before) / step - (beat.mitral - beat.aortic)
+    demand(np.abs(balance).max() <= 1e-5 * peak,
+           f"balance: |dV/dt - (Qm - Qa)| is at most {np.abs(balance).max() / peak:.1e} of the peak flow (1e-5)")
+    n = round(PERIOD / step)
+    drift = np.abs(np.cumsum(balance) * step)[: n].max()
+    demand(drift <= 1e-4, f"balance: {drift:.1e} ml are lost or gained within a beat (1e-4)")
+    both = ~closed["mitral"] & ~closed["aortic"]
+    demand(not both.any(), f"both valves leave an orifice in {both.sum()} steps (0)")
+
+    for name, flow, difference in (("mitral", beat.mitral, beat.atrium - beat.ventricle),
+                                   ("aortic", beat.aortic, beat.ventricle - beat.aorta)):
+        leak = orifices[name][2]
+        # A leak is only known where the pressure difference is large, and where the valve has rested for 10 ms.
+        at_rest = (beat.openings[name] == 0) & (np.abs(difference) > 20)
+        for _ in range(round(0.01 / step)):
+            at_rest[1:] &= at_rest[:-1]
+        ratio = flow[at_rest] / difference[at_rest] / leak
+        demand(at_rest.any() and np.abs(ratio - 1).max() <= 0.1,
+               f"leak of the closed {name} valve: {ratio.min():.3f} to {ratio.max():.3f} of the calibrated {leak:.4f} ml/s/mmHg (0.1)")
+
+    moved = beat.time > 0.02  # the blood starts at rest
+    off = beat.ventricle - model["ventricle"]
+    isovolumetric = closed["mitral"] & closed["aortic"] & moved
+    demand(np.abs(off[isovolumetric]).max() <= 3,
+           f"isovolumetric pressure: within {np.abs(off[isovolumetric]).max():.2f} mmHg of the heart without space (3)")
+    demand(np.abs(off[moved]).max() <= 30,
+           f"pressure in the ventricle: within {np.abs(off[moved]).max():.1f} mmHg (30), root mean square {np.sqrt((off[moved]**2).mean()):.1f}")
+    print_numbers(beat, n)
+
+
+def print_numbers(beat, n):
+    """Prints the numbers of each whole beat, and demands that the last two agree."""
+    step = beat.time[1] - beat.time[0]
+    rows = []
+    for first in range(0, len(beat.time) - n + 1, n):
+        part = slice(first, first + n)
+        volume, pressure = beat.volume[part] - beat.volume.max(), beat.ventricle[part]
+        filling = beat.mitral[part]
+        rows.append({
+            "stroke volume, ml": volume.max() - volume.min(),
+            "largest pressure, mmHg": pressure.max(),
+            "aortic peak, ml/s": beat.aortic[part].max(),
+            "A wave, ml/s": filling[: n // 2].max(),  # the run begins between the E and the A wave
+            "E wave, ml/s": filling[n // 2:].max(),
+            "backflow mitral, ml": -filling[filling < 0].sum() * step,
+            "backflow aortic, ml": -beat.aortic[part][beat.aortic[part] < 0].sum() * step,
+            "stroke work, J": -np.sum(pressure * np.gradient(volume)) * MMHG * ML,
+        })
+    for name in rows[0]:
+        print(f"| {name} | " + " | ".join(f"{row[name]:.3g}" for row in rows) + " |")
+    print(f"largest Courant number {beat.courant:.1f}, processor time {beat.processor_seconds / len(rows) / 60:.1f} minutes a beat")
+    if len(rows) > 1:
+        worst = max(abs(rows[-1][name] - rows[-2][name]) / abs(rows[-2][name]) for name in
+                    ("stroke volume, ml", "largest pressure, mmHg", "aortic peak, ml/s", "E wave, ml/s", "stroke work, J"))
+        demand(worst <= 0.02, f"the last two beats differ by at most {worst:.4f} (0.02)")
+
+
+def check_ranks(one, two):
+    first, second = Beat(pathlib.Path(one)), Beat(pathlib.Path(two))
+    a, b = read_valves(pathlib.Path(one)), read_valves(pathlib.Path(two))
+    for name in a:
+        demand(np.array_equal(a[name][:, :3], b[name][:, :3]), f"{name}: openings and marked cells of {len(a[name])} lines are equal")
+        k = np.abs(a[name][:, 3] / b[name][:, 3] - 1).max()
+        demand(k <= 1e-5, f"{name}: integrals of K differ by {k:.1e}, by the digits of the log (1e-5)")
+    peak = max(np.abs(first.mitral).max(), np.abs(first.aortic).max())
+    off = max(np.abs(first.mitral - second.mitral).max(), np.abs(first.aortic - second.aortic).max()) / peak
+    demand(off <= 1e-4, f"flows differ by {off:.1e} of the largest (1e-4)")
+
+
+def check_restart(whole, restarted):
+    first, second = Beat(pathlib.Path(whole)), Beat(pathlib.Path(restarted))
+    same = np.isin(np.round(first.time, 9), np.round(second.time, 9))
+    peak = max(np.abs(first.mitral).max(), np.abs(first.aortic).max())
+    off = max(np.abs(first.mitral[same] - second.mitral).max(), np.abs(first.aortic[same] - second.aortic).max()) / peak
+    demand(same.any() and off <= 1e-4, f"restart: flows of {same.sum()} steps differ by {off:.1e} of the largest (1e-4)")
+    pressure = np.abs(first.ventricle[same] - second.ventricle).max()
+    demand(pressure <= 0.1, f"restart: pressures in the ventricle differ by {pressure:.1e} mmHg (0.1)")
+
+
+COMMANDS = {"keys": (keys, 0), "orifice": (orifice, 2), "beat": (check_beat, 4), "ranks": (check_ranks, 2), "restart": (check_restart, 2)}
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or sys.argv[1] not in COMMANDS or len(sys.argv) - 2 != COMMANDS[sys.argv[1]][1]:
+        sys.exit(__doc__)
+    COMMANDS[sys.argv[1]][0](*sys.argv[2:])
+    sys.exit(1 if failures else 0)

@@ -1,0 +1,84 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run heart --coupled: the valves open by the pressures of the flow, and the wall moves by its elastance. heart.sh
+# sources this file, and has made the mesh, the tables of both valves.
+
+heart_coupled() {
+  step "build the motion by elastance" heart_coupled_build
+  export LD_LIBRARY_PATH=$of_work/left_heart_coupled:$LD_LIBRARY_PATH
+  heart_python coupled/study.py "$of_work/left_heart_coupled/libvolumeSearch.so" | tee "$of_out/coupled_study.txt"
+  step "the files of the coupled heart" heart_coupled_case coupled
+  step "a beat of the coupled heart" of_run coupled 1
+  heart_python coupled/coupled.py check "$of_cases/coupled" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/coupled.txt"
+  step "prescribed volumes with valves that switch" heart_naive
+  heart_python coupled/coupled.py naive "$of_cases/naive" | tee "$of_out/coupled_naive.txt"
+  step "20 steps on 2 ranks, and a restart" heart_coupled_ranks
+  heart_python coupled/coupled.py ranks "$of_cases/coupled" "$of_cases/coupled-2" | tee "$of_out/coupled_ranks.txt"
+  heart_python coupled/coupled.py restart "$of_cases/coupled" "$of_cases/coupled-restart" | tee -a "$of_out/coupled_ranks.txt"
+  step "bad input, which must be refused" heart_coupled_refusals
+  cat "$of_out/coupled_refusals.txt"
+}
+
+heart_coupled_build() {
+  cmake -S "$heart_here/coupled" -B "$of_work/left_heart_coupled" -G Ninja -D CMAKE_BUILD_TYPE=Release \
+    -D OPENFOAM_SOURCE="$of_source/src" &&
+    cmake --build "$of_work/left_heart_coupled"
+}
+
+# heart_coupled_case NAME: the case with the files of the coupled heart over it.
+heart_coupled_case() {
+  heart_case "$1" && cp -r "$heart_here"/coupled/case/. "$of_cases/$1" &&
+    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness" &&
+    heart_python coupled/coupled.py tables "$of_cases/$1" "$of_out/mitral.csv" "$of_out/aortic.csv"
+}
+
+# heart_coupled_again NAME [TIME]: the files of the coupled run, with its state at this time.
+heart_coupled_again() {
+  local coupled=$of_cases/coupled
+  rm -rf "${of_cases:?}/$1"
+  mkdir "$of_cases/$1" && cp -r "$coupled"/{0,constant,system} ${2:+"$coupled/$2"} "$of_cases/$1"
+}
+
+# The coupled run at 0.04 s, with both valves closed, goes on with the volumes of the heart without space and the same valves.
+heart_naive() {
+  local naive=$of_cases/naive
+  heart_coupled_again naive 0.04 && cp "$heart_here/case/constant/dynamicMeshDict" "$naive/constant" &&
+    heart_python coupled/coupled.py naive_tables "$naive" "$of_cases/coupled" 0.04 &&
+    cp "$heart_here/case/system/fvSolution" "$naive/system" &&
+    foamDictionary "$naive/system/fvOptions" -entry wall -remove -disableFunctionEntries >/dev/null 2>&1 &&
+    sed -i '/elastanceTable/d; s/"libelastanceMotion.so"//' "$naive/system/controlDict" &&
+    of_set naive system/controlDict endTime 0.12 && of_run naive 1
+}
+
+# The coupled run at 0.08 s goes on for 20 steps, in which the aortic valve opens: on 2 ranks, and on one.
+heart_coupled_ranks() {
+  local name
+  for name in coupled-2 coupled-restart; do
+    heart_coupled_again "$name" 0.08 && of_set "$name" system/controlDict endTime 0.12 || return
+  done
+  of_run coupled-restart 1 &&
+    of_logged coupled-2 decomposePar "${of_with[@]}" decomposePar -copyUniform -case "$of_cases/coupled-2" &&
+    of_logged coupled-2 pimpleFoam timeout 3600 mpirun -n 2 "${of_with[@]}" pimpleFoam -case "$of_cases/coupled-2" -parallel
+}
+
+# heart_coupled_refused NAME WORDS FILE ENTRY VALUE: the coupled case with this entry must end with these words.
+heart_coupled_refused() {
+  local name=refused-${1// /_}
+  heart_coupled_again "$name" && of_set "$name" "$3" "$4" "$5" &&
+    ! pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 && tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' |
+    grep -qF -- "$2" || {
+    echo "$name: not refused with '$2'" >&2
+    return 1
+  }
+  printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/coupled_refusals.txt"
+}
+
+heart_coupled_refusals() {
+  local motion=constant/dynamicMeshDict
+  heart_coupled_refused "a negative jump" "jump is -1, and must be positive" "$motion" elastanceMotionCoeffs/jump -1 &&
+    heart_coupled_refused "slopes in the wrong order" "leastSlope is 1e+20, and must be below largestSlope" "$motion" \
+      elastanceMotionCoeffs/leastSlope 1e20 &&
+    heart_coupled_refused "a mesh that stands in the correctors" "moveMeshOuterCorrectors is no" system/fvSolution \
+      PIMPLE/moveMeshOuterCorrectors no &&
+    heart_coupled_refused "no pressure" "fvOptions has no option of type elastance" system/fvOptions wall/active no
+}

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draws the beating left heart of ./run heart.
+
+    draw.py CASE ZERO_D.csv OUT      # OUT/loop.png, OUT/heart.png, and with ffmpeg OUT/heart.mp4
+"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import matplotlib
+import matplotlib.collections
+import numpy as np
+
+import check
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+import foam_files as foam  # noqa: E402
+
+# Colours that are distinct for all kinds of colour vision (Okabe, Ito 2008), as in the pictures of riis.
+BLUE, ORANGE, RED, GREY = "#0072b2", "#e69f00", "#d55e00", "0.6"
+
+
+def loop(beat, model, path):
+    """Draws the pressure-volume loop, and pressures, flows and openings over time. Grey lines are the heart without space."""
+    figure, axes = plt.subplots(2, 2, figsize=(10, 7), layout="constrained")
+    stroke = axes[0, 0]
+    shift = model["volume"][0] - beat.volume[0]
+    stroke.plot(model["volume"], model["ventricle"], color=GREY, label="without space")
+    stroke.plot(beat.volume + shift, beat.ventricle, color=BLUE, label="in space")
+    stroke.set_xlabel("volume of the ventricle, ml")
+    stroke.set_ylabel("pressure, mmHg")
+    stroke.legend(frameon=False)
+    pressures, flows, openings = axes[0, 1], axes[1, 0], axes[1, 1]
+    for name, values, colour in (("ventricle", beat.ventricle, BLUE), ("aorta", beat.aorta, RED), ("atrium", beat.atrium, ORANGE)):
+        pressures.plot(beat.time, model[name], color=GREY, linewidth=0.8)
+        pressures.plot(beat.time, values, color=colour, label=name)
+    pressures.set_ylabel("pressure, mmHg")
+    for name, values, colour in (("mitral", beat.mitral, ORANGE), ("aortic", beat.aortic, RED)):
+        flows.plot(beat.time, model[f"{name}_flow"], color=GREY, linewidth=0.8)
+        flows.plot(beat.time, values, color=colour, label=f"{name} valve")
+        openings.plot(beat.time, beat.openings[name], color=colour, label=f"{name} valve")
+    flows.set_ylabel("flow, ml/s")
+    openings.set_ylabel("opening, 0 to 1")
+    for one in (pressures, flows, openings):
+        one.set_xlabel("time, s")
+        one.legend(frameon=False)
+    for one in axes.flat:
+        one.spines[["top", "right"]].set_visible(False)
+    figure.savefig(path, dpi=90)
+    plt.close(figure)
+
+
+def _cut(points, corners):
+    """Returns the segments in which triangles cut the plane x = 0, in mm."""
+    segments = []
+    for triangle in points[corners]:
+        ends = []
+        for k in range(3):
+            a, b = triangle[k], triangle[(k + 1) % 3]
+            if (a[0] > 0) != (b[0] > 0):
+                t = a[0] / (a[0] - b[0])
+                ends.append(1e3 * (a + t * (b - a))[1:])
+        if len(ends) == 2:
+            segments.append(ends)
+    return segments
+
+
+def slice_at(axes, case, time, largest):
+    """Draws the speed and the leaflets in the plane x = 0 at a written time."""
+    points, corners, vectors = foam.triangles(case / "postProcessing/slice" / time / "middle.vtk")
+    speed = np.linalg.norm(vectors, axis=1)
+    colours = axes.tripcolor(1e3 * points[:, 1], 1e3 * points[:, 2], corners, speed, shading="gouraud", vmin=0, vmax=largest,
+                             cmap="viridis")
+    some = np.random.default_rng(1).choice(len(points), min(300, len(points)), replace=False)
+    axes.quiver(1e3 * points[some, 1], 1e3 * points[some, 2], vectors[some, 1], vectors[some, 2], scale=15, color="white", width=4e-3)
+    for name in ("mitral", "aortic"):
+        leaflets = foam.triangles(case / "postProcessing" / name / time / "leaflets.vtk")
+        lines = _cut(*leaflets[:2])
+        axes.add_collection(matplotlib.collections.LineCollection(lines, colors="white", linewidths=3))
+        axes.add_collection(matplotlib.collections.LineCollection(lines, colors=RED, linewidths=1.5))
+    axes.set_aspect("equal")
+    axes.set_xlim(-32, 32)
+    axes.set_ylim(-76, 34)
+    axes.set_title(f"{float(time):.2f} s", fontsize=10)
+    return colours
+
+
+def written(case):
+    return sorted((folder.name for folder in (case / "postProcessing/slice").iterdir()), key=float)
+
+
+def at_openings(case, beat, times):
+    """Returns the written times at the middle of ejection, isovolumetric relaxation, the E wave and the A wave, in this order."""
+    last = beat.time > beat.time[-1] - check.PERIOD
+    time, aortic, mitral = beat.time[last], beat.aortic[last], beat.mitral[last]
+    ejection = time[np.argmax(aortic)]
+    e_wave = time[np.argmax(mitral * (time < ejection + 0.45))]
+    wanted = (ejection, (ejection + 3 * e_wave) / 4 - 0.03, e_wave, e_wave + 0.2)
+    return [min(times, key=lambda name: abs(float(name) - want)) for want in wanted]
+
+
+def pictures(case, beat, out):
+    times = written(case)
+    largest = 1.2
+    figure, axes = plt.subplots(1, 4, figsize=(12, 5.6), sharey=True, layout="constrained")
+    for one, time in zip(axes, at_openings(case, beat, times)):
+        colours = slice_at(one, case, time, largest)
+        one.set_xlabel("y, mm")
+    axes[0].set_ylabel("z, mm")
+    figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.8, extend="max")
+    figure.suptitle("Speed in the plane x = 0; orange: the leaflets there")
+    figure.savefig(out / "heart.png", dpi=90)
+    plt.close(figure)
+    if not shutil.which("ffmpeg"):
+        print("draw.py: there is no ffmpeg, so there is no movie")
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        for i, time in enumerate(times):
+            figure, axes = plt.subplots(figsize=(4.4, 6.4), layout="constrained")
+            figure.colorbar(slice_at(axes, case, time, largest), ax=axes, label="speed, m/s", shrink=0.8, extend="max")
+            figure.savefig(f"{folder}/{i:04}.png", dpi=100)
+            plt.close(figure)
+        subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "20", "-i", f"{folder}/%04d.png", "-pix_fmt", "yuv420p",
+                        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", str(out / "heart.mp4")], check=True)
+
+
+def main(case, model_file, out):
+    case, out = pathlib.Path(case), pathlib.Path(out)
+    beat = check.Beat(case)
+    loop(beat, check.zero_d_at(model_file, beat.time), out / "loop.png")
+    pictures(case, beat, out)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 4:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

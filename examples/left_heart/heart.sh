@@ -1,0 +1,166 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The steps of ./run heart: a beating left heart in OpenFOAM, with a mitral and an aortic valve. `run` sources this file after
+# examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
+
+heart_here=examples/left_heart
+# shellcheck source=examples/left_heart/coupled/coupled.sh
+. "$heart_here/coupled/coupled.sh"
+
+# heart [--short | --coupled [--short]]
+heart() {
+  local python
+  heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only=
+  case $* in
+    '') ;;
+    --short) heart_fine=2.8 heart_coarse=6 heart_half_thickness=2e-3 heart_beats=1 ;;
+    --coupled) heart_only=coupled ;;
+    '--coupled --short') heart_only=coupled heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 ;;
+    *)
+      echo "./run heart: '$*' is not an option" >&2
+      exit 2
+      ;;
+  esac
+  openfoam_has_package || return 0
+  packages=("${openfoam_packages[@]}" ffmpeg)
+  install_missing
+  of_work=$PWD/$build/openfoam
+  mkdir -p "$of_work"
+  openfoam_has_source || return 0
+  step "build the library and the plug-in" openfoam_build
+  step "build the motion of the wall" heart_build
+  openfoam_environment
+  export LD_LIBRARY_PATH=$of_work/left_heart:$LD_LIBRARY_PATH
+  of_with=()
+  python=$(python_of_packages)
+  heart_python() { "$python" -B "$heart_here/$1" "${@:2}"; }
+  of_cases=$of_work/left_heart_cases of_out=$PWD/out/heart
+  rm -rf "$of_cases" "$of_out"
+  mkdir -p "$of_cases" "$of_out"
+
+  step "mesh the heart" heart_mesh
+  step "measure what the mitral valve leaves to the flow at each opening" heart_orifice mitral
+  step "measure what the aortic valve leaves to the flow at each opening" heart_orifice aortic
+  if [[ $heart_only ]]; then
+    heart_coupled
+    say "wrote out/heart, and the beat in $of_cases/coupled"
+    return
+  fi
+  step "a heart without space" heart_zero_d
+  cat "$of_out/zero_d.txt"
+  step "$heart_beats beats of the heart" of_run beat 1
+  heart_python check.py beat "$of_cases/beat" "$of_out/zero_d.csv" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/beat.txt"
+  step "40 steps on 1 and 2 ranks, and a restart" heart_ranks
+  heart_python check.py ranks "$of_cases/ranks-1" "$of_cases/ranks-2" | tee "$of_out/ranks.txt"
+  heart_python check.py restart "$of_cases/ranks-1" "$of_cases/restart" | tee "$of_out/restart.txt"
+  step "bad input, which must be refused" heart_refusals
+  cat "$of_out/refusals.txt"
+  step "draw" heart_python draw.py "$of_cases/beat" "$of_out/zero_d.csv" "$of_out"
+  say "wrote out/heart, and the beat in $of_cases/beat"
+}
+
+heart_build() {
+  cmake -S "$heart_here/prescribed" -B "$of_work/left_heart" -G Ninja -D CMAKE_BUILD_TYPE=Release \
+    -D OPENFOAM_SOURCE="$of_source/src" &&
+    cmake --build "$of_work/left_heart"
+}
+
+# heart_mesh: makes the mesh in the folder mesh of the cases.
+heart_mesh() {
+  local folder=$of_cases/mesh
+  cp -r "$heart_here/case" "$folder" &&
+    gmsh -3 -nt 1 -setnumber fine "$heart_fine" -setnumber coarse "$heart_coarse" -format msh22 -o "$folder/heart.msh" \
+      "$heart_here/heart.geo" &&
+    heart_held mesh 0 0 &&
+    sed -i 's/writeFormat binary/writeFormat ascii/' "$folder/system/controlDict" &&
+    gmshToFoam -case "$folder" "$folder/heart.msh" &&
+    sed -i '/^ *wall$/,/}/s/patch;/wall;/' "$folder/constant/polyMesh/boundary" &&
+    checkMesh -case "$folder" -constant | tee "$folder/checkMesh.log" &&
+    grep -q '^Mesh OK' "$folder/checkMesh.log"
+}
+
+# heart_case NAME: copies the case and its mesh to $of_cases/NAME.
+heart_case() {
+  rm -rf "${of_cases:?}/$1"
+  cp -r "$heart_here/case" "$of_cases/$1" &&
+    cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
+    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness"
+}
+
+# heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
+heart_held() {
+  local constant=$of_cases/$1/constant valve
+  echo 'amplitude constant 0;' >"$constant/amplitude"
+  awk -v p="$2" 'BEGIN { printf "p0 constant %.10g;\n", p * 133.322 / 1060 }' >"$constant/inletPressure"
+  awk -v p="$3" 'BEGIN { printf "p0 constant %.10g;\n", p * 133.322 / 1060 }' >"$constant/outletPressure"
+  for valve in mitral aortic; do echo 'period 0.8; keys ((0 0) (0.4 0));' >"$constant/${valve}Keys"; done
+}
+
+# heart_orifice VALVE: the heart stands still between 12 and 0 mmHg, with the other valve open. The valve takes one opening after
+# the other. The flow and the pressures give the area that each opening leaves, and the leak of the closed valve.
+heart_orifice() {
+  local name=orifice-$1 other=mitral
+  [[ $1 == aortic ]] || other=aortic
+  heart_case "$name" && heart_held "$name" 12 0 &&
+    heart_python check.py keys >"$of_cases/$name/constant/$1Keys" &&
+    echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
+    of_set "$name" system/controlDict endTime 0.45 writeInterval 0.45 &&
+    of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" >"$of_out/$1.csv"
+}
+
+heart_zero_d() {
+  heart_case beat &&
+    heart_python zero_d.py "$of_cases/beat" "$of_out/mitral.csv" "$of_out/aortic.csv" \
+      --beats "$heart_beats" --out "$of_out/zero_d.csv" >"$of_out/zero_d.txt" &&
+    of_set beat system/controlDict endTime "$(awk -v n="$heart_beats" 'BEGIN { print 0.8 * n }')"
+}
+
+# 40 steps from the start, with both valves closed at their end. The restart begins after 20 of them.
+heart_ranks() {
+  local name
+  for name in ranks-1 ranks-2 restart; do
+    rm -rf "${of_cases:?}/$name"
+    cp -r "$of_cases/beat" "$of_cases/$name" &&
+      rm -rf "$of_cases/$name"/0.* "$of_cases/$name"/[1-9]* "$of_cases/$name"/postProcessing "$of_cases/$name"/log.* &&
+      of_set "$name" system/controlDict endTime 0.08 || return
+  done
+  of_run ranks-1 1 && of_run ranks-2 2 &&
+    cp -r "$of_cases/ranks-1/0.04" "$of_cases/restart" && of_run restart 1
+}
+
+# heart_refused NAME WORDS FILE ENTRY VALUE: the case with this entry must end with these words.
+heart_refused() {
+  local name=refused-$1
+  heart_case "$name" && heart_held "$name" 10 0 && of_set "$name" "$3" "$4" "$5" &&
+    ! pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 && tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' |
+    grep -qF -- "$2" || {
+    echo "$name: not refused with '$2'" >&2
+    return 1
+  }
+  printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/refusals.txt"
+}
+
+# heart_zero_d_refuses NAME WORDS MITRAL.csv AORTIC.csv
+heart_zero_d_refuses() {
+  local name=$1 words=$2 message
+  ! message=$(heart_python zero_d.py "$of_cases/beat" "$3" "$4" 2>&1) && [[ $message == *"$words"* ]] || {
+    echo "$name: not refused with '$words': $message" >&2
+    return 1
+  }
+  printf '| %s | `%s` |\n' "$name" "$words" >>"$of_out/refusals.txt"
+}
+
+heart_refusals() {
+  local motion=constant/dynamicMeshDict
+  heart_refused "no length" "length is 0 and ramp is 0.35, and both must be positive" "$motion" beatMotionCoeffs/length 0 &&
+    heart_refused "no amplitude" "amplitude" "$motion" beatMotionCoeffs/amplitude none &&
+    heart_refused "an unknown law" "law is 'tabel', and must be" system/fvOptions mitral/opening '{ law tabel; }' &&
+    heart_refused "a valve outside the heart" "no cell centre lies within the half thickness" system/fvOptions \
+      aortic/placement '{ scale 0.008; translation (0 0 1); }' &&
+    heart_zero_d_refuses "no table of openings" "has no column opening" "$of_out/zero_d.csv" "$of_out/aortic.csv" &&
+    sed 's/,[^,]*$/,x/; 2,$s/^\([^,]*,[^,]*\),[^,]*/\1,0/' "$of_out/mitral.csv" >"$of_out/no_leak.csv" &&
+    heart_zero_d_refuses "a leak of 0" "the leak is 0, and must be positive" "$of_out/no_leak.csv" "$of_out/aortic.csv" &&
+    sed '$d' "$of_out/mitral.csv" >"$of_out/short.csv" &&
+    heart_zero_d_refuses "no row for the open valve" "openings must ascend from 0 to 1" "$of_out/short.csv" "$of_out/aortic.csv" &&
+    rm "$of_out/no_leak.csv" "$of_out/short.csv"
+}

@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A left heart without space: it writes the wall's motion, both end pressures and the openings for the flow in space.
+
+    python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
+
+The ventricle has the elastance E(t), so p = E (V - V0). An atrium, which the pulmonary veins fill, lies before it, and a windkessel
+behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow, both as measured in the
+mesh (check.py orifice). So the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would cost
+hundreds of mmHg there, because blood is incompressible.
+
+The model runs until its beats repeat. The case's tables begin between the E and the A wave, because
+no phase between closed valves can start from blood at rest.
+"""
+import argparse
+import csv
+import math
+import pathlib
+import sys
+
+import numpy as np
+
+MMHG, ML, RHO = 133.322, 1e-6, 1060.0       # Pa, m3, kg/m3
+PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
+SYSTOLE, RELAXATION, STEEP = 0.32, 0.13, 0.75  # s, s, -: of the ventricle's activation
+KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
+E_MIN, E_MAX, V_0 = 0.055, 2.3, 6.0         # mmHg/ml, ml
+ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, ml
+VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
+PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
+MOVE = {"mitral": 0.06, "aortic": 0.04}     # s, to open and to close
+# A valve begins to close when its flow falls below CLOSE_BELOW. Closing at full backflow would stop blood abruptly.
+OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, 60.0, 0.06  # mmHg, ml/s, s
+INERTANCE = {"mitral": 5e-4, "aortic": 9e-4}      # mmHg s2/ml, of the tube and the blood before it
+
+
+def elastance(t):
+    """mmHg/ml"""
+    t %= PERIOD
+    if t < SYSTOLE:
+        active = (1 - math.cos(math.pi * (t / SYSTOLE) ** STEEP)) / 2
+    elif t < SYSTOLE + RELAXATION:
+        active = (1 + math.cos(math.pi * (t - SYSTOLE) / RELAXATION)) / 2
+    else:
+        active = 0
+    return E_MIN + (E_MAX - E_MIN) * active
+
+
+def atrial_elastance(t):
+    phase = (t - KICK_START) % PERIOD / KICK
+    return ATRIUM_MIN + (ATRIUM_KICK * math.sin(math.pi * phase) ** 2 if phase < 1 else 0)
+
+
+class Valve:
+    """Flow L dQ/dt = dp - Q |Q| rho / (2 A^2) beside the leak, with the effective area A of the opening."""
+
+    def __init__(self, name, orifice):
+        self.name = name
+        self.openings, self.areas, self.leak, self.sealed = orifice
+        self.flow, self.before, self.progress, self.opens, self.turned = 0.0, 0.0, 0.0, False, -1.0
+
+    def opening(self):
+        return self.progress**2 * (3 - 2 * self.progress)
+
+    def step(self, t, difference):
+        falls = self.flow < min(CLOSE_BELOW, self.before)
+        self.before = self.flow
+        if t - self.turned > DWELL and (falls if self.opens else difference > OPEN_ABOVE):
+            self.opens, self.turned = not self.opens, t
+        change = STEP / MOVE[self.name]
+        self.progress = min(1.0, max(0.0, self.progress + (change if self.opens else -change)))
+        area = np.interp(self.opening(), self.openings, self.areas)
+        conductance = self.leak
+        if area > 0:
+            loss = 0.5 * RHO * (ML / area) ** 2 / MMHG  # mmHg s2/ml2
+            conductance += 1 / (loss * max(abs(self.flow), 2.0))
+        inertance = INERTANCE[self.name]
+        self.flow = (self.flow + STEP / inertance * difference) / (1 + STEP / (inertance * conductance))
+
+
+REPEATS = 2e-3  # ml
+COLUMNS = ("time", "volume", "ventricle", "atrium", "aorta", "mitral_opening", "aortic_opening", "mitral_flow", "aortic_flow")
+
+
+def beats(valves, most=40):
+    """Returns one beat, row by row in COLUMNS, once the volume repeats to REPEATS."""
+    mitral, aortic = valves
+    volume, stored, atrium, before = 120.0, 85.0, 60.0, 0.0
+    n = round(PERIOD / STEP)
+    for _ in range(most):
+        rows = np.empty((n, len(COLUMNS)))
+        for k in range(n):
+            t = k * STEP
+            p, p_atrium = elastance(t) * (volume - V_0), atrial_elastance(t) * (atrium - ATRIUM_V_0)
+            p_aorta = stored + PROXIMAL * aortic.flow
+            mitral.step(t, p_atrium - p)
+            aortic.step(t, p - p_aorta)
+            rows[k] = (t, volume, p, p_atrium, p_aorta, mitral.opening(), aortic.opening(), mitral.flow, aortic.flow)
+            volume += STEP * (mitral.flow - aortic.flow)
+            atrium += STEP * ((VEIN_PRESSURE - p_atrium) / VEIN_RESISTANCE - mitral.flow)
+            stored += STEP * (aortic.flow - stored / DISTAL) / COMPLIANCE
+        for valve in valves:
+            valve.turned -= PERIOD
+        change, before = volume - before, volume
+        if abs(change) < REPEATS:
+            # A jump of the volume at the end of the beat would be a flow into a closed chamber, so the rest is spread over the beat.
+            rows[:, 1] -= change * rows[:, 0] / PERIOD
+            return rows
+    sys.exit(f"zero_d.py: the volume still changes by {change:g} ml after {most} beats")
+
+
+def start_of(rows):
+    """Returns the row between the E and the A wave at which the flow is least."""
+    between = np.flatnonzero((rows[:, 0] > SYSTOLE + RELAXATION + 0.1) & (rows[:, 0] < KICK_START + KICK / 2))
+    return between[np.argmin(rows[between, 7])]
+
+
+def report(rows, valves, out=sys.stdout):
+    col = {name: rows[:, i] for i, name in enumerate(COLUMNS)}
+    e_wave = col["mitral_flow"][(col["time"] > SYSTOLE) & (col["time"] < KICK_START)].max()
+    a_wave = col["mitral_flow"][col["time"] > KICK_START].max()
+    both = (col["mitral_opening"] > valves[0].sealed) & (col["aortic_opening"] > valves[1].sealed)
+    stroke = col["volume"].max() - col["volume"].min()
+    print(f"0D: {col['volume'].max():.1f} to {col['volume'].min():.1f} ml, ejection fraction {stroke / col['volume'].max():.2f}, "
+          f"ventricle {col['ventricle'].min():.1f} to {col['ventricle'].max():.1f} mmHg, "
+          f"aorta {col['aorta'].min():.1f} to {col['aorta'].max():.1f}, atrium {col['atrium'].min():.1f} to {col['atrium'].max():.1f}",
+          file=out)
+    print(f"0D: E {e_wave:.0f} ml/s, A {a_wave:.0f}, E/A {e_wave / a_wave:.2f}, aortic peak {col['aortic_flow'].max():.0f}; "
+          f"both valves leave an orifice for {both.sum() * STEP * 1e3:.1f} ms", file=out)
+
+
+# ---- The tables of the case ----
+
+
+def ascii_list(path, scalars):
+    """Returns the numbers of an ascii file of OpenFOAM: points, or faces with their numbers of points."""
+    text = path.read_text(encoding="ascii")
+    body = text[text.index("(", text.index("// * *")) + 1 : text.rindex(")")]
+    return np.array(body.replace("(", " ").replace(")", " ").split(), float if scalars else int)
+
+
+class Mesh:
+    """The outer faces of the case's mesh, to find its volume at any amplitude of the motion."""
+
+    def __init__(self, case):
+        folder = case / "constant" / "polyMesh"
+        self.points = ascii_list(folder / "points", True).reshape(-1, 3)
+        faces = ascii_list(folder / "faces", False)
+        if faces[0] != 3:
+            sys.exit(f"zero_d.py: {folder} is not a mesh of tetrahedra")
+        faces = faces.reshape(-1, 4)[:, 1:]
+        neighbours = ascii_list(folder / "neighbour", False)
+        self.outer = faces[len(neighbours):]
+        text = (case / "constant" / "dynamicMeshDict").read_text(encoding="ascii")
+        words = text.replace(";", " ").split()
+        self.length, self.ramp, self.radial, self.axial = (float(words[words.index(key) + 1])
+                                                           for key in ("length", "ramp", "radial", "axial"))
+
+    def moved(self, amplitude):
+        """Does what beatMotion.C does."""
+        x = self.points.copy()
+        below = x[:, 2] < 0
+        depth = np.minimum(1, -x[below, 2] / (self.length * self.ramp))
+        grip = depth**2 * (3 - 2 * depth)
+        x[below, :2] *= (1 - amplitude * self.radial * grip)[:, None]
+        x[below, 2] *= 1 - amplitude * self.axial * grip
+        return x
+
+    def volume(self, amplitude):
+        a, b, c = (self.moved(amplitude)[self.outer[:, i]] for i in range(3))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6
+
+
+def amplitude_of(mesh, change):
+    """Returns the amplitudes at which the mesh's volume differs from that at rest by the changes, in m3."""
+    amplitudes = np.linspace(-0.6, 1.3, 60)
+    changes = np.array([mesh.volume(a) for a in amplitudes]) - mesh.volume(0)
+    if changes[0] < change.max() or changes[-1] > change.min():
+        sys.exit(f"zero_d.py: the motion spans {changes[-1] / ML:.1f} to {changes[0] / ML:.1f} ml, and the heart needs "
+                 f"{change.min() / ML:.1f} to {change.max() / ML:.1f} ml")
+    # The volume is a cubic polynomial of the amplitude, so the fit is exact.
+    cubic = np.polynomial.Polynomial.fit(amplitudes, changes, 3)
+    slope = cubic.deriv()
+    found = np.interp(change, changes[::-1], amplitudes[::-1])
+    for _ in range(5):
+        found -= (cubic(found) - change) / slope(found)
+    return found
+
+
+def table(times, values):
+    return "\n(\n" + "\n".join(f"({t:.6g} {v:.15g})" for t, v in zip(times, values)) + "\n)"
+
+
+def write_tables(case, rows, n_beats):
+    """Writes constant/amplitude, constant/inletPressure, constant/outletPressure, and constant/mitralKeys and aorticKeys."""
+    start = rows[start_of(rows), 0]
+    times = np.arange(round(n_beats * PERIOD / 1e-3) + 1) * 1e-3
+    keys = np.arange(round(PERIOD / 1e-3)) * 1e-3
+
+    def at(name, t):
+        i = COLUMNS.index(name)
+        return np.interp((t + start) % PERIOD, np.append(rows[:, 0], PERIOD), np.append(rows[:, i], rows[0, i]))
+
+    change = (at("volume", times) - at("volume", np.zeros(1))) * ML
+    constant = case / "constant"
+    # OpenFOAM takes dV/dt as the mean over a step, and the opening of the step's end. So openings lag by half a step.
+    lagged = keys - STEP_IN_SPACE / 2
+    (constant / "amplitude").write_text("amplitude table" + table(times, amplitude_of(Mesh(case), change)) + ";\n", encoding="ascii")
+    for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
+        (constant / file).write_text("p0 table" + table(times, at(name, times) * MMHG / RHO) + ";\n", encoding="ascii")
+    for name in ("mitral", "aortic"):
+        (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys" + table(keys, at(f"{name}_opening", lagged)) + ";\n",
+                                              encoding="ascii")
+    return start
+
+
+def read_orifice(path):
+    """Returns openings, areas in m2, the leak in ml/s/mmHg, and the largest opening without an area."""
+    with open(path, encoding="ascii") as file:
+        rows = list(csv.DictReader(file))
+    for column in ("opening", "area", "leak"):
+        if not rows or column not in rows[0]:
+            sys.exit(f"zero_d.py: {path} has no column {column}; make it by check.py orifice")
+    openings, areas = (np.array([float(row[column]) for row in rows]) for column in ("opening", "area"))
+    leak = float(rows[0]["leak"])
+    if not (leak > 0 and math.isfinite(leak)):
+        sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
+    if not (np.isfinite(areas).all() and areas[0] == 0 and areas[-1] > 0 and openings[0] == 0 and openings[-1] == 1 and (np.diff(openings) > 0).all()):
+        sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
+    return openings, areas, leak, openings[np.flatnonzero(areas > 0)[0] - 1]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("case", type=pathlib.Path)
+    parser.add_argument("mitral")
+    parser.add_argument("aortic")
+    parser.add_argument("--beats", type=int, default=1, choices=range(1, 10))
+    parser.add_argument("--out", default="zero_d.csv")
+    options = parser.parse_args()
+    valves = Valve("mitral", read_orifice(options.mitral)), Valve("aortic", read_orifice(options.aortic))
+    rows = beats(valves)
+    report(rows, valves)
+    start = write_tables(options.case, rows, options.beats)
+    shifted = np.roll(rows, -start_of(rows), axis=0)[::10]
+    shifted[:, 0] = (shifted[:, 0] - start) % PERIOD
+    np.savetxt(options.out, shifted, delimiter=",", header=",".join(COLUMNS), comments="", fmt="%.10g")
+
+
+if __name__ == "__main__":
+    main()
