@@ -8,7 +8,7 @@ import sys
 import numpy
 
 EQUAL = 1e-6  # runs on several ranks, and a restarted run, agree to this share of the largest value
-DENSITY = 1060  # of the blood, kg/m3
+DENSITY, LENGTH = 1060, 0.06  # of the blood, kg/m3, and of the duct of beat.prm, m
 # The leak over drop eps / R times the leaflets' area. It is below 1, because the walls cut off a part of the leaflets, and bands
 # of leaflets that touch overlap.
 LEAK = (0.5, 1.1)
@@ -109,14 +109,17 @@ def beat(folder, half_thickness, resistance):
     balance, leak = numpy.abs(steps["inflow"] - flow).max() / largest, numpy.abs(flow[shut]).max() / largest
     most = shut[numpy.abs(drop[shut]).argmax()]
     share = flow[most] / (drop * float(half_thickness) / float(resistance) * steps["leaflet_area"])[most]
-    bernoulli = (2 * numpy.abs(drop).max() / DENSITY) ** 0.5
+    # The leaflets stop the column of blood in the duct, which adds its inertia to the drop at the valve.
+    hammer = DENSITY * LENGTH * numpy.abs(numpy.gradient(flow, steps["time"]) / steps["area"])
+    bernoulli = (2 * (numpy.abs(drop) + hammer).max() / DENSITY) ** 0.5
     print("The trileaflet valve beats:")
     for i in range(0, len(opening), 2):
         print(f"  {steps['time'][i]:.3f} s: opening {opening[i]:.3f}, drop {drop[i]:8.2f} Pa, flow {1e6 * flow[i]:8.3f} ml/s,"
               f" at most {speed[i]:.3f} m/s, {int(steps['cells'][i])} cells, {int(steps['iterations'][i])} iterations")
     print(f"  flow {1e6 * flow.min():.2f} to {1e6 * flow.max():.2f} ml/s; inflow and outflow differ by {balance:.1e}"
           f" of the largest; the closed valve passes {100 * leak:.2f} %, which is {share:.3f} of drop eps / R times its area")
-    print(f"  speeds up to {speed.max():.3f} m/s; sqrt(2 drop / rho) is {bernoulli:.3f} m/s for the largest drop")
+    print(f"  speeds up to {speed.max():.3f} m/s; sqrt(2 drop / rho) is at most {bernoulli:.3f} m/s, with the"
+          " inertia of the blood in the duct as a part of the drop")
     print(f"  eps/h {steps['eps_h'].min():.2f} to {steps['eps_h'].max():.2f}, {int(steps['cells'].min())} to"
           f" {int(steps['cells'].max())} cells, {int(steps['unknowns'].min())} to {int(steps['unknowns'].max())} unknowns,"
           f" {int(steps['iterations'].min())} to {int(steps['iterations'].max())} iterations")

@@ -110,7 +110,7 @@ class Checks(unittest.TestCase):
                                            (6, "outflow", -0.2, "passes less than 2 %"),
                                            (5, "outflow", -0.0004, "of what R lets through, not 0.4"),
                                            (5, "outflow", -0.0012, "of what R lets through, not 1.2"),
-                                           (2, "largest_speed", 0.09, "no speed exceeds 0.09 m/s"),
+                                           (2, "largest_speed", 9, "no speed exceeds"),
                                            (6, "opening", 0.5, "closes again"), (0, "opening", 1, "the valve opens")):
             kept = dict(self.steps[step])
             self.steps[step][column] = value
