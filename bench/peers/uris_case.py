@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes a case of svMultiPhysics for ./run uris solver, and reads its drop.
 
-    uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # BLOCK.xml is in FOLDER's parent, and its paths are relative to there
+    uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # BLOCK.xml is in FOLDER's parent, and its paths are relative to
+    there
     uris_case.py drop FOLDER                                 # prints the drop over (R/eps) u
 
 The duct is that of duct_of_edge. Blood enters at the top and flows down, so the valve stays closed. Units are CGS.
@@ -64,7 +65,8 @@ def write_vtk(path, places, node_ids, cells, element_ids, cell_type=None):
         f'<PointData>\n{array("Int32", "GlobalNodeID", node_ids)}</PointData>\n'
         f'<CellData>\n{array("Int32", "GlobalElementID", element_ids)}</CellData>\n'
         f'<Points>\n{array("Float64", "Points", (x for place in places for x in place), 3)}</Points>\n'
-        f'<{part}>\n{array("Int64", "connectivity", (node for cell in cells for node in cell))}{array("Int64", "offsets", ends(cells))}'
+        f'<{part}>\n{array("Int64", "connectivity", (node for cell in cells for node in cell))}'
+        f'{array("Int64", "offsets", ends(cells))}'
         + (array("UInt8", "types", [cell_type] * len(cells)) if cell_type else "")
         + f"</{part}>\n</Piece>\n</{kind}>\n</VTKFile>\n",
         encoding="ascii",

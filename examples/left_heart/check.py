@@ -146,7 +146,8 @@ def check_beat(case, model_file, mitral, aortic):
             at_rest[1:] &= at_rest[:-1]
         ratio = flow[at_rest] / difference[at_rest] / leak
         demand(at_rest.any() and np.abs(ratio - 1).max() <= 0.1,
-               f"leak of the closed {name} valve: {ratio.min():.3f} to {ratio.max():.3f} of the calibrated {leak:.4f} ml/s/mmHg (0.1)")
+               f"leak of the closed {name} valve: {ratio.min():.3f} to {ratio.max():.3f}"
+               f" of the calibrated {leak:.4f} ml/s/mmHg (0.1)")
 
     moved = beat.time > 0.02  # the blood starts at rest
     off = beat.ventricle - model["ventricle"]
@@ -154,7 +155,8 @@ def check_beat(case, model_file, mitral, aortic):
     demand(np.abs(off[isovolumetric]).max() <= 3,
            f"isovolumetric pressure: within {np.abs(off[isovolumetric]).max():.2f} mmHg of the heart without space (3)")
     demand(np.abs(off[moved]).max() <= 30,
-           f"pressure in the ventricle: within {np.abs(off[moved]).max():.1f} mmHg (30), root mean square {np.sqrt((off[moved]**2).mean()):.1f}")
+           f"pressure in the ventricle: within {np.abs(off[moved]).max():.1f}"
+           f" mmHg (30), root mean square {np.sqrt((off[moved]**2).mean()):.1f}")
     print_numbers(beat, n)
 
 
@@ -178,7 +180,8 @@ def print_numbers(beat, n):
         })
     for name in rows[0]:
         print(f"| {name} | " + " | ".join(f"{row[name]:.3g}" for row in rows) + " |")
-    print(f"largest Courant number {beat.courant:.1f}, processor time {beat.processor_seconds / len(rows) / 60:.1f} minutes a beat")
+    print(f"largest Courant number {beat.courant:.1f}, "
+          f"processor time {beat.processor_seconds / len(rows) / 60:.1f} minutes a beat")
     if len(rows) > 1:
         worst = max(abs(rows[-1][name] - rows[-2][name]) / abs(rows[-2][name]) for name in
                     ("stroke volume, ml", "largest pressure, mmHg", "aortic peak, ml/s", "E wave, ml/s", "stroke work, J"))
@@ -189,7 +192,8 @@ def check_ranks(one, two):
     first, second = Beat(pathlib.Path(one)), Beat(pathlib.Path(two))
     a, b = read_valves(pathlib.Path(one)), read_valves(pathlib.Path(two))
     for name in a:
-        demand(np.array_equal(a[name][:, :3], b[name][:, :3]), f"{name}: openings and marked cells of {len(a[name])} lines are equal")
+        demand(np.array_equal(a[name][:, :3], b[name][:, :3]),
+            f"{name}: openings and marked cells of {len(a[name])} lines are equal")
         k = np.abs(a[name][:, 3] / b[name][:, 3] - 1).max()
         demand(k <= 1e-5, f"{name}: integrals of K differ by {k:.1e}, by the digits of the log (1e-5)")
     peak = max(np.abs(first.mitral).max(), np.abs(first.aortic).max())
@@ -207,7 +211,8 @@ def check_restart(whole, restarted):
     demand(pressure <= 0.1, f"restart: pressures in the ventricle differ by {pressure:.1e} mmHg (0.1)")
 
 
-COMMANDS = {"keys": (keys, 0), "orifice": (orifice, 2), "beat": (check_beat, 4), "ranks": (check_ranks, 2), "restart": (check_restart, 2)}
+COMMANDS = {"keys": (keys, 0), "orifice": (orifice, 2), "beat": (check_beat, 4), "ranks": (check_ranks, 2),
+    "restart": (check_restart, 2)}
 
 if __name__ == "__main__":
     if len(sys.argv) < 2 or sys.argv[1] not in COMMANDS or len(sys.argv) - 2 != COMMANDS[sys.argv[1]][1]:

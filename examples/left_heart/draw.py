@@ -35,7 +35,8 @@ def loop(beat, model, path):
     stroke.set_ylabel("pressure, mmHg")
     stroke.legend(frameon=False)
     pressures, flows, openings = axes[0, 1], axes[1, 0], axes[1, 1]
-    for name, values, colour in (("ventricle", beat.ventricle, BLUE), ("aorta", beat.aorta, RED), ("atrium", beat.atrium, ORANGE)):
+    for name, values, colour in (("ventricle", beat.ventricle, BLUE), ("aorta", beat.aorta, RED), ("atrium", beat.atrium,
+        ORANGE)):
         pressures.plot(beat.time, model[name], color=GREY, linewidth=0.8)
         pressures.plot(beat.time, values, color=colour, label=name)
     pressures.set_ylabel("pressure, mmHg")
@@ -76,7 +77,8 @@ def slice_at(axes, case, time, largest):
     colours = axes.tripcolor(1e3 * points[:, 1], 1e3 * points[:, 2], corners, speed, shading="gouraud", vmin=0, vmax=largest,
                              cmap="viridis")
     some = np.random.default_rng(1).choice(len(points), min(300, len(points)), replace=False)
-    axes.quiver(1e3 * points[some, 1], 1e3 * points[some, 2], vectors[some, 1], vectors[some, 2], scale=15, color="white", width=4e-3)
+    axes.quiver(1e3 * points[some, 1], 1e3 * points[some, 2], vectors[some, 1], vectors[some, 2], scale=15, color="white",
+        width=4e-3)
     for name in ("mitral", "aortic"):
         leaflets = foam.triangles(case / "postProcessing" / name / time / "leaflets.vtk")
         lines = _cut(*leaflets[:2])
@@ -124,7 +126,8 @@ def pictures(case, beat, out):
             figure.colorbar(slice_at(axes, case, time, largest), ax=axes, label="speed, m/s", shrink=0.8, extend="max")
             figure.savefig(f"{folder}/{i:04}.png", dpi=100)
             plt.close(figure)
-        subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "20", "-i", f"{folder}/%04d.png", "-pix_fmt", "yuv420p",
+        subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "20", "-i", f"{folder}/%04d.png", "-pix_fmt",
+            "yuv420p",
                         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", str(out / "heart.mp4")], check=True)
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blood of a left heart, in mm: half an ellipsoid below the base z = 0, with two tubes above it. The aortic tube is a cylinder.
+// The blood of a left heart, in mm: half an ellipsoid below the base z = 0, with two tubes above it. The aortic tube is a
+// cylinder.
 // The mitral tube has the outline of the mitral valve's annulus, as riis draws it (docs/theory.md).
 //
 //   gmsh -3 -setnumber fine 2.2 -setnumber coarse 4.5 -format msh22 heart.geo
@@ -19,7 +20,8 @@ Sphere(1) = {0, 0, 0, 1, -Pi / 2, 0};
 Dilate {{0, 0, 0}, {ventricle_radius, ventricle_radius, ventricle_length}} { Volume{1}; }
 Cylinder(2) = {0, aortic_y, -overlap, 0, 0, aortic_top + overlap, aortic_radius};
 
-// The mitral annulus: three cubic Bezier curves on each side of its plane of symmetry, from the posterior point to the anterior one.
+// The mitral annulus: three cubic Bezier curves on each side of its plane of symmetry, from the posterior point to the
+// anterior one.
 AP_diameter = 3 * unit;
 ALPM_diameter = 4 * unit;
 ALPM_position_ratio = 0.55;

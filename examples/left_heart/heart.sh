@@ -49,7 +49,8 @@ heart() {
   step "a heart without space" heart_zero_d
   cat "$of_out/zero_d.txt"
   step "$heart_beats beats of the heart" of_run beat 1
-  heart_python check.py beat "$of_cases/beat" "$of_out/zero_d.csv" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/beat.txt"
+  heart_python check.py beat "$of_cases/beat" "$of_out/zero_d.csv" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee \
+    "$of_out/beat.txt"
   step "40 steps on 1 and 2 ranks, and a restart" heart_ranks
   heart_python check.py ranks "$of_cases/ranks-1" "$of_cases/ranks-2" | tee "$of_out/ranks.txt"
   heart_python check.py restart "$of_cases/ranks-1" "$of_cases/restart" | tee "$of_out/restart.txt"
@@ -128,26 +129,30 @@ heart_ranks() {
     cp -r "$of_cases/ranks-1/0.04" "$of_cases/restart" && of_run restart 1
 }
 
-# heart_refused NAME WORDS FILE ENTRY VALUE: the case with this entry must end with these words.
+# heart_tell_refused NAME TEXT: adds a row to the table of refusals.
+# shellcheck disable=SC2016 # the backquotes are the table's
+heart_tell_refused() { printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/refusals.txt"; }
+
+# heart_refused NAME TEXT FILE ENTRY VALUE: the case with this entry must end with this text.
 heart_refused() {
-  local name=refused-$1
-  heart_case "$name" && heart_held "$name" 10 0 && of_set "$name" "$3" "$4" "$5" &&
-    ! pimpleFoam -case "$of_cases/$name" >"$of_cases/$name/log" 2>&1 && tr '\n' ' ' <"$of_cases/$name/log" | tr -s ' ' |
-    grep -qF -- "$2" || {
-    echo "$name: not refused with '$2'" >&2
+  local folder=refused-${1// /_}
+  heart_case "$folder" && heart_held "$folder" 10 0 && of_set "$folder" "$3" "$4" "$5" || return
+  if pimpleFoam -case "$of_cases/$folder" >"$of_cases/$folder/log" 2>&1 ||
+    ! tr '\n' ' ' <"$of_cases/$folder/log" | tr -s ' ' | grep -qF -- "$2"; then
+    echo "$1: not refused with '$2'" >&2
     return 1
-  }
-  printf '| %s | `%s` |\n' "$1" "$2" >>"$of_out/refusals.txt"
+  fi
+  heart_tell_refused "$1" "$2"
 }
 
-# heart_zero_d_refuses NAME WORDS MITRAL.csv AORTIC.csv
+# heart_zero_d_refuses NAME TEXT MITRAL.csv AORTIC.csv
 heart_zero_d_refuses() {
-  local name=$1 words=$2 message
-  ! message=$(heart_python zero_d.py "$of_cases/beat" "$3" "$4" 2>&1) && [[ $message == *"$words"* ]] || {
-    echo "$name: not refused with '$words': $message" >&2
+  local message
+  if message=$(heart_python zero_d.py "$of_cases/beat" "$3" "$4" 2>&1) || [[ $message != *"$2"* ]]; then
+    echo "$1: not refused with '$2': $message" >&2
     return 1
-  }
-  printf '| %s | `%s` |\n' "$name" "$words" >>"$of_out/refusals.txt"
+  fi
+  heart_tell_refused "$1" "$2"
 }
 
 heart_refusals() {
@@ -161,6 +166,7 @@ heart_refusals() {
     sed 's/,[^,]*$/,x/; 2,$s/^\([^,]*,[^,]*\),[^,]*/\1,0/' "$of_out/mitral.csv" >"$of_out/no_leak.csv" &&
     heart_zero_d_refuses "a leak of 0" "the leak is 0, and must be positive" "$of_out/no_leak.csv" "$of_out/aortic.csv" &&
     sed '$d' "$of_out/mitral.csv" >"$of_out/short.csv" &&
-    heart_zero_d_refuses "no row for the open valve" "openings must ascend from 0 to 1" "$of_out/short.csv" "$of_out/aortic.csv" &&
+    heart_zero_d_refuses "no row for the open valve" "openings must ascend from 0 to 1" "$of_out/short.csv" \
+      "$of_out/aortic.csv" &&
     rm "$of_out/no_leak.csv" "$of_out/short.csv"
 }

@@ -3,8 +3,10 @@
 
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
 
-The ventricle has the elastance E(t), so p = E (V - V0). An atrium, which the pulmonary veins fill, lies before it, and a windkessel
-behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow, both as measured in the
+The ventricle has the elastance E(t), so p = E (V - V0). An atrium, which the pulmonary veins fill, lies before it, and a
+windkessel behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow,
+both as measured
+in the
 mesh (check.py orifice). So the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would cost
 hundreds of mmHg there, because blood is incompressible.
 
@@ -102,7 +104,8 @@ def beats(valves, most=40):
             valve.turned -= PERIOD
         change, before = volume - before, volume
         if abs(change) < REPEATS:
-            # A jump of the volume at the end of the beat would be a flow into a closed chamber, so the rest is spread over the beat.
+            # A jump of the volume at the end of the beat would be a flow into a closed chamber, so the rest is spread over
+            # the beat.
             rows[:, 1] -= change * rows[:, 0] / PERIOD
             return rows
     sys.exit(f"zero_d.py: the volume still changes by {change:g} ml after {most} beats")
@@ -122,7 +125,8 @@ def report(rows, valves, out=sys.stdout):
     stroke = col["volume"].max() - col["volume"].min()
     print(f"0D: {col['volume'].max():.1f} to {col['volume'].min():.1f} ml, ejection fraction {stroke / col['volume'].max():.2f}, "
           f"ventricle {col['ventricle'].min():.1f} to {col['ventricle'].max():.1f} mmHg, "
-          f"aorta {col['aorta'].min():.1f} to {col['aorta'].max():.1f}, atrium {col['atrium'].min():.1f} to {col['atrium'].max():.1f}",
+          f"aorta {col['aorta'].min():.1f} to {col['aorta'].max():.1f}, "
+          f"atrium {col['atrium'].min():.1f} to {col['atrium'].max():.1f}",
           file=out)
     print(f"0D: E {e_wave:.0f} ml/s, A {a_wave:.0f}, E/A {e_wave / a_wave:.2f}, aortic peak {col['aortic_flow'].max():.0f}; "
           f"both valves leave an orifice for {both.sum() * STEP * 1e3:.1f} ms", file=out)
@@ -204,7 +208,8 @@ def write_tables(case, rows, n_beats):
     constant = case / "constant"
     # OpenFOAM takes dV/dt as the mean over a step, and the opening of the step's end. So openings lag by half a step.
     lagged = keys - STEP_IN_SPACE / 2
-    (constant / "amplitude").write_text("amplitude table" + table(times, amplitude_of(Mesh(case), change)) + ";\n", encoding="ascii")
+    (constant / "amplitude").write_text("amplitude table" + table(times, amplitude_of(Mesh(case), change)) + ";\n",
+        encoding="ascii")
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
         (constant / file).write_text("p0 table" + table(times, at(name, times) * MMHG / RHO) + ";\n", encoding="ascii")
     for name in ("mitral", "aortic"):
@@ -224,7 +229,8 @@ def read_orifice(path):
     leak = float(rows[0]["leak"])
     if not (leak > 0 and math.isfinite(leak)):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
-    if not (np.isfinite(areas).all() and areas[0] == 0 and areas[-1] > 0 and openings[0] == 0 and openings[-1] == 1 and (np.diff(openings) > 0).all()):
+    if not (np.isfinite(areas).all() and areas[0] == 0 and areas[-1] > 0 and openings[0] == 0 and openings[-1] == 1
+        and (np.diff(openings) > 0).all()):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
     return openings, areas, leak, openings[np.flatnonzero(areas > 0)[0] - 1]
 

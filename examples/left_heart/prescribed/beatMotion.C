@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves the wall of a ventricle in closed form: x = f(x0, a(t)), with the amplitude a from a table. The points above the base z = 0
-// stay. Below it, an amplitude of 1 draws the wall towards the axis by the share `radial`, and towards the base by the share `axial`.
+// Moves the wall of a ventricle in closed form: x = f(x0, a(t)), with the amplitude a from a table. The points above the
+// base z = 0
+// stay. Below it, an amplitude of 1 draws the wall towards the axis by the share `radial`, and towards the base by the share
+// `axial`.
 // Both shares grow smoothly from 0 at the base to their whole at the depth `ramp` times `length`.
 //
 // The displacement is taken from the points of the first time step, so it does not add up rounding, and a restart is exact.
@@ -28,8 +30,8 @@ class beatMotion : public points0MotionSolver {
         axial_(coeffDict().get<scalar>("axial")) {
     for (const scalar value : {length_, ramp_}) {
       if (!(value > 0)) {
-        FatalIOErrorInFunction(coeffDict()) << "length is " << length_ << " and ramp is " << ramp_ << ", and both must be positive"
-                                            << exit(FatalIOError);
+        FatalIOErrorInFunction(coeffDict()) << "length is " << length_ << " and ramp is " << ramp_
+                                            << ", and both must be positive" << exit(FatalIOError);
       }
     }
   }
