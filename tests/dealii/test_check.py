@@ -36,8 +36,9 @@ class Checks(unittest.TestCase):
         self.cells = [{"id": f"{i}_1:7", **dict(zip(COLUMNS, random.random(len(COLUMNS))))} for i in range(40)]
         opening = [0.5, 1, 1, 0.5, 0, 0, 0]
         flow = [0.1, 1, 0.8, 0.2, -0.3, -0.001, -0.001]
-        self.steps = [{"step": i + 1, "time": 0.1 * i, "opening": o, "drop": 1.0, "inflow": q, "outflow": q, "area": 1.0,
-                       "share": 1.0, "eps_h": 1.0, "cells": 40, "iterations": 9} for i, (o, q) in enumerate(zip(opening, flow))]
+        self.steps = [{"step": i + 1, "time": 0.1 * i, "opening": o, "drop": -1.0, "inflow": q, "outflow": q, "area": 1.0,
+                       "share": 1.0, "eps_h": 1.0, "cells": 40, "unknowns": 90, "iterations": 9, "leaflet_area": 1.0,
+                       "largest_speed": 0.05} for i, (o, q) in enumerate(zip(opening, flow))]
 
     def run_of(self, name, cells=None, parts=1):
         folder = self.folder / name
@@ -102,15 +103,20 @@ class Checks(unittest.TestCase):
         self.assertIn("plate's speed to 1 %", self.said(check.plate, self.run_of("a"), "0.1"))
 
     def test_beats(self):
-        self.assertIn("the closed valve passes 0.10 %", self.said(check.beat, self.run_of("a")))
+        half_thickness, resistance = "1e-3", "1"
+        said = self.said(check.beat, self.run_of("a"), half_thickness, resistance)
+        self.assertIn("the closed valve passes 0.10 %, which is 1.000 of", said)
         for step, column, value, words in ((1, "inflow", 1.1, "inflow and outflow are equal"),
                                            (6, "outflow", -0.2, "passes less than 2 %"),
+                                           (5, "outflow", -0.0004, "of what R lets through, not 0.4"),
+                                           (5, "outflow", -0.0012, "of what R lets through, not 1.2"),
+                                           (2, "largest_speed", 9, "no speed exceeds"),
                                            (6, "opening", 0.5, "closes again"), (0, "opening", 1, "the valve opens")):
             kept = dict(self.steps[step])
             self.steps[step][column] = value
             if column == "outflow":
                 self.steps[step]["inflow"] = value
-            self.assertIn(words, self.said(check.beat, self.run_of("a")))
+            self.assertIn(words, self.said(check.beat, self.run_of("a"), half_thickness, resistance))
             self.steps[step] = kept
 
     def test_a_coarse_band(self):
