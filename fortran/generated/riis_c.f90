@@ -232,6 +232,11 @@ module riis_c
     integer(c_int32_t) :: real_bits !< storage_size(xyz)
   end type riis_keyframe_arrays
 
+  type, bind(c) :: riis_direction
+    integer(c_int64_t) :: n_vertices
+    type(c_ptr) :: rate !< real(c_double), (3, n_vertices)
+  end type riis_direction
+
   !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
@@ -1070,6 +1075,19 @@ module riis_c
       type(riis_surface_options), intent(in), optional :: options_after, options_before
       integer(riis_status) :: status
     end function riis_surface_add_direction
+
+    !>   direction_id  from 0
+    !!   struct_size   c_sizeof(direction)
+    function riis_surface_get_direction(surface, direction_id, direction, struct_size) result(status) &
+        bind(c, name='riis_surface_get_direction')
+      import :: c_int64_t, c_ptr, riis_direction, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), value :: direction_id
+      type(riis_direction), intent(inout) :: direction
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_direction
 
     subroutine riis_surface_destroy(surface) bind(c, name='riis_surface_destroy')
       import :: c_ptr

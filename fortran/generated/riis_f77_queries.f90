@@ -173,6 +173,59 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   end if
 end subroutine riisf_surface_attachment_64
 
+!> Copies the rates of the surface's vertices in a direction (riis_surface_get_direction in riis.h) into the caller's array.
+!! Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks, or if the array is too short; only n is then written.
+subroutine riisf_surface_direction(surface, direction_num, length, n, rate, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_c, only: riis_direction, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_direction
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
+  integer(int32), intent(in) :: length                    !< The number of vertices for which the array has room.
+  integer(int32), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
+  real(c_double), intent(inout) :: rate(*)                !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_direction) :: made
+  real(c_double), pointer :: own(:)
+  status = riis_surface_get_direction(c_handle_of(surface), int(direction_num, int64) - 1, made, c_sizeof(made))
+  if (status /= RIIS_OK) return
+  n = int(min(made%n_vertices, int(huge(n), int64)), int32)
+  if (made%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(made%n_vertices))
+  else
+    call c_f_pointer(made%rate, own, [3 * made%n_vertices])
+    rate(:3 * made%n_vertices) = own
+  end if
+end subroutine riisf_surface_direction
+
+!> Does the same.
+subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_c, only: riis_direction, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_direction
+  use riis_support, only: c_handle_of, fail, text_of
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
+  integer(int64), intent(in) :: length                    !< The number of vertices for which the array has room.
+  integer(int64), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
+  real(c_double), intent(inout) :: rate(*)                !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_direction) :: made
+  real(c_double), pointer :: own(:)
+  status = riis_surface_get_direction(c_handle_of(surface), int(direction_num, int64) - 1, made, c_sizeof(made))
+  if (status /= RIIS_OK) return
+  n = int(min(made%n_vertices, int(huge(n), int64)), int64)
+  if (made%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // text_of(made%n_vertices))
+  else
+    call c_f_pointer(made%rate, own, [3 * made%n_vertices])
+    rate(:3 * made%n_vertices) = own
+  end if
+end subroutine riisf_surface_direction_64
+
 !> Finds the closest points of the surface to many points, in parallel. No array may overlap another. Errors:
 !! RIIS_INVALID_ARGUMENT naming the first bad point, counted from 0, or for a surface that measures distances by sampling or
 !! minimisation, because it has no sides. Nothing is then written.

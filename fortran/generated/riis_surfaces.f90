@@ -51,6 +51,7 @@ module riis_surfaces
     procedure, non_overridable :: update => surface_update              !< Replaces the surface when the valve has moved.
     procedure, non_overridable :: update_moving => surface_update_moving !< Updates with the velocity of every vertex.
     procedure, non_overridable :: add_direction => surface_add_direction !< Adds a direction for the derivatives of distances.
+    procedure, non_overridable :: get_direction => surface_get_direction !< Points to the rates of the vertices in a direction.
     generic :: update_from_arrays => update_xyz_int32, update_xyz_int64, update_x_y_z_int32, update_x_y_z_int64
                                                                !< Replaces it when the triangles or quads have moved.
     procedure, non_overridable :: create_from_keyframes => surface_create_from_keyframes !< Makes a surface from frames, at a
@@ -813,6 +814,25 @@ contains
     if (c_associated(made%patch_id)) call c_f_pointer(made%patch_id, triangles%patch_id, [made%n_triangles])
     call finish(code, status)
   end subroutine surface_get_triangles
+
+  !> Points to the rates of the surface's vertices in a direction of %add_direction, without a copy. The pointer is valid until the
+  !! surface's next update or its destruction. Do not write to the array. On an error its size is 0. Errors: RIIS_INVALID_ARGUMENT
+  !! for a direction that the surface lacks.
+  subroutine surface_get_direction(this, direction_id, rate, status)
+    class(riis_surface), intent(in) :: this                 !< Must be created.
+    integer(int64), intent(in) :: direction_id              !< From 0: the number of directions that were added before.
+    real(c_double), pointer, intent(inout) :: rate(:, :)    !< (3, n_vertices): the derivative of each vertex by the parameter, in
+                                                            !! mesh units divided by the parameter's unit.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_direction) :: made
+    integer(riis_status) :: code
+    made = riis_direction(0, c_null_ptr)
+    code = check_created(this%handle, 'the surface')
+    if (code == RIIS_OK) code = riis_surface_get_direction(this%handle, direction_id, made, c_sizeof(made))
+    rate => no_points
+    if (c_associated(made%rate)) call c_f_pointer(made%rate, rate, [3_int64, made%n_vertices])
+    call finish(code, status)
+  end subroutine surface_get_direction
 
   !> Points to the edges at which tissue or a stent holds the leaflets of a valve, without a copy. These edges lie where cusps
   !! meet the sinus, on the mitral annulus, and on the sides v = 0 that patches do not share. A bileaflet valve has no such edges.

@@ -107,6 +107,8 @@ module riisf
   public :: riisf_surface_vertex_velocities_64
   public :: riisf_surface_attachment
   public :: riisf_surface_attachment_64
+  public :: riisf_surface_direction
+  public :: riisf_surface_direction_64
   public :: riisf_closest_points
   public :: riisf_closest_points_64
   public :: riisf_closest_points_listed
@@ -1495,6 +1497,32 @@ module riisf
       integer(int32), intent(inout) :: leaflet_id(*)
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_attachment_64
+
+    subroutine riisf_surface_direction(surface, direction_num, length, n, rate, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int32), intent(in) :: direction_num
+      integer(int32), intent(in) :: length
+      integer(int32), intent(inout) :: n
+      real(c_double), intent(inout) :: rate(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_direction
+
+    subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: direction_num
+      integer(int64), intent(in) :: length
+      integer(int64), intent(inout) :: n
+      real(c_double), intent(inout) :: rate(*)
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_direction_64
 
     subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
       normal, triangle_id, leaflet_id, side, status)

@@ -450,6 +450,19 @@ RIIS_API riis_status riis_surface_add_direction(riis_surface *surface, const rii
                                                 const riis_valve *valve_before, double dp,
                                                 const riis_surface_options *options_after,
                                                 const riis_surface_options *options_before);
+/* The rates of a surface along one of its directions. */
+typedef struct riis_direction {
+  int64_t n_vertices;  /* as riis_triangles.n_vertices */
+  const double *rate;  /* (3, n_vertices): the derivative of each vertex in riis_triangles.xyz by the parameter, in mesh units
+                          divided by the parameter's unit. Within a triangle the rate is linear */
+} riis_direction;
+/* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction. With
+ * them a caller computes derivatives of other numbers that depend on the triangles, such as the area (docs/theory.md,
+ * "Sensitivities"). The rates hold for any use of the triangles, with every RIIS_MEASURE_*.
+ *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
+ * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
+RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
+                                                riis_direction *direction, int64_t struct_size);
 /* Destroys the surface. Marks stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 

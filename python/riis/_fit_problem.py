@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -17,9 +17,9 @@ Reals = NDArray[numpy.float64]
 
 # Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# The steps of finite differences, as fractions of a parameter's bounds. They are so small that a moved valve almost always has
-# the same triangles. If it has others, a smaller step is tried.
-_STEPS = (1e-5, 1e-6, 1e-7)
+# A direction of the surface is the difference between two states. Their distance is this fraction of a parameter's bounds, or of
+# the value of a size that is not free.
+_STEP = 1e-5
 # Above this number of points, several threads are used. For fewer points a surface takes a few milliseconds, and threads would
 # cost more than they gain.
 _MANY = 20_000
@@ -75,6 +75,18 @@ def vertex_areas(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
     return numpy.asarray(numpy.bincount(triangles.ravel(), numpy.repeat(third, 3), len(vertices)), numpy.float64)
 
 
+def log_area_slopes(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
+    """Returns the derivative of the logarithm of the area by each vertex, (n_vertices, 3)."""
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    normal = numpy.cross(b - a, c - a)
+    twice = numpy.linalg.norm(normal, axis=1)
+    normal /= numpy.where(twice > 0.0, twice, 1.0)[:, None]
+    by_corner = numpy.concatenate([numpy.cross(normal, edge) for edge in (c - b, a - c, b - a)])
+    corners = triangles.T.ravel()
+    slopes = [numpy.bincount(corners, column, len(vertices)) for column in by_corner.T]
+    return numpy.asarray(numpy.stack(slopes, axis=1) / twice.sum(), numpy.float64)
+
+
 @dataclass(frozen=True)
 class Pose:
     """The placement x -> scale * rotation @ x + move."""
@@ -94,8 +106,6 @@ class Seen(NamedTuple):
     log_area: float
     corners: NDArray[numpy.int64]  # (n, 3), the vertices of the triangles of the closest points
     barycentric: Reals  # (n, 3)
-    vertices: Reals  # (n_vertices, 3), of the surface in the valve's frame
-    triangles: NDArray[numpy.int64]  # (n_triangles, 3)
 
 
 class Loss(NamedTuple):
@@ -159,6 +169,7 @@ class Problem:
         self.low[: len(names)], self.high[: len(names)] = 0.0, 1.0
         self.base = Pose(numpy.eye(3), numpy.zeros(3), 1.0)
         self.surface: Surface | None = None
+        self.surface_at: bytes | None = None  # the parameters of the surface, unless it has directions
         self.last: tuple[bytes, Seen | None] | None = None
 
     def begin(self, base: Pose) -> None:
@@ -192,6 +203,10 @@ class Problem:
 
     def set_valve(self, x: Reals) -> Surface | None:
         """Gives the valve and its surface the parameters of x. Returns None if the parameters do not fit together."""
+        key = x[: len(self.names)].tobytes()
+        if self.surface is not None and self.surface_at == key:
+            return self.surface
+        self.surface_at = None
         try:
             self.valve.update(**dict(zip(self.names, self.values(x).tolist())))
             if self.surface is None:
@@ -201,6 +216,7 @@ class Problem:
                 self.surface.update(self.valve)
         except Error:
             return None
+        self.surface_at = key
         return self.surface
 
     def look(self, x: Reals) -> Seen | None:
@@ -226,7 +242,7 @@ class Problem:
             direction, residual = direction * sign[:, None], length * sign
         area = float(numpy.log(surface.info.area * pose.scale**2))
         return Seen(residual, direction @ pose.rotation.T, length, found.point, area, triangles.vertex_id[row],
-                    found.barycentric, surface.vertices.copy(), triangles.vertex_id.copy())
+                    found.barycentric)
 
     def at(self, x: Reals) -> Seen | None:
         """Returns the points' positions relative to the valve at x, computed only once."""
@@ -235,39 +251,48 @@ class Problem:
             self.last = key, self.look(x)
         return self.last[1]
 
-    def change(self, seen: Seen, x: Reals, step: float, pose: Pose, others: dict[str, float]) -> tuple[Reals, float] | None:
-        """Returns the derivatives of the residuals and of log(area) along a step of x and of other parameters. A closest point
-        moves as if it were fixed to its place on the triangle, because sliding along the surface does not change the distance."""
-        try:
-            self.valve.update(**others)
-            surface = self.set_valve(x)
-        except Error:
-            return None
-        if surface is None or not numpy.array_equal(surface.triangles.vertex_id, seen.triangles):
-            return None
-        moved = numpy.einsum("ij,ijk->ik", seen.barycentric, (surface.vertices - seen.vertices)[seen.corners]) / step
-        area = (float(numpy.log(surface.info.area * self.base_scale(x) ** 2)) - seen.log_area) / step
-        return -pose.scale * numpy.einsum("ij,ij->i", moved @ pose.rotation.T, seen.direction), area
+    def slopes(self, x: Reals, steps: Sequence[tuple[str, float, float]]) -> list[tuple[Reals, float] | None]:
+        """Returns the derivatives of the residuals and of log(area) by parameters. An entry is None if the valve's values near x
+        do not fit together.
 
-    def base_scale(self, x: Reals) -> float:
-        """Returns the scale of the placement."""
-        return self.motion(x)[2] * self.base.scale
+        A closest point moves with its place on the triangle, because sliding along the surface does not change the distance.
+
+        steps  for each derivative the parameter, a small change of it, and that change in the unit of the derivative
+        """
+        seen, pose, surface = self.at(x), self.pose(x), self.set_valve(x)
+        assert seen is not None and surface is not None
+        self.surface_at = None
+        of_area = log_area_slopes(surface.vertices, surface.triangles.vertex_id)
+        towards = -pose.scale * seen.direction @ pose.rotation
+        of_corners = seen.barycentric[:, :, None] * towards[:, None, :]
+        near, found, n_directions = self.valve.copy(), [], 0
+        for name, change, step in steps:
+            value, made = self.valve[name], None
+            for sign in (1.0, -1.0):  # if this side is not possible, tries the other one
+                try:
+                    near.update(**{name: value + sign * change})
+                    surface.add_direction(near, self.valve, sign * step)
+                except Error:
+                    continue
+                rate = surface.rates(n_directions)
+                n_directions += 1
+                made = numpy.einsum("ijk,ijk->i", of_corners, rate[seen.corners]), float((of_area * rate).sum())
+                break
+            near.update(**{name: value})
+            found.append(made)
+        return found
 
     def jacobian(self, x: Reals) -> tuple[Reals, Reals]:
-        """Returns the derivatives of the residuals and of log(area): by differences for parameters, exactly for the placement."""
+        """Returns the derivatives of the residuals and of log(area)."""
         seen = self.at(x)
         assert seen is not None
         result, area = numpy.zeros((len(self.points), self.n)), numpy.zeros(self.n)
         pose = self.pose(x)
-        for i in range(len(self.names)):
-            towards = 1.0 if x[i] < 0.5 else -1.0
-            for step in (sign * length for length in _STEPS for sign in (towards, -towards)):
-                moved = x.copy()
-                moved[i] += step
-                found = self.change(seen, moved, step, pose, {})
-                if found is not None:  # if this step is not possible, tries the other side
-                    result[:, i], area[i] = found
-                    break
+        steps = numpy.where(x[: len(self.names)] < 0.5, _STEP, -_STEP)
+        changes = steps * (self.bounds[:, 1] - self.bounds[:, 0])
+        for i, found in enumerate(self.slopes(x, list(zip(self.names, changes.tolist(), steps.tolist())))):
+            if found is not None:
+                result[:, i], area[i] = found
         at, turned = len(self.names), pose.scale * seen.local @ pose.rotation.T
         vector = self.motion(x)[0]
         for move in self.moves:
@@ -286,24 +311,15 @@ class Problem:
     def fixed_jacobian(self, x: Reals) -> tuple[Reals, Reals]:
         """Returns the derivatives of the residuals and of log(area) by the sizes that are not free, for a change by the whole
         value of a length or ratio, and by a radian of an angle."""
-        seen, pose, columns, areas = self.at(x), self.pose(x), [], []
-        assert seen is not None
         self.set_valve(x)
-        valve, self.valve = self.valve, self.valve.copy()
-        values = dict(valve)
-        for name, parameter in valve.parameters.items():
-            value = values[name]
-            if name in self.names or parameter.n_values != 1 or name == "opening" or value == 0.0:
+        steps = []
+        for name, parameter in self.valve.parameters.items():
+            if name in self.names or parameter.n_values != 1 or name == "opening" or self.valve[name] == 0.0:
                 continue
-            whole = numpy.degrees(1.0) if parameter.unit == "degree" else value
-            for step in (sign * length for length in _STEPS for sign in (1.0, -1.0)):
-                found = self.change(seen, x, step, pose, {name: value + step * whole})
-                self.valve.update(**{name: value})
-                if found is not None:
-                    columns.append(found[0])
-                    areas.append(found[1])
-                    break
-        self.valve = valve
+            whole = numpy.degrees(1.0) if parameter.unit == "degree" else self.valve[name]
+            steps.append((name, _STEP * whole, _STEP))
+        found = [slopes for slopes in self.slopes(x, steps) if slopes is not None]
+        columns, areas = [residuals for residuals, _ in found], [area for _, area in found]
         return numpy.array(columns).T.reshape(len(self.points), -1), numpy.array(areas)
 
     def cost(self, x: Reals, loss: Loss) -> float:

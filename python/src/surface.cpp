@@ -105,6 +105,13 @@ void add_direction(Surface &self, nb::handle valve_after_, nb::handle valve_befo
   });
 }
 
+nb::object rates(Surface &surface, nb::handle direction_id_) {
+  const Reading reading(surface.usage, "surface");
+  riis_direction found;
+  call_shortly(riis_surface_get_direction(surface.handle, integer(direction_id_, "direction_id"), &found, sizeof found));
+  return copy_of(found.rate, {static_cast<std::size_t>(found.n_vertices), 3});
+}
+
 Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
                      nb::handle index_base, const nb::kwargs &keywords) {
   if (faces.is_none()) refuse_type("faces", "must be a numpy array of int32 or int64, not NoneType");
@@ -317,6 +324,13 @@ placement_after, placement_before
                   surface's values
 
 An update of the surface removes its directions.)")
+      .def("rates", &rates, nb::arg("direction_id").none() = 0,
+           nb::sig("def rates(self, direction_id: int = 0) -> numpy.typing.NDArray[numpy.float64]"),
+           R"(Copies the rates of the vertices in a direction, (n_vertices, 3).
+
+direction_id  0 for the first add_direction after the last update, 1 for the second, and so on
+
+A rate is the derivative of a vertex by the parameter. Within a triangle the rate is linear.)")
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),

@@ -124,6 +124,10 @@ static void test_structs(void **state) {
   FIELD(riis_attachment, leaflet_id, 24, 8);
   FIELD(riis_attachment, patch_id, 32, 8);
 
+  SIZE(riis_direction, 16);
+  FIELD(riis_direction, n_vertices, 0, 8);
+  FIELD(riis_direction, rate, 8, 8);
+
   SIZE(riis_warp_options, 24);
   FIELD(riis_warp_options, struct_size, 0, 8);
   FIELD(riis_warp_options, noise, 8, 8);
@@ -694,6 +698,7 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_surface_add_direction, int32_t,
             (riis_surface *, const riis_valve *, const riis_valve *, double, const riis_surface_options *,
              const riis_surface_options *));
+  SIGNATURE(riis_surface_get_direction, int32_t, (const riis_surface *, int64_t, riis_direction *, int64_t));
   SIGNATURE(riis_surface_destroy, void, (riis_surface **));
   SIGNATURE(riis_surface_get_gap, int32_t, (const riis_surface *, const riis_surface *, double *, riis_gap *, int64_t));
   SIGNATURE(riis_valve_set_skirt_to_wall, int32_t,

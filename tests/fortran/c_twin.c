@@ -342,6 +342,7 @@ static riis_status resist(int64_t n_nodes, const double *xyz, twin_motion *motio
   TRY(riis_surface_update_moving(moving, now, before, 0.005, &options, &options_before));
   TRY(riis_surface_add_direction(moving, now, before, 0.1, NULL, NULL));
   TRY(riis_surface_add_direction(moving, now, now, 0.01, &options, &options_before));
+  TRY(riis_surface_get_direction(moving, 1, &motion->direction, sizeof motion->direction));
   riis_valve_destroy(&open);
   riis_valve_destroy(&now);
   riis_valve_destroy(&before);

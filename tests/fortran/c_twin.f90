@@ -27,6 +27,7 @@ module c_twin
 
   type, bind(c) :: twin_motion
     type(twin_surface) :: surface
+    type(riis_direction) :: direction
     type(riis_mark_list) :: marked, within_limit
     type(c_ptr) :: coefficient, momentum
     real(c_double) :: force(30)

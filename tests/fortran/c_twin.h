@@ -28,6 +28,7 @@ typedef struct twin_leaks {
 /* An aortic valve that opens, and the results that use its fields. */
 typedef struct twin_motion {
   twin_surface surface;
+  riis_direction direction; /* the second one */
   riis_mark_list marked, within_limit;
   const double *coefficient, *momentum; /* (n_nodes), (3, n_nodes) */
   double force[30];

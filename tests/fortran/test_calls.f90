@@ -585,6 +585,7 @@ contains
     type(riis_gap) :: gap
     type(riis_coaptation) :: contact
     type(riis_attachment) :: attachment
+    type(riis_direction) :: direction
     type(riis_reaction) :: reaction
     integer :: i
     integer(c_int64_t) :: n
@@ -623,6 +624,11 @@ contains
     call check_ok(triangles_from(moving, n_vertices=n, velocity=velocity), 'vertex velocities')
     call check(n == twin%motion%surface%info%n_vertices, 'the number of vertex velocities')
     call check_same_bytes(velocity, twin%motion%surface%triangles%velocity, 24 * n, 'vertex velocities')
+    call check_refused(riis_surface_get_direction(moving, 2_c_int64_t, direction, c_sizeof(direction)), RIIS_INVALID_ARGUMENT, &
+      'direction_id is 2')
+    call check_ok(riis_surface_get_direction(moving, 1_c_int64_t, direction, c_sizeof(direction)), 'the second direction')
+    call check(direction%n_vertices == n .and. twin%motion%direction%n_vertices == n, 'the number of rates')
+    call check_same_bytes(direction%rate, twin%motion%direction%rate, 24 * n, 'the rates of vertices')
 
     call check_ok(riis_marks_create(resisting), 'create a result')
     call check_ok(riis_mark_options_init(mark_options, c_sizeof(mark_options)), 'default mark options')

@@ -699,6 +699,22 @@ C     Two directions upwards, of the same derivatives.
       CALL OK(STAT)
       CALL RIISF_SURFACE_ADD_DIRECTION(SURF, VALVE, TWIN, 1D0, STAT)
       CALL OK(STAT)
+      CALL RIISF_SURFACE_DIRECTION(SURF, 1, 5, N, VEL, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'length is 5')
+      IF (N .LT. 100 .OR. N .GT. MN) CALL FAILED('how many rates')
+      CALL RIISF_SURFACE_DIRECTION(SURF, 3, MN, N2, VEL, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'direction_id is 2')
+      CALL RIISF_SURFACE_DIRECTION(SURF, 1, MN, N2, VEL, STAT)
+      CALL OK(STAT)
+      NB(1) = 1
+      CALL RIISF_SURFACE_DIRECTION_64(SURF, NB(1), BIG, NL, AT, STAT)
+      CALL OK(STAT)
+      DO 4 I = 1, N
+        IF (ABS(VEL(1,I)) .GT. 1D-10 .OR. ABS(VEL(3,I) - 1D0) .GT.
+     &    1D-10 .OR. ABS(AT(3,I) - VEL(3,I)) .GT. 0D0)
+     &    CALL FAILED('rates of vertices')
+    4 CONTINUE
+      IF (N2 .NE. N .OR. NL .NE. N) CALL FAILED('rates of all')
       FIELDS = FIELDS + RIIS_FIELD_GRADIENT
       CALL RIISF_VALVE_DESTROY(TWIN)
       CALL RIISF_MARK_WITH_FIELDS(SURF, MESH, 0.3D0, RIIS_SEARCH_AUTO,

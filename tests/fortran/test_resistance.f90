@@ -218,6 +218,10 @@ contains
     type(riis_marks) :: result
     type(riis_mark_list) :: list
     real(c_double), allocatable :: along_z(:)
+    real(c_double), pointer :: rate(:, :)
+    type(riis_surface_info) :: info
+    call moving%get_direction(0_int64, rate, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
     call moving%add_direction(valve, valve, 1d0, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
     call moving%create(valve)
@@ -236,8 +240,15 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the size of translation_before is 1; it must be 3')
     call riis_mark_nodes(moving, mesh, result, fields=RIIS_FIELD_GRADIENT, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface has no direction')
+    call moving%get_direction(0_int64, rate, status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'direction_id is 0, but the surface has no direction')
+    call check(size(rate) == 0, 'no rates')
     call moving%add_direction(valve, valve, 0.02d0, translation_after=[0d0, 0d0, 0.01d0], translation_before=[0d0, 0d0, -0.01d0])
     call moving%add_direction(valve, valve, 0.02d0, translation_before=[0d0, 0d0, 0.02d0])
+    call moving%get_direction(1_int64, rate)
+    call moving%get_info(info)
+    call check(all(shape(rate, int64) == [3_int64, info%n_vertices]), 'a rate for every vertex')
+    call check(all(abs(rate(1:2, :)) < 1d-9) .and. all(abs(rate(3, :) + 1) < 1d-9), 'downwards')
     call riis_mark_nodes(moving, mesh, result, fields=RIIS_FIELD_GRADIENT + RIIS_FIELD_POINT, R=2d0)
     call result%get_list(RIIS_LIST_MARKED, list)
     call check(list%n_nodes > 100 .and. all(shape(list%distance_gradient) == [2_int64, list%n_nodes]) .and. &

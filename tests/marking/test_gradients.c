@@ -183,9 +183,40 @@ static riis_surface *surface_in(const placed_valve *state) {
 }
 
 typedef struct tally {
-  int64_t n, n_off, n_ties, n_skipped, n_directions;
-  double worst;
+  int64_t n, n_off, n_ties, n_skipped, n_directions, n_vertices, n_off_vertices;
+  double worst, worst_vertex, worst_area;
 } tally;
+
+static const double *rates_of(const riis_surface *surface, int64_t direction_id) {
+  riis_direction direction;
+  CHECK_OK(riis_surface_get_direction(surface, direction_id, &direction, sizeof direction));
+  assert_int_equal(direction.n_vertices, triangles_of(surface).n_vertices);
+  return direction.rate;
+}
+
+/* Returns the derivative of the area of a surface whose vertices move at these rates. */
+static double rate_of_area(const riis_surface *surface, const double *rate) {
+  const riis_triangles c = triangles_of(surface);
+  double sum = 0;
+  for (int64_t i = 0; i < c.n_triangles; ++i) {
+    const int64_t *id = c.vertex_id + 3 * i;
+    double edge[2][3], change[2][3], normal[3], moved[3];
+    for (int k = 0; k < 2; ++k)
+      for (int x = 0; x < 3; ++x) {
+        edge[k][x] = c.xyz[3 * id[k + 1] + x] - c.xyz[3 * id[0] + x];
+        change[k][x] = rate[3 * id[k + 1] + x] - rate[3 * id[0] + x];
+      }
+    for (int x = 0; x < 3; ++x) {
+      const int y = (x + 1) % 3, z = (x + 2) % 3;
+      normal[x] = edge[0][y] * edge[1][z] - edge[0][z] * edge[1][y];
+      moved[x] = change[0][y] * edge[1][z] - change[0][z] * edge[1][y] + edge[0][y] * change[1][z] -
+                 edge[0][z] * change[1][y];
+    }
+    const double twice = sqrt(dot3(normal, normal));
+    if (twice > 0) sum += 0.5 * dot3(normal, moved) / twice;
+  }
+  return sum;
+}
 
 /* Makes points near random triangles, up to `reach` away. */
 static void make_points(const riis_surface *surface, double reach, double *xyz) {
@@ -203,8 +234,8 @@ static void make_points(const riis_surface *surface, double reach, double *xyz) 
 
 /* Compares one direction with central differences. `gradient` and `K_gradient` have one number for each point. */
 static void compare(const riis_surface *at, const placed_valve *state, const change *c, const double *shifts,
-                    const double *xyz, const double *gradient, const double *K, const double *K_gradient, double R,
-                    tally *t) {
+                    const double *xyz, const double *gradient, const double *rate, const double *K,
+                    const double *K_gradient, double R, tally *t) {
   static double now[n_points], distance[2][n_points];
   const double step = 1e-6 * c->size, eps = info_of(at).half_thickness;
   const int owned_before = n_owned();
@@ -236,6 +267,18 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
     for (int x = 0; x < 3; ++x) v[x] = (high.xyz[3 * i + x] - low.xyz[3 * i + x]) / (2 * step);
     speed = fmax(speed, sqrt(dot3(v, v)));
   }
+  for (int64_t i = 0; i < low.n_vertices; ++i) {
+    double off[3];
+    for (int x = 0; x < 3; ++x) off[x] = rate[3 * i + x] - (high.xyz[3 * i + x] - low.xyz[3 * i + x]) / (2 * step);
+    const double relative = sqrt(dot3(off, off)) / fmax(speed, 1e-300);
+    ++t->n_vertices, t->n_off_vertices += !(relative <= 1e-5);
+    t->worst_vertex = fmax(t->worst_vertex, relative);
+  }
+  /* The area changes by about the square root of the area times the speed. */
+  const double area = info_of(at).area;
+  const double slope_of_area = (info_of(surfaces[1]).area - info_of(surfaces[0]).area) / (2 * step);
+  t->worst_area = fmax(t->worst_area,
+                       fabs(rate_of_area(at, rate) - slope_of_area) / fmax(sqrt(area) * speed, 1e-8 * area / step));
   for (int i = 0; i < n_points; ++i) {
     if (!(now[i] > 0.05 * eps)) continue;
     const double slope = (distance[1][i] - distance[0][i]) / (2 * step);
@@ -264,7 +307,7 @@ static void derivatives_are_central_differences(void **state_) {
   const int n_trials = is_long_test() ? 20 : 1;
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
-      tally t = {0, 0, 0, 0, 0, 0};
+      tally t = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
       for (int trial = 0; trial < n_trials; ++trial) {
         const int owned_before = n_owned();
         double shifts[3 * n_corners];
@@ -314,7 +357,8 @@ static void derivatives_are_central_differences(void **state_) {
         for (int d = 0; d < n; ++d) {
           for (int i = 0; i < n_points; ++i)
             gradient[i] = list.distance_gradient[n * i + d], K_gradient[i] = list.K_gradient[n * i + d];
-          compare(surface, &state, directions + d, shifts, xyz, gradient, list.K, K_gradient, R, &t);
+          compare(surface, &state, directions + d, shifts, xyz, gradient, rates_of(surface, d), list.K, K_gradient, R,
+                  &t);
         }
         free_owned_after(owned_before);
       }
@@ -324,6 +368,9 @@ static void derivatives_are_central_differences(void **state_) {
           "directions changed triangles\n",
           kinds[kind], fixed, (long long)t.n, 100. * (double)t.n_off / (double)(t.n ? t.n : 1), t.worst,
           (long long)t.n_ties, (long long)t.n_skipped, (long long)t.n_directions);
+      printf("%s, triangulation %d: %lld rates of vertices, %.3f %% off by more than 1e-5, at most %.2g; area %.2g\n",
+             kinds[kind], fixed, (long long)t.n_vertices, 100. * (double)t.n_off_vertices / (double)t.n_vertices,
+             t.worst_vertex, t.worst_area);
       assert_true(t.n > 0);
       if ((double)t.n_off > 0.01 * (double)t.n) fail_msg("%lld of %lld", (long long)t.n_off, (long long)t.n);
     }
@@ -570,6 +617,77 @@ static void bits_and_updates(void **state) {
   assert_null(within_list(marks).distance_gradient);
 }
 
+/* A derivative of a distance is that of the rates at the closest point, and rates do not depend on the number of threads. Later
+ * directions leave the arrays of earlier ones in place. */
+static void rates_give_the_derivatives(void **state) {
+  (void)state;
+  static double xyz[3 * n_points];
+  riis_valve *valve = new_valve("mitral"), *after = new_valve("mitral");
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
+  CHECK_OK(riis_valve_set_scalar(after, "opening", 0.501));
+  riis_surface_options options = surface_options(), shifted;
+  options.n_threads = 1;
+  riis_surface *surface = new_surface(valve, &options);
+  options.n_threads = 3;
+  riis_surface *threaded = new_surface(valve, &options);
+  make_points(surface, 0.05, xyz);
+  CHECK_OK(riis_surface_add_direction(surface, after, valve, 1e-3, NULL, NULL));
+  CHECK_OK(riis_surface_add_direction(threaded, after, valve, 1e-3, NULL, NULL));
+  const double *const rate = rates_of(surface, 0);
+  const riis_triangles c = triangles_of(surface);
+  assert_memory_equal(rate, rates_of(threaded, 0), 3 * (size_t)c.n_vertices * sizeof *rate);
+  shifted = options;
+  shifted.translation[2] += 0.25;
+  for (int i = 0; i < 20; ++i) CHECK_OK(riis_surface_add_direction(surface, valve, valve, 0.5, &shifted, NULL));
+  assert_ptr_equal(rates_of(surface, 0), rate);
+  for (int64_t i = 0; i < 3 * c.n_vertices; ++i) CHECK_NEAR(rates_of(surface, 20)[i], i % 3 == 2 ? 0.5 : 0, 1e-12);
+  riis_marks *marks = NULL;
+  CHECK_OK(riis_marks_create(&marks));
+  own(marks);
+  riis_mark_options mark = mark_options();
+  mark.fields = RIIS_FIELD_GRADIENT | RIIS_FIELD_POINT | RIIS_FIELD_BARYCENTRIC;
+  CHECK_OK(riis_mark_nodes(surface, mesh_of(n_points, xyz), &mark, marks));
+  const riis_mark_list list = marked_list(marks);
+  assert_true(list.n_nodes > n_points / 2 && list.n_directions == 21);
+  for (int64_t i = 0; i < list.n_nodes; ++i) {
+    const int64_t *const id = c.vertex_id + 3 * list.triangle_id[i];
+    double sum = 0;
+    for (int x = 0; x < 3 && list.distance[i] > 0; ++x)
+      for (int k = 0; k < 3; ++k)
+        sum -= (xyz[3 * list.node_id[i] + x] - list.point[3 * i + x]) / list.distance[i] * list.barycentric[3 * i + k] *
+               rate[3 * id[k] + x];
+    CHECK_NEAR(list.distance_gradient[21 * i], sum, 1e-9);
+  }
+}
+
+static void missing_directions_are_refused(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("aortic");
+  riis_surface *surface = new_surface(valve, NULL);
+  riis_direction got;
+  memset(&got, 0x22, sizeof got);
+  const riis_direction before = got;
+#define REFUSED(status, parts, id, size) CHECK_REFUSED(status, parts, riis_surface_get_direction(surface, id, &got, size))
+  REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is 0, but the surface has no direction|riis_surface_add_direction", 0, 16);
+  for (int i = 0; i < 3; ++i) CHECK_OK(riis_surface_add_direction(surface, valve, valve, 1, NULL, NULL));
+  REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is -1; it must be from 0 to 2", -1, 16);
+  REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is 3; it must be from 0 to 2", 3, 16);
+  REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is -9223372036854775808;", INT64_MIN, 16);
+  REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of direction is 8", 2, 8);
+  REFUSED(RIIS_INVALID_STRUCT_SIZE, "struct size of direction is 24", 2, 24);
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "direction is NULL", riis_surface_get_direction(surface, 2, NULL, 16));
+  assert_memory_equal(&got, &before, sizeof got);
+  CHECK_OK(riis_surface_get_direction(surface, 2, &got, sizeof got));
+  CHECK_OK(riis_surface_update(surface, valve, NULL));
+  REFUSED(RIIS_INVALID_ARGUMENT, "the surface has no direction", 0, 16);
+  const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const int32_t face[3] = {0, 1, 2};
+  const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, face);
+  surface = surface_from(&arrays, NULL);
+  REFUSED(RIIS_INVALID_ARGUMENT, "the surface has no direction", 0, 16);
+#undef REFUSED
+}
+
 static void bad_directions_are_refused(void **state) {
   (void)state;
   riis_valve *valve = new_valve("aortic"), *coapting = new_valve("coapting"), *warped = new_valve("aortic");
@@ -626,6 +744,8 @@ int main(void) {
       cmocka_unit_test(rims_and_the_surface_itself),
       cmocka_unit_test(ties_take_the_first_triangle),
       cmocka_unit_test(bits_and_updates),
+      cmocka_unit_test(rates_give_the_derivatives),
+      cmocka_unit_test(missing_directions_are_refused),
       cmocka_unit_test(bad_directions_are_refused),
   };
   rng = random_start("test_gradients");

@@ -87,6 +87,8 @@ static void null_arguments_are_named(void **state) {
   NULL_IS_NAMED("surface", riis_surface_add_direction(NULL, valve, valve, 1, NULL, NULL));
   NULL_IS_NAMED("valve_after", riis_surface_add_direction(surface, NULL, valve, 1, NULL, NULL));
   NULL_IS_NAMED("valve_before", riis_surface_add_direction(surface, valve, NULL, 1, NULL, NULL));
+  riis_direction direction;
+  NULL_IS_NAMED("surface", riis_surface_get_direction(NULL, 0, &direction, sizeof direction));
   NULL_IS_NAMED("surface", riis_surface_update_from_arrays(NULL, &arrays, NULL));
   NULL_IS_NAMED("arrays", riis_surface_update_from_arrays(surface, NULL, NULL));
   NULL_IS_NAMED("surface", riis_surface_get_info(NULL, NULL, 104));

@@ -220,6 +220,21 @@ riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *
   });
 }
 
+riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id, riis_direction *direction,
+                                       int64_t struct_size) {
+  return guarded([&] {
+    const riis::Surface &content = riis::content_of(surface);
+    if (content.n_directions() == 0)
+      riis::fail(RIIS_INVALID_ARGUMENT, "direction_id is ", direction_id,
+                 ", but the surface has no direction: call riis_surface_add_direction after its last update");
+    if (direction_id < 0 || direction_id >= content.n_directions())
+      riis::fail(RIIS_INVALID_ARGUMENT, "direction_id is ", direction_id, "; it must be from 0 to ",
+                 content.n_directions() - 1);
+    riis::write_struct(direction, struct_size, "direction",
+                       riis_direction{content.triangles().n_vertices(), content.rates(direction_id).data()});
+  });
+}
+
 riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                             const riis_surface_options *options) {
   return guarded([&] {
