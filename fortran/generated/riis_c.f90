@@ -235,6 +235,7 @@ module riis_c
   type, bind(c) :: riis_direction
     integer(c_int64_t) :: n_vertices
     type(c_ptr) :: rate !< real(c_double), (3, n_vertices)
+    real(c_double) :: area_rate
   end type riis_direction
 
   !> The size of a surface, and the seconds that its last create or update took.

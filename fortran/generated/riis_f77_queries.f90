@@ -175,7 +175,7 @@ end subroutine riisf_surface_attachment_64
 
 !> Copies the rates of the surface's vertices in a direction (riis_surface_get_direction in riis.h) into the caller's array.
 !! Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks, or if the array is too short; only n is then written.
-subroutine riisf_surface_direction(surface, direction_num, length, n, rate, status)
+subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area_rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
   use riis_c, only: riis_direction, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_direction
@@ -185,7 +185,8 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, stat
   integer(int32), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
   integer(int32), intent(in) :: length                    !< The number of vertices for which the array has room.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
-  real(c_double), intent(inout) :: rate(*)                !< (3, length); written up to n.
+  real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of the surface's area.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: made
   real(c_double), pointer :: own(:)
@@ -197,11 +198,12 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, stat
   else
     call c_f_pointer(made%rate, own, [3 * made%n_vertices])
     rate(:3 * made%n_vertices) = own
+    area_rate = made%area_rate
   end if
 end subroutine riisf_surface_direction
 
 !> Does the same.
-subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, status)
+subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, area_rate, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
   use riis_c, only: riis_direction, riis_status, RIIS_INVALID_ARGUMENT, RIIS_OK, riis_surface_get_direction
@@ -211,7 +213,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, s
   integer(int64), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
   integer(int64), intent(in) :: length                    !< The number of vertices for which the array has room.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if the array is too short.
-  real(c_double), intent(inout) :: rate(*)                !< (3, length); written up to n.
+  real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of the surface's area.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: made
   real(c_double), pointer :: own(:)
@@ -223,6 +226,7 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, s
   else
     call c_f_pointer(made%rate, own, [3 * made%n_vertices])
     rate(:3 * made%n_vertices) = own
+    area_rate = made%area_rate
   end if
 end subroutine riisf_surface_direction_64
 

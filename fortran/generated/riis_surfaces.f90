@@ -818,17 +818,19 @@ contains
   !> Points to the rates of the surface's vertices in a direction of %add_direction, without a copy. The pointer is valid until the
   !! surface's next update or its destruction. Do not write to the array. On an error its size is 0. Errors: RIIS_INVALID_ARGUMENT
   !! for a direction that the surface lacks.
-  subroutine surface_get_direction(this, direction_id, rate, status)
+  subroutine surface_get_direction(this, direction_id, rate, status, area_rate)
     class(riis_surface), intent(in) :: this                 !< Must be created.
     integer(int64), intent(in) :: direction_id              !< From 0: the number of directions that were added before.
     real(c_double), pointer, intent(inout) :: rate(:, :)    !< (3, n_vertices): the derivative of each vertex by the parameter, in
                                                             !! mesh units divided by the parameter's unit.
     integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    real(c_double), intent(out), optional :: area_rate      !< The derivative of the surface's area.
     type(riis_direction) :: made
     integer(riis_status) :: code
-    made = riis_direction(0, c_null_ptr)
+    made = riis_direction(0, c_null_ptr, 0)
     code = check_created(this%handle, 'the surface')
     if (code == RIIS_OK) code = riis_surface_get_direction(this%handle, direction_id, made, c_sizeof(made))
+    if (present(area_rate)) area_rate = made%area_rate
     rate => no_points
     if (c_associated(made%rate)) call c_f_pointer(made%rate, rate, [3_int64, made%n_vertices])
     call finish(code, status)

@@ -1498,7 +1498,7 @@ module riisf
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_attachment_64
 
-    subroutine riisf_surface_direction(surface, direction_num, length, n, rate, status)
+    subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area_rate, status)
       use, intrinsic :: iso_c_binding, only: c_double
       use, intrinsic :: iso_fortran_env, only: int32, int64
       use riis_c, only: riis_status
@@ -1508,10 +1508,11 @@ module riisf
       integer(int32), intent(in) :: length
       integer(int32), intent(inout) :: n
       real(c_double), intent(inout) :: rate(*)
+      real(c_double), intent(inout) :: area_rate
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_direction
 
-    subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, status)
+    subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, area_rate, status)
       use, intrinsic :: iso_c_binding, only: c_double
       use, intrinsic :: iso_fortran_env, only: int64
       use riis_c, only: riis_status
@@ -1521,6 +1522,7 @@ module riisf
       integer(int64), intent(in) :: length
       integer(int64), intent(inout) :: n
       real(c_double), intent(inout) :: rate(*)
+      real(c_double), intent(inout) :: area_rate
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_direction_64
 

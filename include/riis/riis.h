@@ -455,10 +455,11 @@ typedef struct riis_direction {
   int64_t n_vertices;  /* as riis_triangles.n_vertices */
   const double *rate;  /* (3, n_vertices): the derivative of each vertex in riis_triangles.xyz by the parameter, in mesh units
                           divided by the parameter's unit. Within a triangle the rate is linear */
+  double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it from all triangles */
 } riis_direction;
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction. With
- * them a caller computes derivatives of other numbers that depend on the triangles, such as the area (docs/theory.md,
- * "Sensitivities"). The rates hold for any use of the triangles, with every RIIS_MEASURE_*.
+ * them a caller computes derivatives of other numbers that depend on the triangles (docs/theory.md, "Sensitivities"). The
+ * rates are those of the triangles with every RIIS_MEASURE_*.
  *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,

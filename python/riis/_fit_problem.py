@@ -75,18 +75,6 @@ def vertex_areas(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
     return numpy.asarray(numpy.bincount(triangles.ravel(), numpy.repeat(third, 3), len(vertices)), numpy.float64)
 
 
-def log_area_slopes(vertices: Reals, triangles: NDArray[numpy.int64]) -> Reals:
-    """Returns the derivative of the logarithm of the area by each vertex, (n_vertices, 3)."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    normal = numpy.cross(b - a, c - a)
-    twice = numpy.linalg.norm(normal, axis=1)
-    normal /= numpy.where(twice > 0.0, twice, 1.0)[:, None]
-    by_corner = numpy.concatenate([numpy.cross(normal, edge) for edge in (c - b, a - c, b - a)])
-    corners = triangles.T.ravel()
-    slopes = [numpy.bincount(corners, column, len(vertices)) for column in by_corner.T]
-    return numpy.asarray(numpy.stack(slopes, axis=1) / twice.sum(), numpy.float64)
-
-
 @dataclass(frozen=True)
 class Pose:
     """The placement x -> scale * rotation @ x + move."""
@@ -262,7 +250,7 @@ class Problem:
         seen, pose, surface = self.at(x), self.pose(x), self.set_valve(x)
         assert seen is not None and surface is not None
         self.surface_at = None
-        of_area = log_area_slopes(surface.vertices, surface.triangles.vertex_id)
+        area = surface.info.area
         towards = -pose.scale * seen.direction @ pose.rotation
         of_corners = seen.barycentric[:, :, None] * towards[:, None, :]
         near, found, n_directions = self.valve.copy(), [], 0
@@ -274,9 +262,9 @@ class Problem:
                     surface.add_direction(near, self.valve, sign * step)
                 except Error:
                     continue
-                rate = surface.rates(n_directions)
+                direction = surface.direction(n_directions)
                 n_directions += 1
-                made = numpy.einsum("ijk,ijk->i", of_corners, rate[seen.corners]), float((of_area * rate).sum())
+                made = numpy.einsum("ijk,ijk->i", of_corners, direction.rates[seen.corners]), direction.area_rate / area
                 break
             near.update(**{name: value})
             found.append(made)

@@ -55,6 +55,13 @@ class Triangles(NamedTuple):
     patch_id: Integers  #: (n,)
 
 
+class Direction(NamedTuple):
+    """The rates of a surface along a direction: the derivatives by the parameter."""
+
+    rates: Reals  #: (n_vertices, 3), of the vertices; within a triangle the rate is linear
+    area_rate: float  #: of the surface's area
+
+
 class Attachment(NamedTuple):
     """The edges at which tissue or a stent holds the leaflets of a valve. A bileaflet valve has no such edges."""
 

@@ -105,11 +105,12 @@ void add_direction(Surface &self, nb::handle valve_after_, nb::handle valve_befo
   });
 }
 
-nb::object rates(Surface &surface, nb::handle direction_id_) {
+nb::object direction(Surface &surface, nb::handle direction_id_) {
   const Reading reading(surface.usage, "surface");
+  const std::int64_t direction_id = integer(direction_id_, "direction_id");
   riis_direction found;
-  call_shortly(riis_surface_get_direction(surface.handle, integer(direction_id_, "direction_id"), &found, sizeof found));
-  return copy_of(found.rate, {static_cast<std::size_t>(found.n_vertices), 3});
+  call_shortly(riis_surface_get_direction(surface.handle, direction_id, &found, sizeof found));
+  return record("Direction")(copy_of(found.rate, {static_cast<std::size_t>(found.n_vertices), 3}), found.area_rate);
 }
 
 Surface *from_arrays(nb::handle vertices, nb::handle faces, nb::handle leaflet_id, nb::handle velocities,
@@ -324,13 +325,11 @@ placement_after, placement_before
                   surface's values
 
 An update of the surface removes its directions.)")
-      .def("rates", &rates, nb::arg("direction_id").none() = 0,
-           nb::sig("def rates(self, direction_id: int = 0) -> numpy.typing.NDArray[numpy.float64]"),
-           R"(Copies the rates of the vertices in a direction, (n_vertices, 3).
+      .def("direction", &direction, nb::arg("direction_id").none(),
+           nb::sig("def direction(self, direction_id: int) -> riis._records.Direction"),
+           R"(Copies the derivatives of the vertices and of the area in a direction.
 
-direction_id  0 for the first add_direction after the last update, 1 for the second, and so on
-
-A rate is the derivative of a vertex by the parameter. Within a triangle the rate is linear.)")
+direction_id  0 for the first add_direction after the last update, 1 for the second, and so on)")
       .def(
           "update_from_arrays", &update_from_arrays, nb::arg("vertices").none(), nb::arg("faces").none() = nb::none(),
           nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(), nb::arg("velocities").none() = nb::none(),

@@ -43,7 +43,7 @@ BOUND = {
     "riis_surface_update": "Surface.update",
     "riis_surface_update_moving": "Surface.update_moving",
     "riis_surface_add_direction": "Surface.add_direction",
-    "riis_surface_get_direction": "Surface.rates",
+    "riis_surface_get_direction": "Surface.direction",
     "riis_surface_update_from_arrays": "Surface.update_from_arrays",
     "riis_surface_update_from_keyframes": "Surface.update_from_keyframes",
     "riis_surface_destroy": "Surface.close",

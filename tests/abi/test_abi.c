@@ -124,9 +124,10 @@ static void test_structs(void **state) {
   FIELD(riis_attachment, leaflet_id, 24, 8);
   FIELD(riis_attachment, patch_id, 32, 8);
 
-  SIZE(riis_direction, 16);
+  SIZE(riis_direction, 24);
   FIELD(riis_direction, n_vertices, 0, 8);
   FIELD(riis_direction, rate, 8, 8);
+  FIELD(riis_direction, area_rate, 16, 8);
 
   SIZE(riis_warp_options, 24);
   FIELD(riis_warp_options, struct_size, 0, 8);

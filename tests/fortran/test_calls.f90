@@ -627,6 +627,7 @@ contains
     call check_refused(riis_surface_get_direction(moving, 2_c_int64_t, direction, c_sizeof(direction)), RIIS_INVALID_ARGUMENT, &
       'direction_id is 2')
     call check_ok(riis_surface_get_direction(moving, 1_c_int64_t, direction, c_sizeof(direction)), 'the second direction')
+    call check(abs(direction%area_rate - twin%motion%direction%area_rate) <= 0, 'the rate of the area')
     call check(direction%n_vertices == n .and. twin%motion%direction%n_vertices == n, 'the number of rates')
     call check_same_bytes(direction%rate, twin%motion%direction%rate, 24 * n, 'the rates of vertices')
 

@@ -88,7 +88,8 @@ program test_layout
     at(c_loc(sis%largest_leaflet_id))])
   call compare('riis_attachment', c_sizeof(as), c_loc(as), [at(c_loc(as%n_edges)), at(c_loc(as%edges)), &
     at(c_loc(as%vertex_id)), at(c_loc(as%leaflet_id)), at(c_loc(as%patch_id))])
-  call compare('riis_direction', c_sizeof(ds), c_loc(ds), [at(c_loc(ds%n_vertices)), at(c_loc(ds%rate))])
+  call compare('riis_direction', c_sizeof(ds), c_loc(ds), [at(c_loc(ds%n_vertices)), at(c_loc(ds%rate)), &
+    at(c_loc(ds%area_rate))])
   call compare('riis_warp_options', c_sizeof(wos), c_loc(wos), [&
     at(c_loc(wos%struct_size)), at(c_loc(wos%noise)), at(c_loc(wos%placement))])
   call compare('riis_warp_info', c_sizeof(wis), c_loc(wis), [&

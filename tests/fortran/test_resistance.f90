@@ -219,6 +219,7 @@ contains
     type(riis_mark_list) :: list
     real(c_double), allocatable :: along_z(:)
     real(c_double), pointer :: rate(:, :)
+    real(c_double) :: growth
     type(riis_surface_info) :: info
     call moving%get_direction(0_int64, rate, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the surface was not created')
@@ -243,6 +244,13 @@ contains
     call moving%get_direction(0_int64, rate, status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'direction_id is 0, but the surface has no direction')
     call check(size(rate) == 0, 'no rates')
+    call moving%add_direction(valve, valve, 0.02d0, translation_after=[0d0, 0d0, 0.01d0], translation_before=[0d0, 0d0, -0.01d0])
+    call moving%add_direction(valve, valve, 0.02d0, translation_before=[0d0, 0d0, 0.02d0])
+    call moving%add_direction(valve, valve, 0.02d0, scale_after=1.01d0, scale_before=0.99d0)
+    call moving%get_direction(2_int64, rate, area_rate=growth)
+    call moving%get_info(info)
+    call check(abs(growth - 2 * info%area) < 1d-9 * info%area, 'the area grows as the square of the scale')
+    call moving%update(valve)
     call moving%add_direction(valve, valve, 0.02d0, translation_after=[0d0, 0d0, 0.01d0], translation_before=[0d0, 0d0, -0.01d0])
     call moving%add_direction(valve, valve, 0.02d0, translation_before=[0d0, 0d0, 0.02d0])
     call moving%get_direction(1_int64, rate)

@@ -47,6 +47,52 @@ static void numbers_are_mixed_by_weights(void **state) {
   }
 }
 
+/* A derivative is -n.V with the unit vector n from the closest point to the point and the mean V of the rates. It is 0 at distance
+ * 0. Nothing is written behind the last point. */
+static void distances_are_differentiated(void **state) {
+  (void)state;
+  enum { n_vertices = 20, most_directions = 3, room = most_directions * n_lanes + 1 };
+  for (int trial = 0; trial < 5000; ++trial) {
+    double points[3 * n_lanes], on[3 * n_lanes], weights[3 * n_lanes], made[room];
+    double rates[3 * n_vertices * most_directions];
+    int64_t id[3 * n_lanes];
+    const int n_points = 1 + (int)(random_bits(&rng) % n_lanes), n_directions = (int)(random_bits(&rng) % 4);
+    const double size = random_power_of_ten(&rng, -100, 100);
+    random_numbers(3 * n_lanes, size, points);
+    random_numbers(3 * n_lanes, size, on);
+    random_numbers(3 * n_lanes, 1, weights);
+    random_numbers(3 * n_vertices * most_directions, random_power_of_ten(&rng, -100, 100), rates);
+    for (int i = 0; i < 3 * n_lanes; ++i) {
+      id[i] = (int64_t)(random_bits(&rng) % n_vertices);
+      if (random_bits(&rng) % 8 == 0) weights[i] = 0;
+    }
+    for (int lane = 0; lane < n_lanes; ++lane)
+      if (random_bits(&rng) % 8 == 0) memcpy(on + 3 * lane, points + 3 * lane, 3 * sizeof *on);
+    for (int set = 0; set < n_kernel_sets; ++set) {
+      if (!kernels_there(set)) continue;
+      for (int i = 0; i < room; ++i) made[i] = 77;
+      kernels_differentiate(set, points, on, weights, id, n_vertices, n_directions, rates, n_points, made);
+      for (int i = 0; i < room; ++i) {
+        double expected = 77;
+        if (i < n_points * n_directions) {
+          const int lane = i / n_directions;
+          double away[3], dots[3];
+          difference(points + 3 * lane, on + 3 * lane, away);
+          const double length = sqrt(product(away, away)), factor = length > 0 ? -1 / length : 0;
+          for (int k = 0; k < 3; ++k) {
+            double at[3];
+            for (int x = 0; x < 3; ++x) at[x] = weights[3 * lane + k] * (length > 0 ? factor * away[x] : 0);
+            dots[k] = product(at, rates + 3 * n_vertices * (i % n_directions) + 3 * id[3 * lane + k]);
+          }
+          expected = dots[0] + dots[1] + dots[2];
+        }
+        if (memcmp(made + i, &expected, sizeof expected) != 0)
+          fail_msg("%s, trial %d, number %d: %.17g instead of %.17g", kernels_name(set), trial, i, made[i], expected);
+      }
+    }
+  }
+}
+
 static void sides_follow_the_height_over_the_plane(void **state) {
   (void)state;
   int64_t n_of_side[3] = {0, 0, 0};
@@ -114,6 +160,7 @@ int main(void) {
   rng = random_start("test_field_kernels");
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(numbers_are_mixed_by_weights),
+      cmocka_unit_test(distances_are_differentiated),
       cmocka_unit_test(sides_follow_the_height_over_the_plane),
       cmocka_unit_test(triangles_are_measured),
   };

@@ -125,6 +125,11 @@ void kernels_frame_group(int set, const double *centre, double scale, const doub
 /* For fields: interpolates the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);
+/* For fields: computes the derivatives (n_directions, n_points) of the distances of up to 8 points (3, 8) to points (3, 8) with
+ * weights (3, 8) on triangles with vertices (3, 8), at the rates (3, n_vertices, n_directions). */
+void kernels_differentiate(int set, const double *points, const double *on, const double *barycentric,
+                           const int64_t *vertex_id, int64_t n_vertices, int64_t n_directions, const double *rates,
+                           int32_t n_points, double *derivatives);
 /* Ranks keys by their size. key and n_less have room for 64. */
 void kernels_rank(int set, const int32_t *key, int32_t n, int32_t *n_less);
 /* Copies the numbers whose marks have the bit, and returns how many there are. `to` has room for n. */

@@ -186,6 +186,25 @@ void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers,
   for (int i = 0; i < pairs_at_once; ++i) std::copy_n(made[i].number, 8, mixed + 8 * i);
 }
 
+void kernels_differentiate(int set, const double *points, const double *on, const double *barycentric,
+                           const int64_t *vertex_id, int64_t n_vertices, int64_t n_directions, const double *rates,
+                           int32_t n_points, double *derivatives) {
+  PointsAndTriangles pairs;
+  PointsOnTriangles located;
+  const std::int64_t *vertex[pairs_at_once];
+  for (int i = 0; i < pairs_at_once; ++i) {
+    vertex[i] = vertex_id + 3 * i;
+    for (int c = 0; c < 3; ++c) {
+      pairs.point[c][i] = points[3 * i + c];
+      located.point[c][i] = on[3 * i + c];
+      located.barycentric[c][i] = barycentric[3 * i + c];
+    }
+  }
+  std::vector<const double *> of_direction;
+  for (std::int64_t i = 0; i < n_directions; ++i) of_direction.push_back(rates + 3 * n_vertices * i);
+  of(set).differentiate(pairs, located, vertex, of_direction.data(), n_directions, n_points, derivatives);
+}
+
 int32_t kernels_select(int set, const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
   return of(set).select(numbers, marks, n, bit, to);
 }

@@ -67,7 +67,7 @@ constexpr std::int64_t first_size_of(const riis_opening_angle *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_opening_angle_state *) { return 64; }
 constexpr std::int64_t first_size_of(const riis_coaptation *) { return 24; }
 constexpr std::int64_t first_size_of(const riis_gap *) { return 64; }
-constexpr std::int64_t first_size_of(const riis_direction *) { return 16; }
+constexpr std::int64_t first_size_of(const riis_direction *) { return 24; }
 
 // Refuses a struct of a wrong size. A right size is that of the first release or a larger multiple of 8, and at most that of the
 // library's own struct.

@@ -231,7 +231,8 @@ riis_status riis_surface_get_direction(const riis_surface *surface, int64_t dire
       riis::fail(RIIS_INVALID_ARGUMENT, "direction_id is ", direction_id, "; it must be from 0 to ",
                  content.n_directions() - 1);
     riis::write_struct(direction, struct_size, "direction",
-                       riis_direction{content.triangles().n_vertices(), content.rates(direction_id).data()});
+                       riis_direction{content.triangles().n_vertices(), content.rates(direction_id).data(),
+                                      content.area_rate(direction_id)});
   });
 }
 

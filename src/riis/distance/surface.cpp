@@ -10,17 +10,28 @@
 namespace riis {
 namespace {
 
-// Sums the areas block by block, which loses less to rounding.
-double area_of(const TriangleSet &set) {
-  const std::int64_t n = set.n_triangles();
+// Sums numbers of triangles block by block, which loses less to rounding.
+template <class OfTriangle>
+double sum_over_triangles(std::int64_t n, const OfTriangle &of_triangle) {
   constexpr std::int64_t triangles_per_block = 4096;
-  double area = 0;
+  double sum = 0;
   for (std::int64_t first = 0; first < n; first += triangles_per_block) {
     double of_block = 0;
-    for (std::int64_t i = first; i < std::min(n, first + triangles_per_block); ++i) of_block += set.area(i);
-    area += of_block;
+    for (std::int64_t i = first; i < std::min(n, first + triangles_per_block); ++i) of_block += of_triangle(i);
+    sum += of_block;
   }
-  return area;
+  return sum;
+}
+
+// Returns the derivative of the area of a triangle whose corners move at these rates.
+double area_rate_of(const TriangleSet &set, const double *rates, std::int64_t triangle) {
+  const auto [a, b, c] = set.corners(triangle);
+  const std::int64_t *const id = set.vertex_id.data() + 3 * triangle;
+  const auto rate = [&](int k) { return Vec3{rates[3 * id[k]], rates[3 * id[k] + 1], rates[3 * id[k] + 2]}; };
+  const Vec3 ab = b - a, ac = c - a, normal = cross(ab, ac), of_a = rate(0);
+  const double twice_area = length(normal);
+  if (!(twice_area > 0)) return 0;
+  return 0.5 / twice_area * dot(normal, cross(rate(1) - of_a, ac) + cross(ab, rate(2) - of_a));
 }
 
 // Collects the ids of the leaflets. In the surface of a valve, the triangles of a leaflet follow each other, so few ids are
@@ -60,8 +71,17 @@ void Surface::measure_by(std::unique_ptr<const PatchDistance> other_distance, do
 
 double Surface::area() const {
   double area = area_.load(std::memory_order_relaxed);
-  if (area == not_known) area_.store(area = area_of(triangles_), std::memory_order_relaxed);
+  if (area == not_known) {
+    area = sum_over_triangles(triangles_.n_triangles(), [&](std::int64_t i) { return triangles_.area(i); });
+    area_.store(area, std::memory_order_relaxed);
+  }
   return area;
+}
+
+double Surface::area_rate(std::int64_t direction) const {
+  const double *const rates_here = rates(direction).data();
+  return sum_over_triangles(triangles_.n_triangles(),
+                            [&](std::int64_t i) { return area_rate_of(triangles_, rates_here, i); });
 }
 
 double Surface::velocity_error_bound() const {

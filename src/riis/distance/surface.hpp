@@ -47,6 +47,8 @@ class Surface {
   std::int64_t n_directions() const { return n_directions_; }
   // Returns the rates of the vertices in a direction, (3, n_vertices).
   const std::vector<double> &rates(std::int64_t direction) const { return view(rates_)[direction]; }
+  // Computes the derivative of area() in a direction.
+  double area_rate(std::int64_t direction) const;
 
   const TriangleSet &triangles() const { return triangles_; }
   const TriangleScene &scene() const { return scene_; }

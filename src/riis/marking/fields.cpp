@@ -181,18 +181,10 @@ class TriangleFields {
   // Writes the derivatives of the distances: -n.V in each direction, with the unit vector n from the closest point to the node
   // and the rate V of the closest point.
   void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
-    double *to = made_.distance_gradient.data() + n_directions() * first;
-    for (std::int64_t lane = 0; lane < n; ++lane) {
-      const Vec3 away = EightPoints::lane_of(eight.pairs.point, lane) - EightPoints::lane_of(eight.on.point, lane);
-      const double size = length(away);
-      const Vec3 towards = size > 0 ? (-1 / size) * away : Vec3{0, 0, 0},
-                 weight = EightPoints::lane_of(eight.on.barycentric, lane);
-      const Vec3 at_a = weight.x * towards, at_b = weight.y * towards, at_c = weight.z * towards;
-      const std::int64_t *const id = set_.vertex_id.data() + 3 * eight.triangle[lane];
-      for (const double *const rates : rates_)
-        *to++ = dot(at_a, vector_at(rates + 3 * id[0])) + dot(at_b, vector_at(rates + 3 * id[1])) +
-                dot(at_c, vector_at(rates + 3 * id[2]));
-    }
+    const std::int64_t *vertex[pairs_at_once];
+    for (std::int64_t lane = 0; lane < n; ++lane) vertex[lane] = set_.vertex_id.data() + 3 * eight.triangle[lane];
+    simd_.differentiate(eight.pairs, eight.on, vertex, rates_.data(), n_directions(), static_cast<std::int32_t>(n),
+                        made_.distance_gradient.data() + n_directions() * first);
   }
 
   std::int64_t n_directions() const { return view(rates_).size(); }
