@@ -441,7 +441,7 @@ RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, c
  *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: those
  *                   of the surface
  * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. If the surface is
- * midway between the states, the error of the derivative is of second order in dp, otherwise of first order. A dp of 1e-4 of
+ * midway between the states, the error of the derivative is of second order in dp, otherwise of first order. A dp of 1e-5 of
  * the parameter's size suits most parameters. The triangles may have any triangulation, whose limits hold for the surface only.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
  * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000

@@ -269,6 +269,43 @@ def test_derivatives_are_those_of_new_closest_points(kind, thickness):
         assert abs((ends[0].log_area - ends[1].log_area) / 2e-5 - area[i]) < 1e-3
 
 
+def test_derivatives_by_fixed_sizes_are_those_of_new_closest_points():
+    """A column is the derivative for a change by the whole value of a size, or by a radian."""
+    points = numpy.random.default_rng(6).uniform(-1.5, 1.5, (300, 3))
+    problem, x = problem_of("coapting", points)
+    jacobian, areas = problem.fixed_jacobian(x)
+    valve, fixed = problem.valve, []
+    for name, parameter in valve.parameters.items():
+        if name not in problem.names and parameter.n_values == 1 and name != "opening" and valve[name] != 0.0:
+            fixed.append((name, valve[name], numpy.degrees(1.0) if parameter.unit == "degree" else valve[name]))
+    assert jacobian.shape == (len(points), len(fixed)) and len(fixed) > 3
+    for (name, value, whole), column, area in zip(fixed, jacobian.T, areas):
+        ends = []
+        for step in (1e-5, -1e-5):
+            valve[name] = value + step * whole
+            problem.surface_at = None
+            ends.append(problem.look(x))
+        valve[name] = value
+        difference = (ends[0].residual - ends[1].residual) / 2e-5
+        close = numpy.abs(difference - column) < 1e-3 * (1.0 + numpy.abs(difference))
+        assert close.mean() > 0.97, name
+        assert abs((ends[0].log_area - ends[1].log_area) / 2e-5 - area) < 1e-3, name
+
+
+def test_a_surface_is_updated_after_derivatives():
+    """A jacobian at one place leaves the values of this place, whatever surface was seen last."""
+    points = numpy.random.default_rng(7).uniform(-1.5, 1.5, (50, 3))
+    problem, x = problem_of("mitral", points)
+    first, area = problem.jacobian(x)
+    seen, moved = problem.last, x.copy()
+    moved[:2] += 0.2
+    problem.at(moved)
+    problem.last = seen  # as if the move had been refused
+    again, area_again = problem.jacobian(x)
+    assert numpy.array_equal(first, again) and numpy.array_equal(area, area_again)
+    assert [problem.valve[name] for name in problem.names] == problem.values(x).tolist()
+
+
 def test_weights_are_derivatives_of_the_losses():
     r = numpy.linspace(-0.2, 0.2, 81)
     for loss in (wide_loss(0.1), Mixture(0.03, 0.1, 1.0).loss(True), Mixture(0.02, 0.002, 0.5).loss(False)):

@@ -152,6 +152,10 @@ REFUSED = {
                         lambda o: riis.Surface(o.valve).add_direction(o.valve, o.valve, 1.0, placement_after={"tolerance": 1})),
     "direction of arrays": (Argument, "surface was made from arrays", lambda o: riis.Surface.from_arrays(
         o.triangle, o.faces).add_direction(o.valve, o.valve, 1.0)),
+    "direction_id": (Argument, "direction_id is 0, but the surface has no direction: call Surface.add_direction",
+                     lambda o: riis.Surface(o.valve).direction(0)),
+    "type of direction_id": (TypeError, "direction_id: must be an integer, not float",
+                             lambda o: riis.Surface(o.valve).direction(0.0)),
     "no direction": (Argument, "with 'distance_gradient', but the surface has no direction: call Surface.add_direction",
                      lambda o: riis.mark(o.surface, o.mesh, fields="distance_gradient")),
     "no K_gradient": (Argument, "K_gradient: the marking did not make it; mark with R= and fields='distance_gradient'",

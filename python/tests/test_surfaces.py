@@ -48,6 +48,29 @@ def test_normals_flip(valve):
     assert numpy.array_equal(plain.normal, -flipped.normal) and plain.side == -flipped.side != 0
 
 
+def test_directions_are_differences_of_vertices(valve):
+    surface = riis.Surface(valve, triangulation="fixed", scale=2.0)
+    step = 1e-5
+    sides = []
+    for sign in (-1.0, 1.0):
+        near = valve.copy()
+        near["opening"] = valve["opening"] + sign * step
+        surface.update(near)
+        sides.append((surface.vertices, surface.info.area, near))
+    surface.update(valve)
+    surface.add_direction(sides[1][2], sides[0][2], 2.0 * step)
+    surface.add_direction(valve, valve, 0.5, placement_after={"scale": 2.5})
+    opened, grown = surface.direction(0), surface.direction(direction_id=1)
+    assert opened.rates.shape == surface.vertices.shape and numpy.abs(opened.rates).max() > 0.1
+    assert numpy.allclose(opened.rates, (sides[1][0] - sides[0][0]) / (2.0 * step), atol=1e-8)
+    assert numpy.isclose(opened.area_rate, (sides[1][1] - sides[0][1]) / (2.0 * step), rtol=1e-6)
+    assert numpy.allclose(grown.rates, surface.vertices / 2.0, atol=1e-9)
+    assert numpy.isclose(grown.area_rate, surface.info.area, rtol=1e-9)  # the area grows as the square of the scale, which is 2
+    before = opened.rates.copy()
+    surface.update(valve)  # the arrays are copies
+    assert numpy.array_equal(opened.rates, before)
+
+
 def test_a_fixed_triangulation_keeps_its_triangles(valve):
     surface = riis.Surface(valve, triangulation="fixed")
     before = surface.triangles.vertex_id.copy()
