@@ -485,10 +485,9 @@ static void random_valves_open_well(void **state) {
     free_owned_after(owned_before);
   }
   printf(
-      "%d valves at 11 openings (%lld sets refused): %lld cross, %lld states whose triangles alone cross, free edge "
-      "%.5f to "
-      "%.5f of its length, crease %.2f degrees closed, %.2f opening, %lld wrong sides, open orifice at least %.2f pi "
-      "Rc^2\n",
+      "%d valves at 11 openings (%lld sets refused): %lld cross, %lld states whose triangles alone cross, "
+      "free edge %.5f to %.5f of its length, crease %.2f degrees closed, %.2f opening, %lld wrong sides, "
+      "open orifice at least %.2f pi Rc^2\n",
       n, (long long)n_refused, (long long)n_crossing, (long long)n_shallow, low, high, creases[0], creases[1],
       (long long)n_wrong, least_opening);
   assert_int_equal(n_crossing, 0);
@@ -547,7 +546,7 @@ static void a_low_zone_turns_sharply_without_a_crease(void **state) {
 }
 
 /* The leaflet of these sizes is nearly tangent to itself beside the root, at full opening. The triangles of the default tolerance
- * cross by a fraction of a micrometre. The valve does not: the depth falls to 0 as the tolerance falls. */
+ * cross by a fraction of a micrometre, but the valve does not. */
 static void a_nearly_tangent_leaflet_does_not_cross(void **state) {
   (void)state;
   static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
