@@ -422,7 +422,7 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
 }
 
 /* Returns the number of pairs of triangles that cross where the smooth valve does. A leaflet may be nearly tangent to itself
- * beside the root, about 1 micrometre apart. Its triangles then may cross, but by no more than twice the bound of their error, and
+ * beside the root, about 1 micrometre apart. Its triangles then may cross by no more than twice the bound of their error, but
  * finer triangles do not. Such crossings are counted by `n_shallow`. */
 static int64_t true_crossings(const riis_surface *surface, const riis_valve *valve, riis_crossings *crossings,
                               int64_t *n_shallow) {
