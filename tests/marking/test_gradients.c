@@ -375,8 +375,7 @@ static void derivatives_are_central_differences(void **state_) {
         for (int d = 0; d < n; ++d) {
           for (int i = 0; i < n_points; ++i)
             gradient[i] = list.distance_gradient[n * i + d], K_gradient[i] = list.K_gradient[n * i + d];
-          compare(surface, &state, directions + d, shifts, xyz, gradient, d, list.K, K_gradient, R,
-                  &t);
+          compare(surface, &state, directions + d, shifts, xyz, gradient, d, list.K, K_gradient, R, &t);
         }
         free_owned_after(owned_before);
       }
@@ -479,7 +478,8 @@ static void derivatives_approach_those_of_the_smooth_valve(void **state) {
         n = 0;
         for (int p = 0; p < n_points; ++p) {
           const slopes s = slopes_of(distance[0][p], distance[1][p], distance[2][p], step);
-          const double slope = s.middle, d = list.distance[p], off_slope = fabs(list.distance_gradient[p] - slope) / speed;
+          const double slope = s.middle, d = list.distance[p],
+                       off_slope = fabs(list.distance_gradient[p] - slope) / speed;
           if (!(d > 0.05 * eps)) continue;
           if (is_smooth ? fabs(s.right - s.left) > 0.1 * speed
                         : off_slope > 1e-5 && is_beside_tie(s, list.distance_gradient[p], speed)) {
@@ -693,8 +693,10 @@ static void missing_directions_are_refused(void **state) {
   riis_direction got;
   memset(&got, 0x22, sizeof got);
   const riis_direction before = got;
-#define REFUSED(status, parts, id, size) CHECK_REFUSED(status, parts, riis_surface_get_direction(surface, id, &got, size))
-  REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is 0, but the surface has no direction|riis_surface_add_direction", 0, 24);
+#define REFUSED(status, parts, id, size) \
+  CHECK_REFUSED(status, parts, riis_surface_get_direction(surface, id, &got, size))
+  REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is 0, but the surface has no direction|riis_surface_add_direction", 0,
+          24);
   for (int i = 0; i < 3; ++i) CHECK_OK(riis_surface_add_direction(surface, valve, valve, 1, NULL, NULL));
   REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is -1; it must be from 0 to 2", -1, 24);
   REFUSED(RIIS_INVALID_ARGUMENT, "direction_id is 3; it must be from 0 to 2", 3, 24);

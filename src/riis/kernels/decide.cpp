@@ -552,9 +552,18 @@ void sum_cubes_with_derivatives(const CubeSources &sources, const double *at, Cu
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {
-    take_corners, have_area, place_points,    measure_triangles, frame_group, make_groups,
-    decide,       locate,    mix_at_vertices, differentiate,     find_sides,  sum_cubes,
-    sum_cubes_with_derivatives};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {take_corners,
+                                                        have_area,
+                                                        place_points,
+                                                        measure_triangles,
+                                                        frame_group,
+                                                        make_groups,
+                                                        decide,
+                                                        locate,
+                                                        mix_at_vertices,
+                                                        differentiate,
+                                                        find_sides,
+                                                        sum_cubes,
+                                                        sum_cubes_with_derivatives};
 
 }  // namespace riis
