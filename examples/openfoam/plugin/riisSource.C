@@ -8,8 +8,8 @@
 //
 // A face is resisted if K dt > rho in both of its cells. Faces that are not resisted join cells to sets. A set is sealed if only
 // resisted faces and walls bound it. In a sealed set of the volume |set|, the source is
-//   S = 1/|set| * sum of u_f . A over the resisted faces of the set.
-// A points outward, and u_f is the velocity of the leaflets on the face. In all other cells S is 0.
+//   S = 1/|set| * sum of u_f . A over the resisted faces of the set and its walls.
+// A points outward, and u_f is the velocity of the leaflets on the face, or of the wall. In all other cells S is 0.
 #include "addToRunTimeSelectionTable.H"
 #include "cyclicPolyPatch.H"
 #include "emptyPolyPatch.H"
@@ -135,6 +135,8 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
         if (resisted[patch.start() + i]) out[here] += through[i];
       } else if (!isClosed(patch)) {
         ends[here] += 1;
+      } else if (mesh.moving() && isA<wallPolyPatch>(patch)) {
+        out[here] += mesh.phi().boundaryField()[patch.index()][i];
       }
     }
   }
