@@ -7,7 +7,8 @@
 // when the step is solved. elastanceTable is a function object that writes a row for each step.
 //
 // p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the
-// face f sweeps if the amplitude grows. So the work of the blood on the wall is exactly the integral of p dV.
+// face f sweeps if the amplitude grows, as the base sees it. So the work of the blood on the wall is exactly the integral of
+// p dV, without the work that the whole heart's descent takes.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -188,8 +189,8 @@ class elastanceMotion : public points0MotionSolver {
       pointField more(patch.nPoints()), less(patch.nPoints());
       forAll(more, i) {
         const point &from = points0_[patch.meshPoints()[i]];
-        more[i] = wall_.moved(from, amplitude_ + 0.5e-3);
-        less[i] = wall_.moved(from, amplitude_ - 0.5e-3);
+        more[i] = wall_.deformed(from, amplitude_ + 0.5e-3);
+        less[i] = wall_.deformed(from, amplitude_ - 0.5e-3);
       }
       forAll(patch, i) {
         const face &f = patch.localFaces()[i];
