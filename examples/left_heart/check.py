@@ -65,7 +65,9 @@ class Beat:
         valves = read_valves(case)
         self.openings = {name: np.interp(self.time, rows[:, 0], rows[:, 1]) for name, rows in valves.items()}
         log = foam.text(case / "log.pimpleFoam")
-        self.processor_seconds = float(re.findall(r"ExecutionTime = (\S+)", log)[-1])
+        seconds = np.array(re.findall(r"ExecutionTime = (\S+)", log), float)
+        # The time begins at 0 again where a run was cut off and went on.
+        self.processor_seconds = seconds[-1] + seconds[:-1][np.diff(seconds) < 0].sum()
         self.courant = max(float(word) for word in re.findall(r"Courant Number mean: \S+ max: (\S+)", log))
 
     @functools.cached_property

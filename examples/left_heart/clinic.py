@@ -40,7 +40,7 @@ def vortex(points, corners, velocity):
     fine = np.abs(twice) > 1e-14
     one, two = (velocity[corners[:, k]] - velocity[corners[:, 0]] for k in (1, 2))
     # The velocity is linear in a triangle, so its circulation around the triangle is exact.
-    around = ((one * second).sum(axis=1) - (two * first).sum(axis=1)) / 2 * -np.sign(twice)
+    around = ((one * second).sum(axis=1) - (two * first).sum(axis=1)) / 2 * np.sign(twice)
     areas, middles = np.abs(twice) / 2, (a + b + c) / 3
     keep = fine & (middles[:, 1] < 0)
     around, areas, middles = around[keep], areas[keep], middles[keep]

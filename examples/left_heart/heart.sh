@@ -9,9 +9,10 @@ heart_least_opening=0.3                                      # of the regurgitan
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
-# heart [--all] [--short] | --coupled [--short]
+# heart [--resume] [--all] [--short] | [--resume] --coupled [--short]
 heart() {
-  local python name
+  local python name of_keep=
+  [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }
   heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only='' heart_diseases=()
   [[ ${1:-} != --all ]] || { heart_diseases=(stenosis regurgitation) && shift; }
   case $* in
@@ -31,17 +32,24 @@ heart() {
   python=$(python_of_packages)
   heart_python() { "$python" -B "$heart_here/$1" "${@:2}"; }
 
-  step "mesh the heart" heart_mesh
-  step "measure what the mitral valve leaves to the flow at each opening" heart_orifice mitral
-  step "measure what the aortic valve leaves to the flow at each opening" heart_orifice aortic
+  if [[ $of_keep ]]; then
+    [[ -e $of_cases/${heart_only:-beat}/log.pimpleFoam ]] || {
+      echo "./run heart: --resume finds no run in $of_cases/${heart_only:-beat}" >&2
+      exit 2
+    }
+  else
+    step "mesh the heart" heart_mesh
+    step "measure what the mitral valve leaves to the flow at each opening" heart_orifice mitral
+    step "measure what the aortic valve leaves to the flow at each opening" heart_orifice aortic
+  fi
   if [[ $heart_only ]]; then
     heart_coupled
     say "wrote out/heart, and the beat in $of_cases/coupled"
     return
   fi
-  step "a heart without space" heart_zero_d beat "$of_out" "$heart_beats"
+  [[ $of_keep ]] || step "a heart without space" heart_zero_d beat "$of_out" "$heart_beats"
   cat "$of_out/zero_d.txt"
-  step "$heart_beats beats of the heart" of_run beat 1
+  step "$heart_beats beats of the heart" heart_run beat
   heart_python check.py beat "$of_cases/beat" "$of_out/zero_d.csv" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee \
     "$of_out/beat.txt"
   step "40 steps on 1 and 2 ranks, and a restart" heart_ranks
@@ -61,6 +69,15 @@ heart() {
 heart_with_diseases() {
   local name
   for name in "${heart_diseases[@]}"; do echo "$of_cases/$name" "$of_out/$name"; done
+}
+
+# heart_run NAME: runs the case on one rank, from its last written time. The log grows if the run was cut off before.
+heart_run() {
+  local log=$of_cases/$1/log.pimpleFoam
+  timeout 14400 "${of_with[@]}" pimpleFoam -case "$of_cases/$1" >>"$log" 2>&1 && return
+  echo "failed: pimpleFoam -case $of_cases/$1; the end of $log:" >&2
+  tail -n 20 "$log" >&2
+  return 1
 }
 
 heart_build() {
@@ -126,11 +143,11 @@ heart_zero_d() {
 heart_diseased() {
   local folder=$of_out/$1 sick=aortic well=mitral
   [[ $1 == stenosis ]] || sick=mitral well=aortic
-  mkdir "$folder" && cp "$of_out/$well.csv" "$folder"
+  mkdir -p "$folder" && cp "$of_out/$well.csv" "$folder"
   step "$1: measure what the $sick valve leaves to the flow" heart_orifice "$sick" "$1"
   step "$1: a heart without space" heart_zero_d "$1" "$folder" 1
   cat "$folder/zero_d.txt"
-  step "$1: a beat" of_run "$1" 1
+  step "$1: a beat" heart_run "$1"
   heart_python check.py beat "$of_cases/$1" "$folder"/{zero_d,mitral,aortic}.csv | tee "$folder/beat.txt"
 }
 

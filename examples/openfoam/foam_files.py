@@ -134,9 +134,13 @@ def times(case):
 
 
 def columns(case, pattern, n):
-    """Returns the first n columns of all tables of a function object, those of the first start first."""
+    """Returns the first n columns of all tables of a function object, those of the first start first.
+
+    The first column is the time. If a run was cut off, it began again before the end of its table, and the later table counts.
+    """
     rows = []
     for path in sorted(pathlib.Path(case).glob(pattern), key=lambda path: float(path.parent.name)):
+        rows = [row for row in rows if row[0] <= float(path.parent.name) * (1 + 1e-9)]
         for i, line in enumerate(text(path).splitlines()):
             words = line.split()
             if line.startswith("#"):

@@ -60,7 +60,7 @@ openfoam() {
 }
 
 # openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and
-# out/OUT, for results. Returns 1 after a message if OpenFOAM is left out.
+# out/OUT, for results. With of_keep it keeps what is in them. Returns 1 after a message if OpenFOAM is left out.
 openfoam_start() {
   openfoam_has_package || return
   packages=("${openfoam_packages[@]}" "${@:3}")
@@ -71,7 +71,7 @@ openfoam_start() {
   step "build the library and the plug-in" openfoam_build
   openfoam_environment
   of_cases=$of_work/$1 of_out=$PWD/out/$2
-  rm -rf "$of_cases" "$of_out"
+  [[ ${of_keep:-} ]] || rm -rf "$of_cases" "$of_out"
   mkdir -p "$of_cases" "$of_out"
 }
 
