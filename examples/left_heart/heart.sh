@@ -5,7 +5,7 @@
 
 heart_here=examples/left_heart
 heart_stiff='open_radius_ratio 0.45; commissure_expansion 0;' # of the stenotic aortic valve
-heart_least_opening=0.3                                      # of the regurgitant mitral valve
+heart_least_opening=0.35                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
@@ -171,19 +171,25 @@ heart_refused() {
   heart_case "$folder" && heart_held "$folder" 10 0 && of_set "$folder" "${@:3}" && of_refused "$1" "$folder" "$2"
 }
 
-# heart_zero_d_refuses NAME TEXT MITRAL.csv AORTIC.csv
-heart_zero_d_refuses() {
+# heart_refuses NAME TEXT COMMAND...: the command must fail with this text.
+heart_refuses() {
   local message
-  if message=$(heart_python zero_d.py "$of_cases/beat" "$3" "$4" 2>&1) || [[ $message != *"$2"* ]]; then
+  if message=$("${@:3}" 2>&1) || [[ $message != *"$2"* ]]; then
     echo "$1: not refused with '$2': $message" >&2
     return 1
   fi
   of_tell_refused "$1" "$2"
 }
 
+# heart_zero_d_refuses NAME TEXT MITRAL.csv AORTIC.csv
+heart_zero_d_refuses() { heart_refuses "$1" "$2" heart_python zero_d.py "$of_cases/beat" "$3" "$4"; }
+
 heart_refusals() {
   local motion=constant/dynamicMeshDict
-  heart_refused "no length" "length is 0, and must be positive" "$motion" beatMotionCoeffs/length 0 &&
+  heart_refuses "an unknown option" "'--fast' is not an option" ./run heart --fast &&
+    heart_refuses "a valve that never closes" "the least opening is 1, and must be at least 0 and below 1" \
+      heart_python check.py keys 1 &&
+    heart_refused "no length" "length is 0, and must be positive" "$motion" beatMotionCoeffs/length 0 &&
     heart_refused "no amplitude" "Unknown Function1 type none for amplitude" "$motion" beatMotionCoeffs/amplitude none &&
     heart_refused "an unknown law" "law is 'tabel', and must be" system/fvOptions mitral/opening '{ law tabel; }' &&
     heart_refused "a valve outside the heart" "no cell centre lies within the half thickness" system/fvOptions \

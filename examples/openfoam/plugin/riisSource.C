@@ -7,7 +7,7 @@
 // the solver that its dictionary names as linearSolver. README.md says how to switch it on.
 //
 // A face is resisted if K dt > rho in both of its cells. Faces that are not resisted join cells to sets. A set is sealed if only
-// resisted faces and walls bound it. In a sealed set of the volume |set|, the source is
+// resisted faces and walls bound it, and if it is smaller than the bands. In a sealed set of the volume |set|, the source is
 //   S = 1/|set| * sum of u_f . A over the resisted faces of the set and its walls.
 // A points outward, and u_f is the velocity of the leaflets on the face, or of the wall. In all other cells S is 0.
 #include "addToRunTimeSelectionTable.H"
@@ -148,6 +148,16 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   addOverRanks(size);
   // A closed box has no set with an open end. Its largest set holds most of the blood, so this set does not count as sealed.
   if (!hasReference && max(ends) == 0) ends[findMax(size)] = 1;
+  // A set that is larger than all bands is a chamber between closed valves. Its blood leaks through the valves, and its wall may
+  // move, so it does not count as sealed.
+  scalar bands = 0;
+  forAll(volume, cell) bands += strength[cell] > 1 ? volume[cell] : 0;
+  reduce(bands, sumOp<scalar>());
+  if (hasReference) {
+    forAll(ends, i) {
+      if (size[i] > bands) ends[i] = 1;
+    }
+  }
 
   label sets = 0, cells = 0;
   forAll(ends, i) sets += ends[i] == 0 && out[i] != 0;
