@@ -96,7 +96,7 @@ def valves_from_below(axes, case, time):
                                                                   edgecolors=colours, linewidths=0.3))
     axes.set_aspect("equal")
     axes.set_xlim(-32, 32)
-    axes.set_ylim(-20, 25)
+    axes.set_ylim(-19, 19)
     axes.axis("off")
 
 
@@ -113,7 +113,8 @@ def at_openings(case, beat, times):
 def pictures(case, beat, out):
     times = clinic.written(case)
     largest = 1.2
-    figure, axes = plt.subplots(2, 4, figsize=(11, 7), height_ratios=(2.6, 1), layout="constrained")
+    figure, axes = plt.subplots(2, 4, figsize=(11, 6.2), height_ratios=(2.9, 1), sharey="row",
+                                layout="constrained")
     for above, below, time in zip(*axes, at_openings(case, beat, times)):
         colours = slice_at(above, case, time, largest)
         above.set_xlabel("y, mm")
@@ -127,7 +128,7 @@ def pictures(case, beat, out):
         return
     with tempfile.TemporaryDirectory() as folder:
         for i, time in enumerate(times):
-            figure, axes = plt.subplots(2, 1, figsize=(4.4, 8.4), height_ratios=(2.6, 1), layout="constrained")
+            figure, axes = plt.subplots(2, 1, figsize=(4.4, 8.2), height_ratios=(2.9, 1), layout="constrained")
             figure.colorbar(slice_at(axes[0], case, time, largest), ax=axes[0], label="speed, m/s", shrink=0.8, extend="max")
             valves_from_below(axes[1], case, time)
             figure.savefig(f"{folder}/{i:04}.png", dpi=100)
