@@ -57,18 +57,15 @@ heart() {
   heart_python check.py restart "$of_cases/ranks-1" "$of_cases/restart" | tee "$of_out/restart.txt"
   step "bad input, which must be refused" heart_refusals
   cat "$of_out/refusals.txt"
+  local hearts=("$of_cases/beat" "$of_out")
   step "draw" heart_python draw.py "$of_cases/beat" "$of_out/zero_d.csv" "$of_out"
-  for name in "${heart_diseases[@]}"; do heart_diseased "$name"; done
-  heart_python clinic.py "$of_cases/beat" "$of_out" $(heart_with_diseases) | tee "$of_out/clinic.txt"
-  [[ ! ${heart_diseases[*]} ]] || step "draw the loops" heart_python draw.py loops "$of_out/loops.png" "$of_cases/beat" "$of_out" \
-    $(heart_with_diseases)
+  for name in "${heart_diseases[@]}"; do
+    heart_diseased "$name"
+    hearts+=("$of_cases/$name" "$of_out/$name")
+  done
+  heart_python clinic.py "${hearts[@]}" | tee "$of_out/clinic.txt"
+  [[ ! ${heart_diseases[*]} ]] || step "draw the loops" heart_python draw.py loops "$of_out/loops.png" "${hearts[@]}"
   say "wrote out/heart, and the beat in $of_cases/beat"
-}
-
-# Prints the case and the folder of tables of each diseased heart.
-heart_with_diseases() {
-  local name
-  for name in "${heart_diseases[@]}"; do echo "$of_cases/$name" "$of_out/$name"; done
 }
 
 # heart_run NAME: runs the case on one rank, from its last written time. The log grows if the run was cut off before.
@@ -97,8 +94,8 @@ heart_mesh() {
     of_from_gmsh "$folder" "$folder/heart.msh" && of_mesh_is_fine "$folder"
 }
 
-# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the cusps of the aortic valve are stiff,
-# and their free edges stay near the axis. With regurgitation the openings of the mitral valve end at heart_least_opening.
+# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the cusps of the aortic valve are
+# stiff, and their free edges stay near the axis. With regurgitation the openings of the mitral valve end at heart_least_opening.
 heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
