@@ -147,8 +147,7 @@ view() {
   [[ -x $python_folder/fresh/bin/python ]] || python_make_here
   packages=("${demo_packages[@]}" "${view_packages[@]}")
   install_missing
-  step "configure" cmake --preset default
-  step "build the program" cmake --build build --target riis_program --parallel "$n_jobs"
+  step "build the program" build_demo
   "$python_folder/fresh/bin/python" -B -W ignore python/tests/check_view.py out/view build/bin/riis
 }
 

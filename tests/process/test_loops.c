@@ -41,11 +41,12 @@ static void the_threads_leave_signals_to_the_caller(void **state) {
   assert_true(seen.takes_error_signals);
 }
 
-/* This would wait for ever if a loop waited for all of its threads. It is the first test, so the team has only one more
- * thread. */
+/* This would wait for ever if a loop waited for all of its threads, or for a lock that a held thread has. The thread has to be
+ * held at many points to show the latter. It is the first test, so the team has only one more thread. */
 static void loops_end_while_a_thread_is_held(void **state) {
   (void)state;
   assert_true(loops_while_a_thread_is_held(200));
+  for (int i = 0; i < 2000; ++i) assert_true(loops_while_a_thread_is_held(10));
 }
 
 static void a_long_wait_chooses_a_team(void **state) {

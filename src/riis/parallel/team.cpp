@@ -3,12 +3,12 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <semaphore.h>
 #include <signal.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -53,6 +53,21 @@ bool wait_awake(const Condition &holds) {
   }
 }
 
+// Threads sleep on semaphores. A condition variable would need a mutex. A thread that the system holds up while it has the mutex
+// would then hold up the calling thread too.
+class Semaphore {
+ public:
+  Semaphore() { sem_init(&semaphore_, 0, 0); }
+  void post() { sem_post(&semaphore_); }
+  void wait() {
+    while (sem_wait(&semaphore_) != 0) {  // a signal has interrupted it
+    }
+  }
+
+ private:
+  sem_t semaphore_;
+};
+
 // The state of a team's loop, in one word: the number of workers inside the loop, the number of places for further workers, and
 // the number of the loop. So a worker takes a place only in a loop that still has one.
 struct State {
@@ -96,12 +111,8 @@ class Team {
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
     // A worker that is awake comes by itself, if the system lets it.
-    const int n_to_wake = n_places - (n_workers_ - n_asleep_.load());
-    if (n_to_wake > 0) {
-      // A worker that has counted itself as asleep holds the mutex until it sleeps.
-      { const std::lock_guard<std::mutex> lock(mutex_); }
-      for (int i = 0; i < n_to_wake; ++i) may_start_.notify_one();
-    }
+    const int n_awake = n_workers_ - n_asleep_.load();
+    for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);
     if (State{state_.fetch_and(~State::all_places)}.n_inside() > 0) wait_for_workers();
   }
@@ -126,38 +137,45 @@ class Team {
       last_loop = state.loop();
       work_(context_, state.n_places());
       const State left{state_.fetch_sub(State::one_inside)};
-      if (left.n_inside() == 1 && caller_sleeps_.load()) {
-        { const std::lock_guard<std::mutex> lock(mutex_); }
-        may_end_.notify_one();
-      }
+      if (left.n_inside() == 1 && caller_sleeps_.exchange(false)) may_end_.post();
     }
+  }
+
+  // Takes up to n workers off the number of those that sleep, and returns how many.
+  int take_asleep(int n) {
+    int n_asleep = n_asleep_.load(), n_taken = 0;
+    do n_taken = std::clamp(n, 0, n_asleep);
+    while (n_taken > 0 && !n_asleep_.compare_exchange_weak(n_asleep, n_asleep - n_taken));
+    return n_taken;
   }
 
   void wait_for_place(std::uint32_t last_loop) {
     const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
-    std::unique_lock<std::mutex> lock(mutex_);
+    // The loop may have begun before the calling thread could know that this worker sleeps. If the calling thread has taken all
+    // that sleep, it has posted for this worker too.
     n_asleep_.fetch_add(1);
-    may_start_.wait(lock, has_place);
-    n_asleep_.fetch_sub(1);
+    if (has_place() && take_asleep(1) == 1) return;
+    may_start_.wait();
   }
 
   void wait_for_workers() {
     const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
-    std::unique_lock<std::mutex> lock(mutex_);
-    caller_sleeps_.store(true);
-    may_end_.wait(lock, is_empty);
-    caller_sleeps_.store(false);
+    // A worker that left an earlier loop may post late, so each post is followed by a look.
+    while (!is_empty()) {
+      caller_sleeps_.store(true);
+      if (is_empty() && caller_sleeps_.exchange(false)) return;
+      may_end_.wait();
+    }
   }
 
   std::atomic<std::uint64_t> state_{0};
   void (*work_)(void *, int) = nullptr;
   void *context_ = nullptr;
   std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
-  std::atomic<int> n_asleep_{0};
-  std::mutex mutex_;
-  std::condition_variable may_start_, may_end_;
+  std::atomic<int> n_asleep_{0};  // the workers that sleep and for which nothing was posted
+  Semaphore may_start_, may_end_;
   int n_workers_ = 0, n_processors_ = 1;
 };
 
