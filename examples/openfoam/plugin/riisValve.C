@@ -288,7 +288,7 @@ void riisValve::follow() {
   if (!follow_) return;
   follow_->update();
   if (warpMoves_) {
-    setWarp(pointField(targetsAtRest_ + follow_->displacements()), nullptr);
+    setWarp(follow_->moved(targetsAtRest_), nullptr);
   } else {
     follow_->motion().place(placementAtRest_, placement_);
   }
