@@ -14,15 +14,20 @@ SWING = ("follow-patch-1", "follow-patch-2", "follow-zone", "follow-points", "fo
 
 def rigid(case, time):
     """Returns rotation and shift of the mesh since it was at rest, and the largest distance of a point from this motion. All
-    points of the mesh count, by a singular value decomposition."""
+    points of the mesh count."""
     rest, now = (numpy.concatenate([foam.vectors(folder / at / "polyMesh/points") for folder, _ in foam.parts(case)])
                  for at in ("constant", time))
     require(rest.shape == now.shape, f"{case} at {time} has the points of its mesh at rest")
+    turn, shift = best_motion(rest, now)
+    return turn, shift, numpy.abs(rest @ turn.T + shift - now).max()
+
+
+def best_motion(rest, now):
+    """Returns rotation and shift that take the first points nearest to the second ones, by a singular value decomposition."""
     from_, to = rest.mean(axis=0), now.mean(axis=0)
     u, _, vt = numpy.linalg.svd((rest - from_).T @ (now - to))
     turn = vt.T @ numpy.diag([1, 1, numpy.sign(numpy.linalg.det(vt.T @ u.T))]) @ u.T
-    shift = to - turn @ from_
-    return turn, shift, numpy.abs(rest @ turn.T + shift - now).max()
+    return turn, to - turn @ from_
 
 
 def leaflets(case, time):
@@ -86,6 +91,8 @@ def follow(cases):
         require(worst < 1e-10, f"follow-{what} has the same K and K U_valve on 1 and 2 ranks to 1e-10: {worst:.1e}")
         same_bits(cases / f"follow-{what}-2", cases / f"follow-{what}-restart", times[4:])
 
+    deform(cases / "follow-deform")
+
     # A mesh that moves steadily, with blood that moves with it: nothing else changes.
     steady, v = cases / "follow-steady", numpy.array([0.1, 0.2, 0.3])
     worst = 0.0
@@ -103,6 +110,47 @@ def follow(cases):
     print(f"  follow-steady: the pressure difference of the table is that at rest to {worst:.1e} of the largest,"
           f" {numpy.abs(a).max():.1f} Pa")
     require(worst < 0.02, f"the places of the pressures of follow-steady move with the mesh: {worst:.1e}")
+
+
+def deform(case):
+    """Checks that landmarks of the valve, which are corners of its patches, move with the nearest points of the wall while the mesh
+    deforms."""
+    case = pathlib.Path(case)
+    sources = numpy.array(re.findall(r"\((\S+) (\S+) (\S+)\)", foam.text(case / "system/warp")), float)
+    require(len(sources) == 6, f"{case}/system/warp has six landmarks, not {len(sources)}")
+    folders = [folder for folder, _ in foam.parts(case)]
+    rest = numpy.concatenate([wall_points(folder, "constant") for folder in folders])
+    nearest = [numpy.linalg.norm(rest - source, axis=1).argmin() for source in sources]
+    half, dt = check.constant(case, "halfThickness"), 1e-3
+    before, worst, stretch, speed = sources, numpy.zeros(2), 0.0, 0.0
+    for time in foam.times(case):
+        now = numpy.concatenate([wall_points(folder, time) for folder in folders])
+        moved = now[nearest] - rest[nearest]
+        turn, shift = best_motion(rest[nearest], now[nearest])
+        rigid_part = rest[nearest] @ turn.T + shift
+        # A landmark takes part in the rigid motion, and in the rest of its point's motion.
+        wanted = sources @ turn.T + shift + now[nearest] - rigid_part
+        x, _, v = leaflets(case, time)
+        at = [numpy.linalg.norm(x - place, axis=1).argmin() for place in wanted]
+        velocity = (wanted - before) / dt
+        worst = numpy.maximum(worst, [numpy.abs(x[at] - wanted).max() / half, numpy.abs(v[at] - velocity).max()])
+        speed = max(speed, numpy.abs(velocity).max())
+        stretch = max(stretch, numpy.abs(now[nearest] - rigid_part).max())
+        before = wanted
+    print(f"  {case.name}: landmarks move by up to {1e3 * numpy.abs(moved).max():.2f} mm, {1e3 * stretch:.2f} mm of it not rigid."
+          f" Corners of the leaflets: {worst[0]:.1e} half thicknesses, {worst[1] / speed:.1e} of the largest velocity")
+    require(stretch > 0.1 * half, f"the wall of {case} deforms: {stretch:.1e} m")
+    require(worst[0] < 1e-6, f"the landmarks of {case} move with the wall to 1e-6 half thicknesses: {worst[0]:.1e}")
+    require(worst[1] < 1e-3 * speed, f"the landmarks of {case} have the velocity of the wall to 1e-3: {worst[1]:.1e} m/s")
+
+
+def wall_points(case, time):
+    """Returns the points of the patch wall at a time, in the order of their labels."""
+    text = foam.text(case / "constant/polyMesh/boundary")
+    found = re.search(r"\bwall\s*\{[^}]*nFaces\s+(\d+);\s*startFace\s+(\d+);", text)
+    require(found, f"{case} has a patch wall")
+    n, start = map(int, found.groups())
+    return foam.vectors(case / time / "polyMesh/points")[foam.points_of_faces(case / "constant/polyMesh/faces", start, n)]
 
 
 def same_bits(whole, again, times):

@@ -53,6 +53,50 @@ END
   of_logged "$1" topoSet topoSet -case "$of_cases/$1"
 }
 
+# of_deforms NAME: lets the mesh deform, because the points of the inlet swing and those of the outlet rest. Landmarks of the valve
+# follow the wall. They are corners of the leaflets' patches: the nadirs, and a point of each attachment. A file has them, because
+# foamDictionary would keep only six digits.
+of_deforms() {
+  local folder=$of_cases/$1
+  of_moving "$1" hexahedra-28 "$(of_band 28)" riisSource 0.3 &&
+    of_set "$1" system/fvOptions aorticValve/writeLeaflets yes &&
+    of_set "$1" system/controlDict endTime 0.008 writeInterval 1 &&
+    of_set "$1" 0/U boundaryField/wall '{ type movingWallVelocity; value uniform (0 0 0); }' &&
+    of_set "$1" system/fvSolution PIMPLE/correctPhi no &&
+    foamDictionary "$folder/system/fvSolution" -entry solvers/cellDisplacement \
+      -add '{ solver PCG; preconditioner DIC; tolerance 1e-12; relTol 0; }' >/dev/null || return
+  cat >"$folder/constant/dynamicMeshDict" <<'END'
+FoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }
+dynamicFvMesh dynamicMotionSolverFvMesh;
+motionSolverLibs ("libfvMotionSolvers.so");
+motionSolver displacementLaplacian;
+displacementLaplacianCoeffs { diffusivity uniform; }
+END
+  cat >"$folder/0/pointDisplacement" <<'END'
+FoamFile { version 2.0; format ascii; class pointVectorField; object pointDisplacement; }
+dimensions [0 1 0 0 0 0 0];
+internalField uniform (0 0 0);
+boundaryField
+{
+    inlet { type oscillatingDisplacement; amplitude (0.001 0.0005 0.003); omega 200; value uniform (0 0 0); }
+    outlet { type fixedValue; value uniform (0 0 0); }
+    wall { type zeroGradient; }
+}
+END
+  cat >"$folder/system/warp" <<'END'
+warp
+{
+    sources
+    (
+        (0.0125 0 -0.012) (-0.00625 0.010825317547 -0.012) (-0.00625 -0.010825317547 -0.012)
+        (0.01060091 0.00742283 -0.006) (-0.011728814348 0.0054692423632 -0.006) (0.001127904348 -0.012892072363 -0.006)
+    );
+    follow { patch wall; }
+}
+END
+  sed -i 's/^ *rho .*/&\n    #include "warp"/' "$folder/system/fvOptions"
+}
+
 openfoam_follow() {
   local ranks what
   of_box follow-rest && of_run follow-rest 1 || return
@@ -67,7 +111,8 @@ openfoam_follow() {
     of_box follow-points && of_moves follow-points "$of_swing" && of_follows follow-points 'points (5 12000 700 90);' &&
     of_run follow-points 2 &&
     of_box follow-steady && of_moves follow-steady "$of_steady" && of_follows follow-steady 'patch wall;' &&
-    of_set follow-steady 0/U internalField 'uniform (0.1 0.2 0.3)' && of_run follow-steady 1 || return
+    of_set follow-steady 0/U internalField 'uniform (0.1 0.2 0.3)' && of_run follow-steady 1 &&
+    of_deforms follow-deform && of_run follow-deform 2 || return
   # The restarts begin in the middle of the swing.
   for what in patch warp; do
     of_copy "follow-$what-2" "follow-$what-restart" && of_go_on "follow-$what-restart" 0.004 0.008 || return

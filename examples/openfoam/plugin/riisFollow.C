@@ -300,9 +300,9 @@ void riisFollow::update() {
   fit(gathered(mesh_.points()));
 }
 
-pointField riisFollow::moved(const pointField &places) const {
+pointField riisFollow::deformed(const pointField &places) const {
   pointField found(gathered(mesh_.points()));
-  forAll(found, i) found[i] = motion_(places[i]) + (found[i] - motion_(atRest_[i]));
+  forAll(found, i) found[i] = places[i] + motion_.turnedBack(found[i] - motion_(atRest_[i]));
   Pstream::scatter(found);
   return found;
 }
