@@ -113,35 +113,37 @@ def follow(cases):
 
 
 def deform(case):
-    """Checks that landmarks of the valve, which are corners of its patches, move with the nearest points of the wall while the mesh
-    deforms."""
+    """Checks that the nadirs of the valve, which are landmarks and rest while it opens, move with the nearest points of the wall while
+    the mesh deforms."""
     case = pathlib.Path(case)
     sources = numpy.array(re.findall(r"\((\S+) (\S+) (\S+)\)", foam.text(case / "system/warp")), float)
     require(len(sources) == 6, f"{case}/system/warp has six landmarks, not {len(sources)}")
     folders = [folder for folder, _ in foam.parts(case)]
-    rest = numpy.concatenate([wall_points(folder, "constant") for folder in folders])
-    nearest = [numpy.linalg.norm(rest - source, axis=1).argmin() for source in sources]
+    rest, order = numpy.unique(numpy.concatenate([wall_points(folder, "constant") for folder in folders]), axis=0,
+                               return_index=True)  # sorted, as the plug-in sorts them: of two points as near, the first one counts
+    nearest = [((rest - source) ** 2).sum(axis=1).argmin() for source in sources]
     half, dt = check.constant(case, "halfThickness"), 1e-3
-    before, worst, stretch, speed = sources, numpy.zeros(2), 0.0, 0.0
+    before, worst, stretch, speed = sources[:3], numpy.zeros(2), 0.0, 0.0
     for time in foam.times(case):
-        now = numpy.concatenate([wall_points(folder, time) for folder in folders])
+        now = numpy.concatenate([wall_points(folder, time) for folder in folders])[order]
         moved = now[nearest] - rest[nearest]
         turn, shift = best_motion(rest[nearest], now[nearest])
         rigid_part = rest[nearest] @ turn.T + shift
         # A landmark takes part in the rigid motion, and in the rest of its point's motion.
         wanted = sources @ turn.T + shift + now[nearest] - rigid_part
         x, _, v = leaflets(case, time)
-        at = [numpy.linalg.norm(x - place, axis=1).argmin() for place in wanted]
-        velocity = (wanted - before) / dt
-        worst = numpy.maximum(worst, [numpy.abs(x[at] - wanted).max() / half, numpy.abs(v[at] - velocity).max()])
+        nadirs = wanted[:3]
+        at = [numpy.linalg.norm(x - place, axis=1).argmin() for place in nadirs]
+        velocity = (nadirs - before) / dt
+        worst = numpy.maximum(worst, [numpy.abs(x[at] - nadirs).max() / half, numpy.abs(v[at] - velocity).max()])
         speed = max(speed, numpy.abs(velocity).max())
-        stretch = max(stretch, numpy.abs(now[nearest] - rigid_part).max())
-        before = wanted
-    print(f"  {case.name}: landmarks move by up to {1e3 * numpy.abs(moved).max():.2f} mm, {1e3 * stretch:.2f} mm of it not rigid."
-          f" Corners of the leaflets: {worst[0]:.1e} half thicknesses, {worst[1] / speed:.1e} of the largest velocity")
-    require(stretch > 0.1 * half, f"the wall of {case} deforms: {stretch:.1e} m")
-    require(worst[0] < 1e-6, f"the landmarks of {case} move with the wall to 1e-6 half thicknesses: {worst[0]:.1e}")
-    require(worst[1] < 1e-3 * speed, f"the landmarks of {case} have the velocity of the wall to 1e-3: {worst[1]:.1e} m/s")
+        stretch = max(stretch, numpy.abs(now[nearest] - rigid_part)[:3].max())
+        before = nadirs
+    print(f"  {case.name}: nadirs move by up to {1e3 * numpy.abs(moved[:3]).max():.2f} mm, {1e3 * stretch:.2f} mm of it not rigid."
+          f" They differ by {worst[0]:.1e} half thicknesses, and their velocity by {worst[1] / speed:.1e}")
+    require(stretch > 0.05 * half, f"the wall of {case} deforms: {stretch:.1e} m")
+    require(worst[0] < 1e-6, f"the nadirs of {case} move with the wall to 1e-6 half thicknesses: {worst[0]:.1e}")
+    require(worst[1] < 1e-3 * speed, f"the nadirs of {case} have the velocity of the wall to 1e-3: {worst[1]:.1e} m/s")
 
 
 def wall_points(case, time):

@@ -54,17 +54,18 @@ END
 }
 
 # of_deforms NAME: lets the mesh deform, because the points of the inlet swing and those of the outlet rest. Landmarks of the valve
-# follow the wall. They are corners of the leaflets' patches: the nadirs, and a point of each attachment. A file has them, because
-# foamDictionary would keep only six digits.
+# follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six digits.
 of_deforms() {
-  local folder=$of_cases/$1
+  local folder=$of_cases/$1 name
   of_moving "$1" hexahedra-28 "$(of_band 28)" riisSource 0.3 &&
     of_set "$1" system/fvOptions aorticValve/writeLeaflets yes &&
     of_set "$1" system/controlDict endTime 0.008 writeInterval 1 &&
     of_set "$1" 0/U boundaryField/wall '{ type movingWallVelocity; value uniform (0 0 0); }' &&
-    of_set "$1" system/fvSolution PIMPLE/correctPhi no &&
-    foamDictionary "$folder/system/fvSolution" -entry solvers/cellDisplacement \
+    of_set "$1" system/fvSolution PIMPLE/correctPhi no || return
+  for name in cellDisplacement cellDisplacementFinal; do
+    foamDictionary "$folder/system/fvSolution" -entry "solvers/$name" \
       -add '{ solver PCG; preconditioner DIC; tolerance 1e-12; relTol 0; }' >/dev/null || return
+  done
   cat >"$folder/constant/dynamicMeshDict" <<'END'
 FoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }
 dynamicFvMesh dynamicMotionSolverFvMesh;
