@@ -199,9 +199,14 @@ def angle(case, again):
     print(f"The angle law: the opening is {opening[0]:.3f} at first and {opening.max():.3f} at most. It differs by at most"
           f" {worst:.1e} from an integration of the equation by the logged pressures.")
     require(opening.max() > 0.9 and opening[0] < 0.1, f"the valve of {case} opens: {opening[0]} to {opening.max()}")
-    require(worst < 2e-3, f"the opening of {case} is that of the equation to 2e-3: {worst:.1e}")
-    times = [time for time in foam.times(again) if float(time) > float(foam.times(again)[0])]
-    moves = [row[1] for row in rows if abs(row[0] - float(foam.times(again)[0])) < dt / 2]
-    require(len(times) >= 2 and moves and 0.02 < moves[0] < 0.98,
-            f"the restart {again} begins while the valve moves, and has two times: {moves}, {times}")
-    same_bits(case, again, times)
+    require(worst < 1e-4, f"the opening of {case} is that of the equation to 1e-4: {worst:.1e}")
+    # OpenFOAM's own restart changes the pressure in the 13th digit, so the law has the same bits only in the first step.
+    times = [time for time in foam.times(again) if float(time) > 0.0151]
+    start = numpy.interp(0.015, rows[:, 0], opening)
+    require(len(times) == 5 and 0.02 < start < 0.98,
+            f"the restart {again} begins while the valve moves, at {start:.3f}, and has five times: {times}")
+    same_bits(case, again, times[:1])
+    worst = max(numpy.abs(a - b).max() / numpy.abs(a).max()
+                for time in times for a, b in zip(fields(case, time), fields(again, time)))
+    print(f"  after four more steps K and K U_valve differ by {worst:.1e} of the largest")
+    require(worst < 1e-6, f"the restart {again} has the K of {case} to 1e-6 of the largest: {worst:.1e}")

@@ -121,13 +121,14 @@ openfoam_follow() {
 }
 
 # Runs a valve by the angle law until it is open, and restarts it while it opens. The gains are those of Korakianitis and Shi for
-# the aortic valve in SI units, with a smaller gain of the pressure, so that the valve opens in some steps.
+# the aortic valve in SI units, with half the gain of the pressure, so that the valve opens in some steps.
 openfoam_angle() {
-  of_case angle && of_set angle system/controlDict endTime 0.1 deltaT 1e-3 writeInterval 5 &&
-    of_set angle system/fvOptions aorticValve/opening '{ law angle; pressureGain 4; flowGain 2e6; friction 50; vortexGain 7e6;
+  of_case angle && of_set angle system/controlDict endTime 0.03 deltaT 1e-3 writeInterval 1 &&
+    of_set angle 0/p boundaryField/inlet/p0 'table ((0 0) (0.006 0.5) (1 0.5))' &&
+    of_set angle system/fvOptions aorticValve/opening '{ law angle; pressureGain 20; flowGain 2e6; friction 50; vortexGain 7e6;
       angleMin 5; angleMax 75; upstream { centre (0 0 -0.015); radius 0.003; } downstream { centre (0 0 0.012); radius 0.003; }
       flowPatch outlet; }' && of_run angle 2 &&
-    of_copy angle angle-restart && of_go_on angle-restart 0.06 0.08
+    of_copy angle angle-restart && of_go_on angle-restart 0.015 0.02
 }
 
 # of_bad_follow TEXT NAME ENTRY WORDS: checks that a placement that follows ENTRY is refused with the words.
@@ -163,18 +164,18 @@ openfoam_follow_refusals() {
     of_bad_follow "nothing to follow" follow-nothing '' 'follow has 0 of the keys patch, faceZone and points, and needs one' &&
     of_bad_follow "an unknown key of follow" follow-key 'pointZone ring;' "unknown key 'pointZone'" &&
     of_bad_warp "an unknown key of the warp" warp-key 'target (1 2 3);' "unknown key 'target'" &&
-    of_bad_warp "landmarks without targets" warp-targets "targets ($line);" 'RIIS_INVALID_ARGUMENT: targets' &&
-    of_bad_warp "landmarks on a line" warp-line "sources ($line);" 'RIIS_INVALID_ARGUMENT: sources' &&
+    of_bad_warp "landmarks without targets" warp-targets "targets ($line);" 'targets.n_points is 3, but the warp has 5 landmarks' &&
+    of_bad_warp "landmarks on a line" warp-line "sources ($line);" 'sources: all 3 landmarks lie on a line' &&
     of_bad_warp "a negative noise" warp-noise 'noise -1;' 'RIIS_INVALID_ARGUMENT: options.noise is -1' &&
     of_bad_warp "fewer points than landmarks" warp-points 'follow { points (1 2 3); }' \
       'points has 3 points, and the warp has 5 landmarks' &&
     of_bad_warp "a warp that turns the valve over" warp-folds \
-      'targets ((0.011 0 0) (0 0.011 0) (-0.011 0 0) (0 -0.011 0) (0 0 -0.006));' 'RIIS_INVALID_PARAMETER: ' &&
+      'targets ((0.011 0 0) (0 0.011 0) (-0.011 0 0) (0 -0.011 0) (0 0 -0.006));' 'the warp folds near landmark 0' &&
     of_bad warp-placement && of_follows warp-placement 'patch wall;' && of_warps warp-placement &&
     of_refused "a warp and a placement that follow" warp-placement \
       'the warp of valve aorticValve follows the mesh, and its placement does too' &&
     of_bad warp-rigid && of_warps warp-rigid && of_set warp-rigid system/fvOptions aorticValve/valve '{ kind bileaflet; }' &&
-    of_refused "a warp of a bileaflet valve" warp-rigid 'RIIS_INVALID_PARAMETER: ' &&
+    of_refused "a warp of a bileaflet valve" warp-rigid 'RIIS_INVALID_PARAMETER: the bileaflet valve cannot be warped' &&
     of_bad_angle "an angle law without a gain" angle-gain '' "Entry 'pressureGain' not found in dictionary" &&
     of_bad_angle "an angle above 90 degrees" angle-most 'pressureGain 40; angleMax 100;' \
       'RIIS_INVALID_ARGUMENT: law.angle_max is 100' &&
