@@ -87,6 +87,20 @@ def vectors(path):
     return _list(path, "vector")
 
 
+def points_of_faces(path, start, n):
+    """Returns the labels of the points of n faces, each once, from a binary file constant/polyMesh/faces."""
+    data = _bytes(path)
+    lists, end = [], data.find(b"\n}") + 1
+    for _ in range(2):  # where each face begins, and the labels of all faces
+        found = re.compile(rb"\n(\d+)\s*(?=\()").search(data, end)
+        if not found or not _is_binary(data):
+            raise SystemExit(f"{path} has no binary lists of faces")
+        lists.append(_values(path, data, found.end(), "label", int(found.group(1)), True))
+        end = found.end() + 1 + lists[-1].nbytes
+    first, points = lists
+    return numpy.unique(points[first[start]:first[start + n]])
+
+
 def n_cells(mesh):
     """Returns the number of cells, from the note in constant/polyMesh/owner."""
     path = pathlib.Path(mesh) / "owner"

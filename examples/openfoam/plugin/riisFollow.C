@@ -134,8 +134,7 @@ riisFollow::riisFollow(const fvMesh &mesh, const dictionary &dict) : mesh_(mesh)
       FatalIOErrorInFunction(dict) << "patch is '" << patch << "', and the mesh has no such patch. Its patches are "
                                    << mesh_.boundaryMesh().names() << exit(FatalIOError);
     }
-    name_ = "patch " + patch;
-    readFaces(mesh_.boundaryMesh()[at].meshPoints());
+    readFaces(mesh_.boundaryMesh()[at].meshPoints(), " of patch " + patch);
   } else {
     const word zone = dict.get<word>("faceZone");
     const label at = mesh_.faceZones().findZoneID(zone);
@@ -143,9 +142,9 @@ riisFollow::riisFollow(const fvMesh &mesh, const dictionary &dict) : mesh_(mesh)
       FatalIOErrorInFunction(dict) << "faceZone is '" << zone << "', and the mesh has no such zone. Its face zones are "
                                    << mesh_.faceZones().names() << exit(FatalIOError);
     }
-    name_ = "faceZone " + zone;
-    readFaces(mesh_.faceZones()[at]().meshPoints());
+    readFaces(mesh_.faceZones()[at]().meshPoints(), " of faceZone " + zone);
   }
+  Pstream::scatter(name_);
   fit(atRest_);  // refuses points that do not fix a rotation
 }
 
@@ -175,7 +174,7 @@ pointField pointsAtRest(const fvMesh &mesh) {
 }  // namespace
 
 // Takes points of faces. Their order is that of their coordinates at rest, and points with the same coordinates are one point.
-void riisFollow::readFaces(const labelList &points) {
+void riisFollow::readFaces(const labelList &points, const string &place) {
   local_ = points;
   const pointField all(gathered(pointsAtRest(mesh_)));
   if (!Pstream::master()) return;
@@ -192,12 +191,13 @@ void riisFollow::readFaces(const labelList &points) {
   order_.setSize(order.size());
   std::copy(order.begin(), order.end(), order_.begin());
   atRest_ = pointField(all, order_);
+  name_ = Foam::name(atRest_.size()) + " points" + place;
 }
 
 // Takes points by their labels in the whole mesh. Their order is that of the list.
 void riisFollow::readLabels(const dictionary &dict) {
   const labelList wanted(dict.get<labelList>("points"));
-  name_ = "the " + Foam::name(wanted.size()) + " points";
+  name_ = Foam::name(wanted.size()) + " points";
   Map<label> place;  // of each wanted label in the list
   forAll(wanted, i) {
     if (!place.insert(wanted[i], i)) {
@@ -273,8 +273,9 @@ void riisFollow::chooseNearest(const pointField &places, const dictionary &dict)
   local_ = kept;
   if (Pstream::master()) order_ = order;
   atRest_ = gathered(pointsAtRest(mesh_));
-  name_ = "the points of " + name_ + " nearest to the landmarks";
-  Info << "riis: the warp follows " << name_.c_str() << ", which are up to " << farthest << " m away" << endl;
+  Info << "riis: " << places.size() << " landmarks follow their nearest of " << name_.c_str() << ", up to " << farthest
+       << " m away" << endl;
+  name_ = Foam::name(places.size()) + " of " + name_;
   fit(atRest_);
 }
 
@@ -283,10 +284,8 @@ void riisFollow::fit(const pointField &now) {
   if (Pstream::master()) {
     motion_ = riisRigid(atRest_, now, gap);
     if (!(gap > leastGap)) {
-      FatalErrorInFunction << "at time " << mesh_.time().timeName() << ": " << name_.c_str() << " has "
-                           << atRest_.size()
-                           << " different points, which must be at least 3, and must not lie on a line"
-                           << exit(FatalError);
+      FatalErrorInFunction << "at time " << mesh_.time().timeName() << ": the valve follows " << name_.c_str()
+                           << ", and needs at least 3 that do not lie on a line" << exit(FatalError);
     }
   }
   motion_.share();
@@ -301,11 +300,11 @@ void riisFollow::update() {
   fit(gathered(mesh_.points()));
 }
 
-pointField riisFollow::displacements() const {
-  pointField moved(gathered(mesh_.points()));
-  if (Pstream::master()) moved -= atRest_;
-  Pstream::scatter(moved);
-  return moved;
+pointField riisFollow::deformed(const pointField &places) const {
+  pointField found(gathered(mesh_.points()));
+  forAll(found, i) found[i] = places[i] + motion_.turnedBack(found[i] - motion_(atRest_[i]));
+  Pstream::scatter(found);
+  return found;
 }
 
 }  // namespace fv

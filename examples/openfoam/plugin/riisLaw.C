@@ -218,6 +218,10 @@ scalar riisValve::openingAt(scalar time, Ostream &report) {
   if (law_ == Law::table) check(riis_opening_from_table(&table_, time, &opening, nullptr));
   if (hasSensors()) {
     const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow(flowPatch_);
+    // A restart rounds OpenFOAM's time, but not the time of the state.
+    const scalar dt = mesh_.time().deltaTValue();
+    const scalar exact = (law_ == Law::pressure ? switchState_.time : angleState_.time) + dt;
+    if (mag(exact - time) < 1e-6 * dt) time = exact;
     if (law_ == Law::pressure) {
       check(riis_opening_switch_advance(&switch_, &switchState_, time, difference, volume, &switchState_));
       opening = switchState_.opening;

@@ -282,16 +282,13 @@ void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
 }
 
-// Moves the placement or the warp to the present points of the mesh.
+// Moves the placement to the present points of the mesh. A warp that follows points gets the part of their motion that is not rigid.
 void riisValve::follow() {
   placement_ = placementAtRest_;
   if (!follow_) return;
   follow_->update();
-  if (warpMoves_) {
-    setWarp(pointField(targetsAtRest_ + follow_->displacements()), nullptr);
-  } else {
-    follow_->motion().place(placementAtRest_, placement_);
-  }
+  follow_->motion().place(placementAtRest_, placement_);
+  if (warpMoves_) setWarp(follow_->deformed(targetsAtRest_), nullptr);
 }
 
 // Continues from the state in the folder of the start time. A run that starts for the first time has no such state.
