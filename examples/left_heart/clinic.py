@@ -153,7 +153,7 @@ def main(words):
     if not words or len(words) % 2:
         sys.exit(__doc__)
     hearts = [numbers(case, tables) for case, tables in zip(words[::2], words[1::2])]
-    names = [pathlib.Path(case).name for case in words[::2]]
+    names = ["healthy" if pathlib.Path(case).name == "beat" else pathlib.Path(case).name for case in words[::2]]
     print("| last beat | " + " | ".join(names) + " |\n|---|" + "---|" * len(names))
     for row in hearts[0][0]:
         print(f"| {row} | " + " | ".join(show(values[row]) for values, _ in hearts) + " |")

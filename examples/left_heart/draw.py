@@ -146,7 +146,7 @@ def loops(picture, *words):
         model = check.zero_d_at(pathlib.Path(tables) / "zero_d.csv", beat.time)
         last = beat.time > beat.time[-1] - check.PERIOD
         axes.plot((beat.volume - beat.volume[0] + model["volume"][0])[last], beat.ventricle[last], color=colour,
-                  label=pathlib.Path(case).name)
+                  label="healthy" if pathlib.Path(case).name == "beat" else pathlib.Path(case).name)
     axes.set_xlabel("volume of the ventricle, ml")
     axes.set_ylabel("pressure, mmHg")
     axes.legend(frameon=False)

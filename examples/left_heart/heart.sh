@@ -14,17 +14,16 @@ heart() {
   local python name of_keep=
   [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }
   heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only='' heart_diseases=()
-  [[ ${1:-} != --all ]] || { heart_diseases=(stenosis regurgitation) && shift; }
   case $* in
-    '') ;;
-    --short) heart_fine=2.8 heart_coarse=6 heart_half_thickness=2e-3 heart_beats=1 ;;
-    --coupled) heart_only=coupled ;;
-    '--coupled --short') heart_only=coupled heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 ;;
+    '' | --short | --all | '--all --short') ;;
+    --coupled | '--coupled --short') heart_only=coupled ;;
     *)
       echo "./run heart: '$*' is not an option" >&2
       exit 2
       ;;
   esac
+  [[ $* != --all* ]] || heart_diseases=(stenosis regurgitation)
+  [[ $* != *--short ]] || heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 heart_beats=1
   openfoam_start left_heart_cases heart ffmpeg || return 0
   step "build the motions of the wall" heart_build
   export LD_LIBRARY_PATH=$of_work/left_heart:$LD_LIBRARY_PATH
