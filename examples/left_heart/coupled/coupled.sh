@@ -37,7 +37,6 @@ heart_naive() {
   heart_coupled_again naive 0.04 && cp "$heart_here/case/constant/dynamicMeshDict" "$naive/constant" &&
     heart_python coupled/coupled.py naive_tables "$naive" "$of_cases/coupled" 0.04 &&
     cp "$heart_here/case/system/fvSolution" "$naive/system" &&
-    of_set naive system/fvOptions mitral/velocity no &&
     foamDictionary "$naive/system/fvOptions" -entry wall -remove -disableFunctionEntries >/dev/null 2>&1 &&
     sed -i '/elastanceTable/d; s/"libelastanceMotion.so"//' "$naive/system/controlDict" &&
     of_set naive system/controlDict endTime 0.12 && of_run naive 1

@@ -48,7 +48,7 @@ class elastanceMotion : public points0MotionSolver {
   autoPtr<Function1<scalar>> elastance_;  // Pa/m3 over the phase
   scalar period_, phase_, unstressed_, rest_, rho_;
   volumeSearch search_;
-  scalar amplitude_, meshAtRest_;
+  scalar amplitude_, descended_, meshAtRest_;  // the base has the amplitude descended_, that of the last step
   label timeIndex_;
   bool measured_;
   elastanceState state_;
@@ -101,6 +101,7 @@ class elastanceMotion : public points0MotionSolver {
     state_.add("drift", search_.drift);
     state_.add("surprise", search_.largestSurprise());
     state_.add("amplitude", amplitude_);
+    state_.add("descended", descended_);
   }
 
   void checkCase() const {
@@ -126,6 +127,7 @@ class elastanceMotion : public points0MotionSolver {
         rest_(positive(coeffDict(), "volume")),
         rho_(positive(coeffDict(), "rho")),
         amplitude_(0),
+        descended_(0),
         meshAtRest_(0),
         timeIndex_(mesh.time().timeIndex()),
         measured_(false),
@@ -151,6 +153,7 @@ class elastanceMotion : public points0MotionSolver {
     search_.drift = kept("drift", 0);
     search_.surprise = kept("surprise", 0);
     amplitude_ = kept("amplitude", 0);
+    descended_ = kept("descended", 0);
     keepState();
     Info << "elastanceMotion: " << (found ? "continues" : "starts") << " with a volume of " << search_.volume
          << " m3 and a pressure of " << search_.pressure << " Pa" << endl;
@@ -158,7 +161,8 @@ class elastanceMotion : public points0MotionSolver {
 
   tmp<pointField> curPoints() const override {
     tmp<pointField> points(new pointField(points0_));
-    for (point &p : points.ref()) p = wall_.moved(p, amplitude_);
+    const vector descent = wall_.descent(descended_);
+    for (point &p : points.ref()) p = wall_.deformed(p, amplitude_) - descent;
     return points;
   }
 
@@ -167,6 +171,8 @@ class elastanceMotion : public points0MotionSolver {
     if (time.timeIndex() != timeIndex_) {
       checkCase();
       timeIndex_ = time.timeIndex();
+      // All trials of the step have the same base, because the valves are marked once in a step, and follow it.
+      descended_ = amplitude_;
       reach(search_.begin(time.deltaTValue(), elastanceAt(time.value()), unstressed_));
     } else {
       if (!measured_) {
