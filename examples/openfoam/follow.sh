@@ -152,17 +152,17 @@ of_bad_angle() {
 
 openfoam_follow_refusals() {
   local line='(0.01 0 0) (0 0 0) (-0.01 0 0)'
-  of_bad_follow "an unknown patch to follow" follow-patch 'patch ring;' "patch is 'ring', and the mesh has no such patch" &&
-    of_bad_follow "an unknown zone to follow" follow-zone 'faceZone ring;' "faceZone is 'ring', and the mesh has no such zone" &&
-    of_bad_follow "an unknown point to follow" follow-label 'points (1 2 99999999);' \
+  of_bad_follow "an unknown patch to follow" bad-patch 'patch ring;' "patch is 'ring', and the mesh has no such patch" &&
+    of_bad_follow "an unknown zone to follow" bad-zone 'faceZone ring;' "faceZone is 'ring', and the mesh has no such zone" &&
+    of_bad_follow "an unknown point to follow" bad-label 'points (1 2 99999999);' \
       'points has 99999999, and the mesh has no such point' &&
-    of_bad_follow "a point to follow twice" follow-twice 'points (1 2 2 3);' 'points has 2 twice' &&
-    of_bad_follow "two points to follow" follow-two 'points (1 2);' \
+    of_bad_follow "a point to follow twice" bad-twice 'points (1 2 2 3);' 'points has 2 twice' &&
+    of_bad_follow "two points to follow" bad-two 'points (1 2);' \
       'the valve follows 2 points, and needs at least 3 that do not lie on a line' &&
-    of_bad_follow "a patch and points to follow" follow-both 'patch wall; points (1 2 3);' \
+    of_bad_follow "a patch and points to follow" bad-both 'patch wall; points (1 2 3);' \
       'follow has 2 of the keys patch, faceZone and points, and needs one' &&
-    of_bad_follow "nothing to follow" follow-nothing '' 'follow has 0 of the keys patch, faceZone and points, and needs one' &&
-    of_bad_follow "an unknown key of follow" follow-key 'pointZone ring;' "unknown key 'pointZone'" &&
+    of_bad_follow "nothing to follow" bad-nothing '' 'follow has 0 of the keys patch, faceZone and points, and needs one' &&
+    of_bad_follow "an unknown key of follow" bad-key 'pointZone ring;' "unknown key 'pointZone'" &&
     of_bad_warp "an unknown key of the warp" warp-key 'target (1 2 3);' "unknown key 'target'" &&
     of_bad_warp "landmarks without targets" warp-targets "targets ($line);" 'targets.n_points is 3, but the warp has 5 landmarks' &&
     of_bad_warp "landmarks on a line" warp-line "sources ($line);" 'sources: all 3 landmarks lie on a line' &&
