@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the beating left heart of ./run heart, and prints its numbers. The exit status is 1 if a check fails.
 
-    check.py keys                                  # prints the openings of `orifice` for OpenFOAM
-    check.py orifice CASE VALVE                    # prints area and leak of each opening, as a table
+    check.py keys LEAST                            # prints the openings of `orifice` for OpenFOAM, from the least one
+    check.py orifice CASE VALVE LEAST              # prints area and leak of each opening, as a table
     check.py beat CASE ZERO_D.csv MITRAL.csv AORTIC.csv    # checks whole beats
     check.py ranks CASE CASE                       # compares runs on 1 and 2 ranks
     check.py restart CASE CASE                     # compares a run with a run that was restarted
@@ -18,7 +18,7 @@ import numpy as np
 import zero_d
 from zero_d import ML, MMHG, PERIOD, RHO, foam
 
-# The openings at which the orifice is measured. Each is held for HOLD seconds.
+# The openings at which the orifice is measured: shares of the way from the least opening to 1. Each is held for HOLD seconds.
 HELD, HOLD = (0.0, 0.1, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.35, 0.4, 0.5, 0.6, 0.8, 1.0), 0.03
 
 failures = []
@@ -65,7 +65,9 @@ class Beat:
         valves = read_valves(case)
         self.openings = {name: np.interp(self.time, rows[:, 0], rows[:, 1]) for name, rows in valves.items()}
         log = foam.text(case / "log.pimpleFoam")
-        self.processor_seconds = float(re.findall(r"ExecutionTime = (\S+)", log)[-1])
+        seconds = np.array(re.findall(r"ExecutionTime = (\S+)", log), float)
+        # The time begins at 0 again where a run was cut off and went on.
+        self.processor_seconds = seconds[-1] + seconds[:-1][np.diff(seconds) < 0].sum()
         self.courant = max(float(word) for word in re.findall(r"Courant Number mean: \S+ max: (\S+)", log))
 
     @functools.cached_property
@@ -77,14 +79,26 @@ class Beat:
         return self.volumes[1:]
 
 
-def keys():
+def held(least):
+    """Returns the openings at which the orifice is measured."""
+    least = float(least)
+    if not 0 <= least < 1:
+        sys.exit(f"check.py: the least opening is {least:g}, and must be at least 0 and below 1")
+    return [least + (1 - least) * share for share in HELD]
+
+
+def keys(least):
     """The valve takes the first tenth of each hold to move to the next opening."""
-    keys_of_holds = (f"({(i + share) * HOLD:.6g} {opening:g})" for i, opening in enumerate(HELD) for share in (0.1, 0.999))
+    keys_of_holds = (f"({(i + share) * HOLD:.6g} {opening:g})" for i, opening in enumerate(held(least)) for share in (0.1, 0.999))
     print(f"period {PERIOD}; keys ({' '.join(keys_of_holds)});")
 
 
-def orifice(case, valve):
-    """Prints opening, area and leak. The pressure between both sides of the valve drives the leak and the jet."""
+def orifice(case, valve, least):
+    """Prints opening, area and leak. The pressure between both sides of the valve drives the leak and the jet.
+
+    A valve that does not close, with a least opening above 0, has an orifice there, and no leak.
+    """
+    openings = held(least)
     beat = Beat(pathlib.Path(case))
     flow, difference = ((beat.mitral, beat.atrium - beat.ventricle) if valve == "mitral" else
                         (beat.aortic, beat.ventricle - beat.aorta))
@@ -92,12 +106,12 @@ def orifice(case, valve):
     flow, difference = flow[ends], difference[ends]
     if not ((flow > 0).all() and (difference > 0).all()):
         sys.exit(f"check.py: the {valve} valve has the flows {flow} ml/s at the differences {difference} mmHg")
-    leak = flow[0] / difference[0]
+    leak = flow[0] / difference[0] if openings[0] == 0 else 0.0
     jet = flow - leak * difference
     # Less than a tenth of the leak is no orifice.
     area = np.where(jet > 0.1 * leak * difference, jet * ML * np.sqrt(RHO / (2 * difference * MMHG)), 0)
     print("opening,area,leak,flow,difference")
-    for row in zip(HELD, area, flow, difference):
+    for row in zip(openings, area, flow, difference):
         print(f"{row[0]:g},{row[1]:.6g},{leak:.8g},{row[2]:.6g},{row[3]:.6g}")
 
 
@@ -125,11 +139,15 @@ def check_beat(case, model_file, mitral, aortic):
     drift = np.abs(np.cumsum(balance) * step)[: n].max()
     demand(drift <= 1e-4, f"balance: {drift:.1e} ml are lost or gained within a beat (1e-4)")
     both = ~closed["mitral"] & ~closed["aortic"]
-    demand(not both.any(), f"both valves leave an orifice in {both.sum()} steps (0)")
+    if all(leak > 0 for _, _, leak, _ in orifices.values()):
+        demand(not both.any(), f"both valves leave an orifice in {both.sum()} steps (0)")
 
     for name, flow, difference in (("mitral", beat.mitral, beat.atrium - beat.ventricle),
                                    ("aortic", beat.aortic, beat.ventricle - beat.aorta)):
         leak = orifices[name][2]
+        if leak == 0:
+            print(f"the {name} valve does not close")
+            continue
         # A leak is only known where the pressure difference is large, and where the valve has rested for 10 ms.
         at_rest = (beat.openings[name] == 0) & (np.abs(difference) > 20)
         for _ in range(round(0.01 / step)):
@@ -142,8 +160,10 @@ def check_beat(case, model_file, mitral, aortic):
     moved = beat.time > 0.02  # the blood starts at rest
     off = beat.ventricle - model["ventricle"]
     isovolumetric = closed["mitral"] & closed["aortic"] & moved
-    demand(np.abs(off[isovolumetric]).max() <= 3,
-           f"isovolumetric pressure: within {np.abs(off[isovolumetric]).max():.2f} mmHg of the heart without space (3)")
+    if isovolumetric.any():
+        bound = 3 if model["ventricle"].max() < 150 else 5  # the pressure of a stenotic heart rises more steeply
+        demand(np.abs(off[isovolumetric]).max() <= bound, f"isovolumetric pressure: within"
+               f" {np.abs(off[isovolumetric]).max():.2f} mmHg of the heart without space ({bound})")
     demand(np.abs(off[moved]).max() <= 30,
            f"pressure in the ventricle: within {np.abs(off[moved]).max():.1f}"
            f" mmHg (30), root mean square {np.sqrt((off[moved]**2).mean()):.1f}")
@@ -202,7 +222,7 @@ def check_restart(whole, restarted):
     demand(pressure <= 0.1, f"restart: pressures in the ventricle differ by {pressure:.1e} mmHg (0.1)")
 
 
-COMMANDS = {"keys": (keys, 0), "orifice": (orifice, 2), "beat": (check_beat, 4), "ranks": (check_ranks, 2),
+COMMANDS = {"keys": (keys, 1), "orifice": (orifice, 3), "beat": (check_beat, 4), "ranks": (check_ranks, 2),
             "restart": (check_restart, 2)}
 
 if __name__ == "__main__":

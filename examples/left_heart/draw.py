@@ -2,6 +2,7 @@
 """Draws the beating left heart of ./run heart.
 
     draw.py CASE ZERO_D.csv OUT      # OUT/loop.png, OUT/heart.png, and with ffmpeg OUT/heart.mp4
+    draw.py loops PICTURE CASE TABLES [CASE TABLES ...]    # the loop of each heart; the folder TABLES has its zero_d.csv
 """
 import pathlib
 import shutil
@@ -14,6 +15,7 @@ import matplotlib.collections
 import numpy as np
 
 import check
+import clinic
 from check import foam
 
 matplotlib.use("Agg")
@@ -75,8 +77,27 @@ def slice_at(axes, case, time, largest):
     return colours
 
 
-def written(case):
-    return sorted((folder.name for folder in (case / "postProcessing/slice").iterdir()), key=float)
+def valves_from_below(axes, case, time):
+    """Draws the leaflets as the ventricle sees them, from below and somewhat from the side."""
+    tilt = np.radians(25)
+    for name, colour in (("mitral", ORANGE), ("aortic", BLUE)):
+        points, corners, _ = foam.triangles(case / "postProcessing" / name / time / "leaflets.vtk")
+        points = 1e3 * points
+        seen = np.column_stack([points[:, 1], np.cos(tilt) * points[:, 0] + np.sin(tilt) * points[:, 2],
+                                np.cos(tilt) * points[:, 2] - np.sin(tilt) * points[:, 0]])
+        a, b, c = (seen[corners[:, k]] for k in range(3))
+        normal = np.cross(b - a, c - a)
+        normal /= np.linalg.norm(normal, axis=1)[:, None] + 1e-30
+        light = 0.35 + 0.65 * np.abs(normal @ np.array([-0.4, 0.4, 0.82]))
+        # Triangles in front, with the least height, come last.
+        order = np.argsort(-(a + b + c)[:, 2])
+        colours = light[order, None] * np.array(matplotlib.colors.to_rgb(colour))
+        axes.add_collection(matplotlib.collections.PolyCollection(seen[corners[order]][:, :, :2], facecolors=colours,
+                                                                  edgecolors=colours, linewidths=0.3))
+    axes.set_aspect("equal")
+    axes.set_xlim(-32, 32)
+    axes.set_ylim(-19, 19)
+    axes.axis("off")
 
 
 def at_openings(case, beat, times):
@@ -90,15 +111,16 @@ def at_openings(case, beat, times):
 
 
 def pictures(case, beat, out):
-    times = written(case)
+    times = clinic.written(case)
     largest = 1.2
-    figure, axes = plt.subplots(1, 4, figsize=(12, 5.6), sharey=True, layout="constrained")
-    for one, time in zip(axes, at_openings(case, beat, times)):
-        colours = slice_at(one, case, time, largest)
-        one.set_xlabel("y, mm")
-    axes[0].set_ylabel("z, mm")
-    figure.colorbar(colours, ax=axes, label="speed, m/s", shrink=0.8, extend="max")
-    figure.suptitle("Speed in the plane x = 0; orange: the leaflets there")
+    figure, axes = plt.subplots(2, 4, figsize=(11, 6.2), height_ratios=(2.9, 1), sharey="row",
+                                layout="constrained")
+    for above, below, time in zip(*axes, at_openings(case, beat, times)):
+        colours = slice_at(above, case, time, largest)
+        above.set_xlabel("y, mm")
+        valves_from_below(below, case, time)
+    axes[0, 0].set_ylabel("z, mm")
+    figure.colorbar(colours, ax=axes[0], label="speed, m/s", shrink=0.8, extend="max")
     figure.savefig(out / "heart.png", dpi=90)
     plt.close(figure)
     if not shutil.which("ffmpeg"):
@@ -106,13 +128,30 @@ def pictures(case, beat, out):
         return
     with tempfile.TemporaryDirectory() as folder:
         for i, time in enumerate(times):
-            figure, axes = plt.subplots(figsize=(4.4, 6.4), layout="constrained")
-            figure.colorbar(slice_at(axes, case, time, largest), ax=axes, label="speed, m/s", shrink=0.8, extend="max")
+            figure, axes = plt.subplots(2, 1, figsize=(4.4, 8.2), height_ratios=(2.9, 1), layout="constrained")
+            figure.colorbar(slice_at(axes[0], case, time, largest), ax=axes[0], label="speed, m/s", shrink=0.8, extend="max")
+            valves_from_below(axes[1], case, time)
             figure.savefig(f"{folder}/{i:04}.png", dpi=100)
             plt.close(figure)
         subprocess.run(["ffmpeg", "-y", "-loglevel", "error", "-framerate", "20", "-i", f"{folder}/%04d.png", "-pix_fmt",
             "yuv420p",
                         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", str(out / "heart.mp4")], check=True)
+
+
+def loops(picture, *words):
+    """Draws the pressure-volume loop of the last beat of each heart."""
+    figure, axes = plt.subplots(figsize=(6.4, 4.6), layout="constrained")
+    for case, tables, colour in zip(words[::2], words[1::2], (BLUE, RED, ORANGE)):
+        beat = check.Beat(pathlib.Path(case))
+        model = check.zero_d_at(pathlib.Path(tables) / "zero_d.csv", beat.time)
+        last = beat.time > beat.time[-1] - check.PERIOD
+        axes.plot((beat.volume - beat.volume[0] + model["volume"][0])[last], beat.ventricle[last], color=colour,
+                  label="healthy" if pathlib.Path(case).name == "beat" else pathlib.Path(case).name)
+    axes.set_xlabel("volume of the ventricle, ml")
+    axes.set_ylabel("pressure, mmHg")
+    axes.legend(frameon=False)
+    axes.spines[["top", "right"]].set_visible(False)
+    figure.savefig(picture, dpi=90)
 
 
 def main(case, model_file, out):
@@ -123,6 +162,9 @@ def main(case, model_file, out):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) > 4 and sys.argv[1] == "loops" and len(sys.argv) % 2:
+        loops(*sys.argv[2:])
+    elif len(sys.argv) == 4:
+        main(*sys.argv[1:])
+    else:
         sys.exit(__doc__)
-    main(*sys.argv[1:])

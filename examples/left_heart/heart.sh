@@ -4,23 +4,26 @@
 # examples/openfoam/openfoam.sh, whose steps build the plug-in and set OpenFOAM's environment.
 
 heart_here=examples/left_heart
+heart_stiff='open_radius_ratio 0.45; commissure_expansion 0;' # of the stenotic aortic valve
+heart_least_opening=0.35                                     # of the regurgitant mitral valve
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
-# heart [--short | --coupled [--short]]
+# heart [--resume] [--all] [--short] | [--resume] --coupled [--short]
 heart() {
-  local python
-  heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only=
+  local python name of_keep=
+  [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }
+  heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only='' heart_diseases=()
   case $* in
-    '') ;;
-    --short) heart_fine=2.8 heart_coarse=6 heart_half_thickness=2e-3 heart_beats=1 ;;
-    --coupled) heart_only=coupled ;;
-    '--coupled --short') heart_only=coupled heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 ;;
+    '' | --short | --all | '--all --short') ;;
+    --coupled | '--coupled --short') heart_only=coupled ;;
     *)
       echo "./run heart: '$*' is not an option" >&2
       exit 2
       ;;
   esac
+  [[ $* != --all* ]] || heart_diseases=(stenosis regurgitation)
+  [[ $* != *--short ]] || heart_fine=3.5 heart_coarse=8 heart_half_thickness=2.3e-3 heart_beats=1
   openfoam_start left_heart_cases heart ffmpeg || return 0
   step "build the motions of the wall" heart_build
   export LD_LIBRARY_PATH=$of_work/left_heart:$LD_LIBRARY_PATH
@@ -28,17 +31,24 @@ heart() {
   python=$(python_of_packages)
   heart_python() { "$python" -B "$heart_here/$1" "${@:2}"; }
 
-  step "mesh the heart" heart_mesh
-  step "measure what the mitral valve leaves to the flow at each opening" heart_orifice mitral
-  step "measure what the aortic valve leaves to the flow at each opening" heart_orifice aortic
+  if [[ $of_keep ]]; then
+    [[ -e $of_cases/${heart_only:-beat}/log.pimpleFoam ]] || {
+      echo "./run heart: --resume finds no run in $of_cases/${heart_only:-beat}" >&2
+      exit 2
+    }
+  else
+    step "mesh the heart" heart_mesh
+    step "measure what the mitral valve leaves to the flow at each opening" heart_orifice mitral
+    step "measure what the aortic valve leaves to the flow at each opening" heart_orifice aortic
+  fi
   if [[ $heart_only ]]; then
     heart_coupled
     say "wrote out/heart, and the beat in $of_cases/coupled"
     return
   fi
-  step "a heart without space" heart_zero_d
+  [[ $of_keep ]] || step "a heart without space" heart_zero_d beat "$of_out" "$heart_beats"
   cat "$of_out/zero_d.txt"
-  step "$heart_beats beats of the heart" of_run beat 1
+  step "$heart_beats beats of the heart" heart_run beat
   heart_python check.py beat "$of_cases/beat" "$of_out/zero_d.csv" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee \
     "$of_out/beat.txt"
   step "40 steps on 1 and 2 ranks, and a restart" heart_ranks
@@ -46,8 +56,24 @@ heart() {
   heart_python check.py restart "$of_cases/ranks-1" "$of_cases/restart" | tee "$of_out/restart.txt"
   step "bad input, which must be refused" heart_refusals
   cat "$of_out/refusals.txt"
+  local hearts=("$of_cases/beat" "$of_out")
   step "draw" heart_python draw.py "$of_cases/beat" "$of_out/zero_d.csv" "$of_out"
+  for name in "${heart_diseases[@]}"; do
+    heart_diseased "$name"
+    hearts+=("$of_cases/$name" "$of_out/$name")
+  done
+  heart_python clinic.py "${hearts[@]}" | tee "$of_out/clinic.txt"
+  [[ ! ${heart_diseases[*]} ]] || step "draw the loops" heart_python draw.py loops "$of_out/loops.png" "${hearts[@]}"
   say "wrote out/heart, and the beat in $of_cases/beat"
+}
+
+# heart_run NAME: runs the case on one rank, from its last written time. The log grows if the run was cut off before.
+heart_run() {
+  local log=$of_cases/$1/log.pimpleFoam
+  timeout 14400 "${of_with[@]}" pimpleFoam -case "$of_cases/$1" >>"$log" 2>&1 && return
+  echo "failed: pimpleFoam -case $of_cases/$1; the end of $log:" >&2
+  tail -n 20 "$log" >&2
+  return 1
 }
 
 heart_build() {
@@ -67,12 +93,14 @@ heart_mesh() {
     of_from_gmsh "$folder" "$folder/heart.msh" && of_mesh_is_fine "$folder"
 }
 
-# heart_case NAME: copies the case and its mesh to $of_cases/NAME.
+# heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the cusps of the aortic valve are
+# stiff, and their free edges stay near the axis. With regurgitation the openings of the mitral valve end at heart_least_opening.
 heart_case() {
   rm -rf "${of_cases:?}/$1"
   cp -r "$heart_here/case" "$of_cases/$1" &&
     cp -r "$of_cases/mesh/constant/polyMesh" "$of_cases/$1/constant" &&
-    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness"
+    of_set "$1" system/fvOptions mitral/halfThickness "$heart_half_thickness" || return
+  [[ ${2:-} != stenosis ]] || of_set "$1" system/fvOptions aortic/valve "{ kind coapting; $heart_stiff }"
 }
 
 # heart_held NAME INLET OUTLET: the heart stands still, with closed valves, between these pressures in mmHg.
@@ -84,23 +112,39 @@ heart_held() {
   for valve in mitral aortic; do echo 'period 0.8; keys ((0 0) (0.4 0));' >"$constant/${valve}Keys"; done
 }
 
-# heart_orifice VALVE: the heart stands still between 12 and 0 mmHg, with the other valve open. The valve takes one opening after
-# the other. The flow and the pressures give the area that each opening leaves, and the leak of the closed valve.
+# heart_orifice VALVE [DISEASE]: the heart stands still between 12 and 0 mmHg, with the other valve open. The valve takes one
+# opening after the other. The flow and the pressures give the area that each opening leaves, and the leak of the closed valve.
 heart_orifice() {
-  local name=orifice-$1 other=mitral
+  local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic
-  heart_case "$name" && heart_held "$name" 12 0 &&
-    heart_python check.py keys >"$of_cases/$name/constant/$1Keys" &&
+  [[ ${2:-} != regurgitation ]] || least=$heart_least_opening
+  heart_case "$name" "${2:-}" && heart_held "$name" 12 0 &&
+    heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
     of_set "$name" system/controlDict endTime 0.45 writeInterval 0.45 &&
-    of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" >"$of_out/$1.csv"
+    of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" "$least" >"$folder/$1.csv"
 }
 
+# heart_zero_d CASE TABLES BEATS: makes the case, and its tables of motion, pressures and openings.
 heart_zero_d() {
-  heart_case beat &&
-    heart_python zero_d.py "$of_cases/beat" "$of_out/mitral.csv" "$of_out/aortic.csv" \
-      --beats "$heart_beats" --out "$of_out/zero_d.csv" >"$of_out/zero_d.txt" &&
-    of_set beat system/controlDict endTime "$(awk -v n="$heart_beats" 'BEGIN { print 0.8 * n }')"
+  local folder=$2 disease=
+  [[ $1 == beat ]] || disease=$1
+  heart_case "$1" "$disease" &&
+    heart_python zero_d.py "$of_cases/$1" "$folder/mitral.csv" "$folder/aortic.csv" --beats "$3" --out "$folder/zero_d.csv" \
+      >"$folder/zero_d.txt" &&
+    of_set "$1" system/controlDict endTime "$(awk -v n="$3" 'BEGIN { print 0.8 * n }')"
+}
+
+# heart_diseased DISEASE: a beat of the heart with one diseased valve.
+heart_diseased() {
+  local folder=$of_out/$1 sick=aortic well=mitral
+  [[ $1 == stenosis ]] || sick=mitral well=aortic
+  mkdir -p "$folder" && cp "$of_out/$well.csv" "$folder"
+  step "$1: measure what the $sick valve leaves to the flow" heart_orifice "$sick" "$1"
+  step "$1: a heart without space" heart_zero_d "$1" "$folder" 1
+  cat "$folder/zero_d.txt"
+  step "$1: a beat" heart_run "$1"
+  heart_python check.py beat "$of_cases/$1" "$folder"/{zero_d,mitral,aortic}.csv | tee "$folder/beat.txt"
 }
 
 # 40 steps from the start, with both valves closed at their end. The restart begins after 20 of them. There is no calibration,
@@ -123,19 +167,25 @@ heart_refused() {
   heart_case "$folder" && heart_held "$folder" 10 0 && of_set "$folder" "${@:3}" && of_refused "$1" "$folder" "$2"
 }
 
-# heart_zero_d_refuses NAME TEXT MITRAL.csv AORTIC.csv
-heart_zero_d_refuses() {
+# heart_refuses NAME TEXT COMMAND...: the command must fail with this text.
+heart_refuses() {
   local message
-  if message=$(heart_python zero_d.py "$of_cases/beat" "$3" "$4" 2>&1) || [[ $message != *"$2"* ]]; then
+  if message=$("${@:3}" 2>&1) || [[ $message != *"$2"* ]]; then
     echo "$1: not refused with '$2': $message" >&2
     return 1
   fi
   of_tell_refused "$1" "$2"
 }
 
+# heart_zero_d_refuses NAME TEXT MITRAL.csv AORTIC.csv
+heart_zero_d_refuses() { heart_refuses "$1" "$2" heart_python zero_d.py "$of_cases/beat" "$3" "$4"; }
+
 heart_refusals() {
   local motion=constant/dynamicMeshDict
-  heart_refused "no length" "length is 0, and must be positive" "$motion" beatMotionCoeffs/length 0 &&
+  heart_refuses "an unknown option" "'--fast' is not an option" ./run heart --fast &&
+    heart_refuses "a valve that never closes" "the least opening is 1, and must be at least 0 and below 1" \
+      heart_python check.py keys 1 &&
+    heart_refused "no length" "length is 0, and must be positive" "$motion" beatMotionCoeffs/length 0 &&
     heart_refused "no amplitude" "Unknown Function1 type none for amplitude" "$motion" beatMotionCoeffs/amplitude none &&
     heart_refused "an unknown law" "law is 'tabel', and must be" system/fvOptions mitral/opening '{ law tabel; }' &&
     heart_refused "a valve outside the heart" "no cell centre lies within the half thickness" system/fvOptions \

@@ -535,9 +535,19 @@ def pictures(case, still, out):
     draw.velocity(case, pathlib.Path(out) / "velocity.png")
 
 
+def follow(cases):
+    import follow as checks
+    checks.follow(cases)
+
+
+def angle(case, again):
+    import follow as checks
+    checks.angle(case, again)
+
+
 if __name__ == "__main__":
     commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "expected": expected,
-                "moving": moving, "tables": tables, "physiological": physiological,
+                "moving": moving, "tables": tables, "physiological": physiological, "follow": follow, "angle": angle,
                 "beat": beat, "restart": restart, "nan": nan, "pictures": pictures}
     if len(sys.argv) < 3 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")

@@ -87,6 +87,20 @@ def vectors(path):
     return _list(path, "vector")
 
 
+def points_of_faces(path, start, n):
+    """Returns the labels of the points of n faces, each once, from a binary file constant/polyMesh/faces."""
+    data = _bytes(path)
+    lists, end = [], data.find(b"\n}") + 1
+    for _ in range(2):  # where each face begins, and the labels of all faces
+        found = re.compile(rb"\n(\d+)\s*(?=\()").search(data, end)
+        if not found or not _is_binary(data):
+            raise SystemExit(f"{path} has no binary lists of faces")
+        lists.append(_values(path, data, found.end(), "label", int(found.group(1)), True))
+        end = found.end() + 1 + lists[-1].nbytes
+    first, points = lists
+    return numpy.unique(points[first[start]:first[start + n]])
+
+
 def n_cells(mesh):
     """Returns the number of cells, from the note in constant/polyMesh/owner."""
     path = pathlib.Path(mesh) / "owner"
@@ -134,9 +148,13 @@ def times(case):
 
 
 def columns(case, pattern, n):
-    """Returns the first n columns of all tables of a function object, those of the first start first."""
+    """Returns the first n columns of all tables of a function object, those of the first start first.
+
+    The first column is the time. If a run was cut off, it began again before the end of its table, and the later table counts.
+    """
     rows = []
     for path in sorted(pathlib.Path(case).glob(pattern), key=lambda path: float(path.parent.name)):
+        rows = [row for row in rows if row[0] <= float(path.parent.name) * (1 + 1e-9)]
         for i, line in enumerate(text(path).splitlines()):
             words = line.split()
             if line.startswith("#"):

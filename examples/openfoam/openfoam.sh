@@ -6,6 +6,8 @@
 openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
   bzip2 xz-utils python3-numpy python3-matplotlib)
 openfoam_here=examples/openfoam
+# shellcheck source=examples/openfoam/follow.sh
+. "$openfoam_here/follow.sh"
 
 # openfoam [--short | --size CENTIMETRES]
 openfoam() {
@@ -32,6 +34,7 @@ openfoam() {
   of_check() { "$python" -B "$openfoam_here/check.py" "$@"; }
 
   step "bad input, which must be refused" openfoam_refusals
+  step "bad input of valves that follow the mesh, and of the angle law" openfoam_follow_refusals
   cat "$of_out/refusals.txt"
   step "marks of 1, 2 and 4 ranks" openfoam_marks
   of_check marks "$of_cases/marks-1" "$of_cases/marks-2" "$of_cases/marks-4" | tee "$of_out/marks.txt"
@@ -39,6 +42,10 @@ openfoam() {
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
   step "moving valves, with riisSource and without it" openfoam_moving
   of_check moving "$of_cases" "$of_work"/riis/lib*/libriis.so.1 | tee "$of_out/moving.txt"
+  step "valves in meshes that move as rigid bodies" openfoam_follow
+  of_check follow "$of_cases" | tee "$of_out/follow.txt"
+  step "the angle law" openfoam_angle
+  of_check angle "$of_cases/angle" "$of_cases/angle-restart" | tee "$of_out/angle.txt"
   if [[ ${1:-} != --short ]]; then
     step "the expected drop and the calibrated drop of closed leaflets" openfoam_expected
     of_check expected "$of_cases"/expected-*-no | tee "$of_out/expected.txt"
@@ -60,7 +67,7 @@ openfoam() {
 }
 
 # openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and
-# out/OUT, for results. Returns 1 after a message if OpenFOAM is left out.
+# out/OUT, for results. With of_keep it keeps what is in them. Returns 1 after a message if OpenFOAM is left out.
 openfoam_start() {
   openfoam_has_package || return
   packages=("${openfoam_packages[@]}" "${@:3}")
@@ -71,7 +78,7 @@ openfoam_start() {
   step "build the library and the plug-in" openfoam_build
   openfoam_environment
   of_cases=$of_work/$1 of_out=$PWD/out/$2
-  rm -rf "$of_cases" "$of_out"
+  [[ ${of_keep:-} ]] || rm -rf "$of_cases" "$of_out"
   mkdir -p "$of_cases" "$of_out"
 }
 
@@ -605,7 +612,7 @@ openfoam_refusals() {
     of_bad unknown-key && of_set unknown-key "$dict" aorticValve/opening/closesBelow 0 &&
     of_refused "an unknown key" unknown-key "unknown key 'closesBelow'" &&
     of_bad unknown-law && of_set unknown-law "$dict" aorticValve/opening/law swich &&
-    of_refused "an unknown law" unknown-law "law is 'swich', and must be constant, times, table or switch" &&
+    of_refused "an unknown law" unknown-law "law is 'swich', and must be constant, times, table, switch or angle" &&
     of_bad unknown-rim && foamDictionary "$of_cases/unknown-rim/$dict" -entry aorticValve/rim -add square >/dev/null &&
     of_refused "an unknown rim" unknown-rim "rim is 'square', and must be round or cut" &&
     of_bad wrong-unit && of_set wrong-unit "$dict" aorticValve/halfThickness '[0 2 0 0 0 0 0] 1e-3' &&

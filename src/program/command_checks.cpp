@@ -201,10 +201,6 @@ PlaceOptions finish_place(const Command &command, PlaceOptions options) {
   if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
     refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
   check_set_opening(options, "has no effect: landmarks are those of the closed valve");
-  if (!options.foam_output.empty() && options.warp_choice != no_warp)
-    refuse_usage(
-        "--foam cannot be combined with --warp, because OpenFOAM's riisValve takes no warp; instead, "
-        "riis mark CASE --unit m --cells with the placed valve writes K and K u_surface into the case");
   return options;
 }
 

@@ -135,9 +135,8 @@ gap. A wall that is missed or farther away is refused. In a case, "skirt" and "w
 riis place LANDMARKS --warp exact writes a warp into the placed valve, and every command that takes this valve as --valve uses it.
 With --warp smoothed the warp misses the landmarks by about their noise, so an error of a landmark bends the valve less. Points of
 the attachment among the landmarks (riis help landmarks) make the valve fit between its commissures and nadirs. The sizes and the
-placement do not depend on them. A warp that folds is refused. A bileaflet valve is rigid and takes no warp. OpenFOAM's riisValve
-takes none either, so --foam refuses --warp. Instead, riis mark CASE --unit m --cells with the placed valve writes
-K and K u_surface into a case.
+placement do not depend on them. A warp that folds is refused. A bileaflet valve is rigid and takes no warp. With --foam,
+OpenFOAM's dictionary also has the warp.
 --warp FILE gives a warp to a valve of any command: landmarks on the valve, their places in the patient, in the mesh's unit.
 FILE.json has the keys of "warp" in a case (riis help cases). FILE.csv has a line SX,SY,SZ,TX,TY,TZ for each landmark, and perhaps
 lines # noise = 0.3 and # coordinates = valve.

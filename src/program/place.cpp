@@ -396,9 +396,20 @@ std::string foam_of(const std::string &kind, const Placed &placed) {
     text += "    " + std::string(size.parameter.name) + " " + (size.values.size() == 1 ? values : "(" + values + ")") +
             ";\n";
   }
-  return text + "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" +
-         numbers_text(at.rotation_axis, 3, " ") + ");\n    rotationAngle   " + shortest(at.rotation_angle) +
-         ";\n    translation     (" + numbers_text(translation, 3, " ") + ");\n}\n";
+  text += "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" +
+          numbers_text(at.rotation_axis, 3, " ") + ");\n    rotationAngle   " + shortest(at.rotation_angle) +
+          ";\n    translation     (" + numbers_text(translation, 3, " ") + ");\n}\n";
+  if (!placed.warp) return text;
+  const auto points = [&](const std::vector<double> &xyz) {
+    std::string list;
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const double point[3] = {metres * xyz[i], metres * xyz[i + 1], metres * xyz[i + 2]};
+      list += "\n        (" + numbers_text(point, 3, " ") + ")";
+    }
+    return "\n    (" + list + "\n    );\n";
+  };
+  return text + "warp\n{\n    sources" + points(placed.places) + "    targets" + points(placed.landmarks.xyz) +
+         "    noise           " + shortest(metres * placed.warp_noise) + ";\n}\n";
 }
 
 std::string c_of(const std::string &kind, const Placed &placed) {

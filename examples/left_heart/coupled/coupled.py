@@ -125,6 +125,9 @@ def check(case, mitral, aortic):
     work = np.trapz(pressure, volume) * MMHG * ML
     print(f"volume {volume.max():.1f} to {volume.min():.1f} ml, ejection fraction {1 - volume.min() / volume.max():.2f}, "
           f"pressure {pressure.min():.1f} to {pressure.max():.1f} mmHg, stroke work {abs(work):.2f} J")
+    base = re.search(r"^ *base (\S+);", foam.text(pathlib.Path(case) / "constant" / "dynamicMeshDict"), re.MULTILINE)
+    if base:
+        print(f"the base descends by {1e3 * float(base[1]) * np.ptp(run['amplitude']):.1f} mm")
     step = np.diff(run["time"]).mean()
     for name in ("mitral", "aortic"):
         flow, opening = run[name + "_flow"], run[name + "_opening"]

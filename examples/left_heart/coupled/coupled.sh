@@ -5,8 +5,8 @@
 
 heart_coupled() {
   heart_python coupled/study.py "$of_work/left_heart/libvolumeSearch.so" | tee "$of_out/coupled_study.txt"
-  step "the files of the coupled heart" heart_coupled_case coupled
-  step "a beat of the coupled heart" of_run coupled 1
+  [[ $of_keep ]] || step "the files of the coupled heart" heart_coupled_case coupled
+  step "a beat of the coupled heart" heart_run coupled
   heart_python coupled/coupled.py check "$of_cases/coupled" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/coupled.txt"
   step "prescribed volumes with valves that switch" heart_naive
   heart_python coupled/coupled.py naive "$of_cases/naive" | tee "$of_out/coupled_naive.txt"

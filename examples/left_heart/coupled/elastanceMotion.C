@@ -7,7 +7,8 @@
 // when the step is solved. elastanceTable is a function object that writes a row for each step.
 //
 // p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the
-// face f sweeps if the amplitude grows. So the work of the blood on the wall is exactly the integral of p dV.
+// face f sweeps if the amplitude grows, as the base sees it. So the work of the blood on the wall is exactly the integral of
+// p dV, without the work that the whole heart's descent takes.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -47,7 +48,7 @@ class elastanceMotion : public points0MotionSolver {
   autoPtr<Function1<scalar>> elastance_;  // Pa/m3 over the phase
   scalar period_, phase_, unstressed_, rest_, rho_;
   volumeSearch search_;
-  scalar amplitude_, meshAtRest_;
+  scalar amplitude_, descended_, meshAtRest_;  // the base has the amplitude descended_, that of the last step
   label timeIndex_;
   bool measured_;
   elastanceState state_;
@@ -100,6 +101,7 @@ class elastanceMotion : public points0MotionSolver {
     state_.add("drift", search_.drift);
     state_.add("surprise", search_.largestSurprise());
     state_.add("amplitude", amplitude_);
+    state_.add("descended", descended_);
   }
 
   void checkCase() const {
@@ -125,6 +127,7 @@ class elastanceMotion : public points0MotionSolver {
         rest_(positive(coeffDict(), "volume")),
         rho_(positive(coeffDict(), "rho")),
         amplitude_(0),
+        descended_(0),
         meshAtRest_(0),
         timeIndex_(mesh.time().timeIndex()),
         measured_(false),
@@ -150,6 +153,7 @@ class elastanceMotion : public points0MotionSolver {
     search_.drift = kept("drift", 0);
     search_.surprise = kept("surprise", 0);
     amplitude_ = kept("amplitude", 0);
+    descended_ = kept("descended", 0);
     keepState();
     Info << "elastanceMotion: " << (found ? "continues" : "starts") << " with a volume of " << search_.volume
          << " m3 and a pressure of " << search_.pressure << " Pa" << endl;
@@ -157,7 +161,8 @@ class elastanceMotion : public points0MotionSolver {
 
   tmp<pointField> curPoints() const override {
     tmp<pointField> points(new pointField(points0_));
-    for (point &p : points.ref()) p = wall_.moved(p, amplitude_);
+    const vector descent = wall_.descent(descended_);
+    for (point &p : points.ref()) p = wall_.deformed(p, amplitude_) - descent;
     return points;
   }
 
@@ -166,6 +171,8 @@ class elastanceMotion : public points0MotionSolver {
     if (time.timeIndex() != timeIndex_) {
       checkCase();
       timeIndex_ = time.timeIndex();
+      // All trials of the step have the same base, because the valves are marked once in a step, and follow it.
+      descended_ = amplitude_;
       reach(search_.begin(time.deltaTValue(), elastanceAt(time.value()), unstressed_));
     } else {
       if (!measured_) {
@@ -188,8 +195,8 @@ class elastanceMotion : public points0MotionSolver {
       pointField more(patch.nPoints()), less(patch.nPoints());
       forAll(more, i) {
         const point &from = points0_[patch.meshPoints()[i]];
-        more[i] = wall_.moved(from, amplitude_ + 0.5e-3);
-        less[i] = wall_.moved(from, amplitude_ - 0.5e-3);
+        more[i] = wall_.deformed(from, amplitude_ + 0.5e-3);
+        less[i] = wall_.deformed(from, amplitude_ - 0.5e-3);
       }
       forAll(patch, i) {
         const face &f = patch.localFaces()[i];

@@ -243,7 +243,7 @@ void riisValve::estimateDrop() {
   }
 
   check(riis_valve_set_scalar(valve_.get(), "opening", 0));
-  check(riis_surface_update(surface_.get(), valve_.get(), nullptr));
+  check(riis_surface_update(surface_.get(), valve_.get(), &placement_));
   riis_mark_options options = markOptions_;
   options.fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_RIM;
   riis_marks *marks = nullptr;

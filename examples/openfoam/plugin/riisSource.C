@@ -7,9 +7,9 @@
 // the solver that its dictionary names as linearSolver. README.md says how to switch it on.
 //
 // A face is resisted if K dt > rho in both of its cells. Faces that are not resisted join cells to sets. A set is sealed if only
-// resisted faces and walls bound it. In a sealed set of the volume |set|, the source is
-//   S = 1/|set| * sum of u_f . A over the resisted faces of the set.
-// A points outward, and u_f is the velocity of the leaflets on the face. In all other cells S is 0.
+// resisted faces and walls bound it, and if it is smaller than the bands. In a sealed set of the volume |set|, the source is
+//   S = 1/|set| * sum of u_f . A over the resisted faces of the set and its walls.
+// A points outward, and u_f is the velocity of the leaflets on the face, or of the wall. In all other cells S is 0.
 #include "addToRunTimeSelectionTable.H"
 #include "cyclicPolyPatch.H"
 #include "emptyPolyPatch.H"
@@ -67,7 +67,7 @@ class riisNetSource : public regIOobject {
   label timeIndex_;
   scalarField volumes_;  // S times the cell's volume, m3/s
 
-  void compute(const fvMesh &mesh, const Valves &valves, bool hasReference);
+  void compute(const fvMesh &mesh, const Valves &valves, bool hasReference, bool takesBack);
 
  public:
   explicit riisNetSource(const fvMesh &mesh, const word &name)
@@ -75,14 +75,16 @@ class riisNetSource : public regIOobject {
         timeIndex_(-1) {}
   bool writeData(Ostream &os) const override { return os.good(); }  // a restart needs no file
 
-  const scalarField &ofThisStep(const fvMesh &mesh, const Valves &valves, bool hasReference) {
-    if (timeIndex_ != mesh.time().timeIndex() || volumes_.size() != mesh.nCells()) compute(mesh, valves, hasReference);
+  const scalarField &ofThisStep(const fvMesh &mesh, const Valves &valves, bool hasReference, bool takesBack) {
+    if (timeIndex_ != mesh.time().timeIndex() || volumes_.size() != mesh.nCells()) {
+      compute(mesh, valves, hasReference, takesBack);
+    }
     timeIndex_ = mesh.time().timeIndex();
     return volumes_;
   }
 };
 
-void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasReference) {
+void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasReference, bool takesBack) {
   const scalar dt = mesh.time().deltaTValue();
   const scalarField &volume = mesh.V();
   // strength is K dt / rho. share is the part of K in the diagonal A of the momentum equation. imposed is the velocity of the
@@ -135,6 +137,8 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
         if (resisted[patch.start() + i]) out[here] += through[i];
       } else if (!isClosed(patch)) {
         ends[here] += 1;
+      } else if (mesh.moving() && isA<wallPolyPatch>(patch)) {
+        out[here] += mesh.phi().boundaryField()[patch.index()][i];
       }
     }
   }
@@ -144,31 +148,49 @@ void riisNetSource::compute(const fvMesh &mesh, const Valves &valves, bool hasRe
   addOverRanks(size);
   // A closed box has no set with an open end. Its largest set holds most of the blood, so this set does not count as sealed.
   if (!hasReference && max(ends) == 0) ends[findMax(size)] = 1;
+  // A set that is larger than all bands is a chamber between closed valves. Its blood leaks through the valves, and its wall may
+  // move, so it does not count as sealed.
+  scalar bands = 0;
+  forAll(volume, cell) bands += strength[cell] > 1 ? volume[cell] : 0;
+  reduce(bands, sumOp<scalar>());
+  if (hasReference) {
+    forAll(ends, i) {
+      if (size[i] > bands) ends[i] = 1;
+    }
+  }
 
   label sets = 0, cells = 0;
   forAll(ends, i) sets += ends[i] == 0 && out[i] != 0;
-  scalar band = 0;  // volume of the outermost cells of the band, which are resisted but in no sealed set
+  // Each valve has a net source, and outermost cells of its band, which are resisted but in no sealed set. Where bands overlap, a
+  // cell belongs to the valve with the largest K.
+  scalarField net(valves.size(), 0), band(valves.size(), 0);
+  labelList belongs(mesh.nCells(), 0);
   forAll(volume, cell) {
+    for (label i = 1; i < label(valves.size()); ++i) {
+      if (valves[i]->isOn() && valves[i]->K()[cell] > valves[belongs[cell]]->K()[cell]) belongs[cell] = i;
+    }
     const label here = set[cell];
     if (ends[here] == 0) {
       volumes_[cell] = out[here] / size[here] * volume[cell];
       cells += volumes_[cell] != 0;
+      net[belongs[cell]] += volumes_[cell];
     } else if (strength[cell] > 1) {
-      band += volume[cell];
+      band[belongs[cell]] += volume[cell];
     }
   }
-  const scalar net = gSum(volumes_);
-  reduce(band, sumOp<scalar>());
+  addOverRanks(net);
+  addOverRanks(band);
   reduce(cells, sumOp<label>());
   // Without a fixed pressure, inflow equals outflow, so the net source must be 0. The outermost cells of the band take the net
   // source back. If the band has no such cells, all sets are sealed, and their sources cancel.
-  if (!hasReference && band > 0) {
+  if (takesBack) {
     forAll(volume, cell) {
-      if (ends[set[cell]] != 0 && strength[cell] > 1) volumes_[cell] -= net / band * volume[cell];
+      const label valve = belongs[cell];
+      if (ends[set[cell]] != 0 && strength[cell] > 1) volumes_[cell] -= net[valve] / band[valve] * volume[cell];
     }
   }
-  Info << "riisSource: " << sets << " sealed sets, " << cells << " cells, net source " << net << " m3/s"
-       << (hasReference ? "" : ", which the outermost cells of the band take back") << endl;
+  Info << "riisSource: " << sets << " sealed sets, " << cells << " cells, net source " << sum(net) << " m3/s"
+       << (takesBack ? ", which the outermost cells of the band take back" : "") << endl;
 }
 
 class riisSource : public lduMatrix::solver {
@@ -197,7 +219,9 @@ class riisSource : public lduMatrix::solver {
     const word key = "riisSource." + fieldName_;
     if (!mesh->foundObject<riisNetSource>(key)) regIOobject::store(new riisNetSource(*mesh, key));
     const bool hasReference = !mesh->lookupObject<volScalarField>(fieldName_).needReference();
-    const scalarField &volumes = mesh->lookupObjectRef<riisNetSource>(key).ofThisStep(*mesh, valves, hasReference);
+    const bool takesBack = !hasReference || !controlDict_.getOrDefault<Switch>("netSource", true);
+    const scalarField &volumes =
+        mesh->lookupObjectRef<riisNetSource>(key).ofThisStep(*mesh, valves, hasReference, takesBack);
 
     // The equation laplacian(rAU, p) = div(HbyA) - S has a negative diagonal in OpenFOAM, and -S V on the right-hand side. If a
     // solver uses the other sign of the equation, the diagonal is positive, and the right-hand side has +S V.

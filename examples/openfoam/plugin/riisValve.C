@@ -6,10 +6,8 @@
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
 #include "fvmSup.H"
-#include "surfaceFields.H"
 
 #include <chrono>
-#include <cmath>
 #include <cstring>
 
 namespace Foam {
@@ -139,8 +137,9 @@ void riisValve::readAll() {
     refuseOthers(dict_, {"type", "active", "libs", "selectionMode", "fields", part.c_str()});
   }
   refuseOthers(coeffs_,
-               {"type", "active", "libs", "selectionMode", "fields", "U", "p", "phi", "rho", "valve", "placement",
-                "halfThickness", "resistance", "calibrate", "rim", "velocity", "opening", "nThreads", "writeLeaflets"});
+               {"type",     "active",  "libs",      "selectionMode", "fields",        "U",          "p",         "phi",
+                "rho",      "valve",   "placement", "warp",          "halfThickness", "resistance", "calibrate", "rim",
+                "velocity", "opening", "nThreads",  "writeLeaflets"});
   rho_.read(coeffs_);
   if (!(rho_.value() > 0)) {
     FatalIOErrorInFunction(coeffs_) << "rho is " << rho_.value() << ", and must be positive" << exit(FatalIOError);
@@ -165,21 +164,21 @@ void riisValve::readAll() {
   }
 
   readValve(coeffs_.subDict("valve"));
-  readLaw(coeffs_.subDict("opening"));
-
-  riis_surface_options options;
-  check(riis_surface_options_init(&options, sizeof options));
-  readPlacement(coeffs_.subDict("placement"), options);
+  check(riis_surface_options_init(&placementAtRest_, sizeof placementAtRest_));
+  readPlacement(coeffs_.subDict("placement"), placementAtRest_);
   halfThickness_ = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
-  options.half_thickness = halfThickness_;
+  placementAtRest_.half_thickness = halfThickness_;
   // By default the library uses one thread in each rank, as the solver does.
-  options.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
+  placementAtRest_.n_threads = coeffs_.getOrDefault<label>("nThreads", 1);
+  readWarp(coeffs_.subOrEmptyDict("warp"));
+  follow();
+  readLaw(coeffs_.subDict("opening"));
   riis_surface *surface = nullptr;
-  check(riis_surface_create(valve_.get(), &options, &surface), coeffs_);
+  check(riis_surface_create(valve_.get(), &placement_, &surface), coeffs_);
   surface_.reset(surface);
 
   check(riis_mark_options_init(&markOptions_, sizeof markOptions_));
-  markOptions_.n_threads = options.n_threads;
+  markOptions_.n_threads = placement_.n_threads;
   markOptions_.fields = RIIS_FIELD_POINT | (withVelocity_ ? RIIS_FIELD_VELOCITY : 0);  // moments need the points
   check(riis_resistance_init(&resistance_, sizeof resistance_));
   resistance_.R = dimensionedScalar("resistance", dimMass / dimLength / dimTime, coeffs_).value();
@@ -225,116 +224,75 @@ void riisValve::readValve(const dictionary &dict) {
   }
 }
 
-void riisValve::readPlacement(const dictionary &dict, riis_surface_options &options) const {
-  refuseOthers(dict, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals"});
+void riisValve::readPlacement(const dictionary &dict, riis_surface_options &options) {
+  refuseOthers(dict, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals", "follow"});
   options.scale = dict.get<scalar>("scale");
   copy(dict.getOrDefault<vector>("rotationAxis", vector(0, 0, 1)), options.rotation_axis);
   options.rotation_angle = dict.getOrDefault<scalar>("rotationAngle", 0);
   copy(dict.getOrDefault<vector>("translation", Zero), options.translation);
   options.flip_normals = dict.getOrDefault<Switch>("flipNormals", false);
+  follow_.reset(dict.found("follow") ? new riisFollow(mesh_, dict.subDict("follow")) : nullptr);
 }
 
-void riisValve::readLaw(const dictionary &dict) {
-  const word name = dict.get<word>("law");
-  if (name == "constant") {
-    refuseOthers(dict, {"law", "opening"});
-    law_ = Law::constant;
-    constant_ = dict.get<scalar>("opening");
-  } else if (name == "times") {
-    refuseOthers(
-        dict, {"law", "openingStart", "openingSeconds", "closingStart", "closingSeconds", "closed", "open", "period"});
-    law_ = Law::times;
-    check(riis_opening_times_init(&times_, sizeof times_));
-    times_.opening_start = dict.get<scalar>("openingStart");
-    times_.opening_duration = dict.get<scalar>("openingSeconds");
-    times_.closing_start = dict.get<scalar>("closingStart");
-    times_.closing_duration = dict.get<scalar>("closingSeconds");
-    times_.closed = dict.getOrDefault<scalar>("closed", times_.closed);
-    times_.open = dict.getOrDefault<scalar>("open", times_.open);
-    times_.period = dict.getOrDefault<scalar>("period", times_.period);
-    check(riis_opening_from_times(&times_, 0, nullptr, nullptr), dict);
-  } else if (name == "table") {
-    refuseOthers(dict, {"law", "keys", "interpolation", "period"});
-    law_ = Law::table;
-    const List<Tuple2<scalar, scalar>> keys = dict.get<List<Tuple2<scalar, scalar>>>("keys");
-    keyTimes_.setSize(keys.size());
-    keyOpenings_.setSize(keys.size());
-    forAll(keys, i) {
-      keyTimes_[i] = keys[i].first();
-      keyOpenings_[i] = keys[i].second();
+// Reads the landmarks of a warp. Sources lie on the valve, and targets are their places in the mesh at rest.
+void riisValve::readWarp(const dictionary &dict) {
+  warp_.reset();
+  warpMoves_ = dict.found("follow");
+  if (dict.empty()) return;
+  refuseOthers(dict, {"sources", "targets", "noise", "follow"});
+  const pointField sources(dict.get<pointField>("sources"));
+  targetsAtRest_ = dict.getOrDefault<pointField>("targets", sources);
+  riis_warp_options options;
+  check(riis_warp_options_init(&options, sizeof options));
+  options.noise = dict.getOrDefault<scalar>("noise", 0);
+  options.placement = &placementAtRest_;
+  riis_warp *warp = nullptr;
+  const riis_points points = pointsOf(sources);
+  check(riis_warp_create(&points, &options, &warp), dict);
+  warp_.reset(warp);
+  if (warpMoves_) {
+    if (follow_) {
+      FatalIOErrorInFunction(dict) << "the warp of valve " << name_
+                                   << " follows the mesh, and its placement does too. One of them "
+                                   << "must rest" << exit(FatalIOError);
     }
-    check(riis_opening_table_init(&table_, sizeof table_));
-    table_.n_keys = keys.size();
-    table_.time = keyTimes_.cdata();
-    table_.opening = keyOpenings_.cdata();
-    table_.period = dict.getOrDefault<scalar>("period", table_.period);
-    const word interpolation = dict.getOrDefault<word>("interpolation", "linear");
-    if (interpolation != "linear" && interpolation != "cubic") {
-      FatalIOErrorInFunction(dict) << "interpolation is '" << interpolation << "', and must be linear or cubic"
-                                   << exit(FatalIOError);
-    }
-    table_.interpolation = interpolation == "cubic" ? RIIS_INTERPOLATION_CUBIC : RIIS_INTERPOLATION_LINEAR;
-    check(riis_opening_from_table(&table_, 0, nullptr, nullptr), dict);
-  } else if (name == "switch") {
-    refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds",
-                        "dwellSeconds", "upstream", "downstream", "flowPatch", "forward"});
-    law_ = Law::pressure;
-    check(riis_opening_switch_init(&switch_, sizeof switch_));
-    switch_.opening_duration = dict.get<scalar>("openingSeconds");
-    switch_.closing_duration = dict.get<scalar>("closingSeconds");
-    switch_.open_above = dict.getOrDefault<scalar>("openAbove", switch_.open_above);
-    switch_.close_below = dict.getOrDefault<scalar>("closeBelow", switch_.close_below);
-    switch_.filter_time = dict.getOrDefault<scalar>("filterSeconds", switch_.filter_time);
-    switch_.dwell_time = dict.getOrDefault<scalar>("dwellSeconds", switch_.dwell_time);
-    riis_opening_switch_state state;
-    check(riis_opening_switch_state_init(&state, sizeof state));
-    check(riis_opening_switch_advance(&switch_, &state, 0, 0, 0, &state), dict);
-    upstream_ = sensor(dict.subDict("upstream"));
-    downstream_ = sensor(dict.subDict("downstream"));
-    flowPatch_ = flowPatch(dict);
-  } else {
-    FatalIOErrorInFunction(dict) << "law is '" << name << "', and must be constant, times, table or switch"
-                                 << exit(FatalIOError);
+    follow_.reset(new riisFollow(mesh_, dict.subDict("follow")));
+    follow_->chooseNearest(targetsAtRest_, dict.subDict("follow"));
   }
+  setWarp(targetsAtRest_, &dict);
 }
 
-riisValve::FlowPatch riisValve::flowPatch(const dictionary &dict) const {
-  const word patch = dict.get<word>("flowPatch"), forward = dict.getOrDefault<word>("forward", "out");
-  FlowPatch found;
-  found.patch = mesh_.boundaryMesh().findPatchID(patch);
-  if (found.patch < 0) {
-    FatalIOErrorInFunction(dict) << "flowPatch is '" << patch << "', and the mesh has no such patch. Its patches are "
-                                 << mesh_.boundaryMesh().names() << exit(FatalIOError);
-  }
-  if (forward != "out" && forward != "in") {
-    FatalIOErrorInFunction(dict) << "forward is '" << forward << "', and must be out or in" << exit(FatalIOError);
-  }
-  found.sign = forward == "out" ? 1 : -1;
-  return found;
+riis_points riisValve::pointsOf(const pointField &list) const {
+  riis_points points;
+  check(riis_points_init(&points, sizeof points));
+  points.n_points = list.size();
+  const double *xyz = list.empty() ? nullptr : list[0].cdata();
+  points.x = xyz;
+  points.y = xyz + 1;
+  points.z = xyz + 2;
+  points.stride = 3;
+  return points;
 }
 
-riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
-  refuseOthers(dict, {"centre", "radius"});
-  const vector centre = dict.get<vector>("centre");
-  const scalar radius = dict.get<scalar>("radius");
-  Sensor found;
-  found.volume = 0;
-  forAll(mesh_.cellCentres(), cell) {
-    if (mag(mesh_.cellCentres()[cell] - centre) > radius) continue;
-    found.cells.append(cell);
-    found.volume += mesh_.V()[cell];
-  }
-  reduce(found.volume, sumOp<scalar>());
-  if (!(found.volume > 0)) {
-    FatalIOErrorInFunction(dict) << "no cell has its centre within " << radius << " of " << centre
-                                 << exit(FatalIOError);
-  }
-  return found;
+// Warps the valve, so that its landmarks come to these places.
+void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
+  const riis_points points = pointsOf(targets);
+  const auto checked = [&](riis_status status) { dict ? check(status, *dict) : check(status); };
+  checked(riis_warp_set_targets(warp_.get(), &points));
+  checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
+}
+
+// Moves the placement to the present points of the mesh. A warp that follows points gets the part of their motion that is not rigid.
+void riisValve::follow() {
+  placement_ = placementAtRest_;
+  if (!follow_) return;
+  follow_->update();
+  follow_->motion().place(placementAtRest_, placement_);
+  if (warpMoves_) setWarp(follow_->deformed(targetsAtRest_), nullptr);
 }
 
 // Continues from the state in the folder of the start time. A run that starts for the first time has no such state.
 void riisValve::restart() {
-  const scalar start = mesh_.time().value();
   const bool found = state_.found("kind");
   if (returnReduce(found, orOp<bool>()) != returnReduce(found, andOp<bool>())) {
     FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": some ranks have "
@@ -361,33 +319,7 @@ void riisValve::restart() {
     opening_ = state_.get<scalar>("opening");
   }
 
-  switch (law_) {
-    case Law::constant:
-      opening_ = found ? opening_ : constant_;
-      break;
-    case Law::times:
-      if (!found) check(riis_opening_from_times(&times_, start, &opening_, nullptr));
-      break;
-    case Law::table:
-      if (!found) check(riis_opening_from_table(&table_, start, &opening_, nullptr));
-      break;
-    case Law::pressure:
-      check(riis_opening_switch_state_init(&switchState_, sizeof switchState_));
-      switchState_.time = start;
-      if (found) {
-        switchState_.time = state_.get<scalar>("time");
-        switchState_.opening = opening_;
-        switchState_.rate = state_.get<scalar>("rate");
-        switchState_.progress = state_.get<scalar>("progress");
-        switchState_.phase = state_.get<label>("phase");
-        // The file lacks the keys pressureDifference, flow and turnTime if the switch had no state yet.
-        state_.readIfPresent("pressureDifference", switchState_.pressure_difference);
-        state_.readIfPresent("flow", switchState_.flow);
-        state_.readIfPresent("turnTime", switchState_.turn_time);
-      }
-      opening_ = switchState_.opening;
-      break;
-  }
+  restartLaw(found);
   if (found) restartFactor();
   Info << "riis " << name_ << ": " << (found ? "continues" : "starts") << " at time " << mesh_.time().timeName()
        << " with opening " << opening_ << (found ? " from " : ", without ") << state_.IOobject::objectPath() << endl;
@@ -432,33 +364,8 @@ void riisValve::keepState() {
     state_.add("resistance", resistance_.R);
     state_.add("halfThickness", halfThickness_);
   }
-  if (law_ == Law::pressure) {
-    state_.add("time", switchState_.time);
-    state_.add("rate", switchState_.rate);
-    state_.add("progress", switchState_.progress);
-    state_.add("phase", label(switchState_.phase));
-    if (!std::isnan(switchState_.pressure_difference))
-      state_.add("pressureDifference", switchState_.pressure_difference);
-    if (!std::isnan(switchState_.flow)) state_.add("flow", switchState_.flow);
-    if (!std::isnan(switchState_.turn_time)) state_.add("turnTime", switchState_.turn_time);
-  }
+  keepLaw();
   state_.add("parameters", parameters());
-}
-
-// Returns the mean pressure over the sensor's cells on all ranks.
-scalar riisValve::meanPressure(const Sensor &sensor) const {
-  const volScalarField &p = mesh_.lookupObject<volScalarField>(pName_);
-  scalar sum = 0;
-  for (const label cell : sensor.cells) sum += mesh_.V()[cell] * p[cell];
-  reduce(sum, sumOp<scalar>());
-  return (p.dimensions() == dimPressure ? 1 : rho_.value()) * sum / sensor.volume;
-}
-
-scalar riisValve::flow(const FlowPatch &patch) const {
-  const surfaceScalarField &phi = mesh_.lookupObject<surfaceScalarField>(phiName_);
-  scalar sum = 0;
-  for (const scalar flux : phi.boundaryField()[patch.patch]) sum += flux;
-  return patch.sign * returnReduce(sum, sumOp<scalar>());
 }
 
 riis_resistance riisValve::calibrated() const {
@@ -501,32 +408,18 @@ void riisValve::forces(const volVectorField &U, const vector &about, vectorField
   Pstream::listCombineScatter(moment);
 }
 
-// Advances the law to the end of the step. The law uses the pressures and the flow at the beginning of the step.
-scalar riisValve::openingAt(scalar time, Ostream &report) {
-  scalar opening = constant_;
-  if (law_ == Law::times) check(riis_opening_from_times(&times_, time, &opening, nullptr));
-  if (law_ == Law::table) check(riis_opening_from_table(&table_, time, &opening, nullptr));
-  if (law_ == Law::pressure) {
-    const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow(flowPatch_);
-    check(riis_opening_switch_advance(&switch_, &switchState_, time, difference, volume, &switchState_));
-    opening = switchState_.opening;
-    report << ", pressure difference " << difference << " Pa, flow " << volume << " m3/s";
-  }
-  return opening;
-}
-
 // Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
 // outer correctors of the step use the same K.
 void riisValve::mark() {
   const Time &time = mesh_.time();
+  const riis_surface_options placementBefore = placement_;
+  if (warpMoves_) check(riis_valve_set_warp(before_.get(), warp_.get(), nullptr));
   if (mesh_.changing()) {
+    follow();
     const vectorField &centres = mesh_.cellCentres();
     const double *xyz = centres.empty() ? nullptr : centres[0].cdata();
     check(riis_mesh_update(cells_.get(), centres.size(), xyz, xyz + 1, xyz + 2, 3));
-    if (law_ == Law::pressure) {
-      upstream_ = sensor(coeffs_.subDict("opening").subDict("upstream"));
-      downstream_ = sensor(coeffs_.subDict("opening").subDict("downstream"));
-    }
+    if (hasSensors()) readSensors(coeffs_.subDict("opening"));
   }
 
   if (!estimated_) estimateDrop();
@@ -537,10 +430,10 @@ void riisValve::mark() {
 
   const auto start = std::chrono::steady_clock::now();
   if (withVelocity_) {
-    check(
-        riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), time.deltaTValue(), nullptr, nullptr));
+    check(riis_surface_update_moving(surface_.get(), valve_.get(), before_.get(), time.deltaTValue(), &placement_,
+                                     &placementBefore));
   } else {
-    check(riis_surface_update(surface_.get(), valve_.get(), nullptr));
+    check(riis_surface_update(surface_.get(), valve_.get(), &placement_));
   }
   check(riis_mark_nodes(surface_.get(), cells_.get(), &markOptions_, result_.get()));
   K_.primitiveFieldRef() = 0;
@@ -575,6 +468,10 @@ void riisValve::mark() {
   K_.correctBoundaryConditions();
   if (withVelocity_) KU_->correctBoundaryConditions();
   keepState();
+  if (follow_) {
+    report << ", turned by " << follow_->motion().degrees() << " degrees, points rigid to "
+           << follow_->motion().residual() << " m";
+  }
   const dimensionedScalar integral = gSum(K_.primitiveField() * mesh_.V().field());
   const scalar slowest = returnReduce(seconds.count(), maxOp<scalar>());
   Info << "riis " << name_ << ": opening " << opening_ << ", " << all << " cells marked, integral of K "

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Prints the numbers of the last beat that a clinician knows, with a column for each heart.
+
+    clinic.py CASE TABLES [CASE TABLES ...]
+
+TABLES is a folder with zero_d.csv, mitral.csv and aortic.csv of the case.
+"""
+import pathlib
+import sys
+
+import numpy as np
+
+import check
+import zero_d
+from check import foam
+from zero_d import ML, MMHG, PERIOD, RHO
+
+NONE = float("nan")
+
+
+def written(case):
+    """Returns the names of the times at which the case wrote its plane x = 0."""
+    return sorted((folder.name for folder in (case / "postProcessing/slice").iterdir()), key=float)
+
+
+def plane(case, time):
+    """Returns y and z of the points in the plane x = 0, the triangles, and the velocities there: (n, 2), (m, 3), (n, 2)."""
+    points, corners, vectors = foam.triangles(case / "postProcessing/slice" / time / "middle.vtk")
+    return points[:, 1:], corners, vectors[:, 1:]
+
+
+def vortex(points, corners, velocity):
+    """Returns the circulation of the strongest vortex in the ventricle, in m2/s, and its centre and radius in mm.
+
+    A vortex is a disc of the plane that lies in the blood below the base. Its circulation is the integral of the vorticity.
+    """
+    a, b, c = (points[corners[:, k]] for k in range(3))
+    first, second = b - a, c - a
+    twice = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    fine = np.abs(twice) > 1e-14
+    one, two = (velocity[corners[:, k]] - velocity[corners[:, 0]] for k in (1, 2))
+    # The velocity is linear in a triangle, so its circulation around the triangle is exact.
+    around = ((one * second).sum(axis=1) - (two * first).sum(axis=1)) / 2 * np.sign(twice)
+    areas, middles = np.abs(twice) / 2, (a + b + c) / 3
+    keep = fine & (middles[:, 1] < 0)
+    around, areas, middles = around[keep], areas[keep], middles[keep]
+    best = (0.0, (0.0, 0.0), 0.0)
+    for y in np.arange(-24e-3, 25e-3, 3e-3):
+        for z in np.arange(-63e-3, -5e-3, 3e-3):
+            distance = np.hypot(middles[:, 0] - y, middles[:, 1] - z)
+            for radius in (6e-3, 9e-3, 12e-3, 15e-3, 18e-3):
+                inside = distance < radius
+                if areas[inside].sum() > 0.96 * np.pi * radius**2:
+                    circulation = around[inside].sum()
+                    if abs(circulation) > abs(best[0]):
+                        best = (circulation, (1e3 * y, 1e3 * z), 1e3 * radius)
+    return best
+
+
+def numbers(case, tables):
+    """Returns the numbers of the last whole beat."""
+    case, tables = pathlib.Path(case), pathlib.Path(tables)
+    beat = check.Beat(case)
+    model = check.zero_d_at(tables / "zero_d.csv", beat.time)
+    orifices = {name: zero_d.read_orifice(tables / f"{name}.csv") for name in ("mitral", "aortic")}
+    step = beat.time[1] - beat.time[0]
+    n = round(PERIOD / step)
+    first = (len(beat.time) // n - 1) * n
+    if first < 0:
+        sys.exit(f"clinic.py: {case} has {len(beat.time)} steps, and a beat has {n}")
+    last = slice(first, first + n)
+    time, mitral, aortic = beat.time[last] - beat.time[first], beat.mitral[last], beat.aortic[last]
+    volume = (beat.volume - beat.volume[0] + model["volume"][0])[last]
+    ventricle, aorta, atrium = beat.ventricle[last], beat.aorta[last], beat.atrium[last]
+    open_ = {name: beat.openings[name][last] > orifices[name][3] for name in orifices}
+    ejects = np.flatnonzero(open_["aortic"])
+
+    # The run begins at the end of the A wave, so the A wave is what enters after the time KICK_START of the run.
+    filling = mitral * (time > time[ejects[-1]])
+    kick = time > zero_d.KICK_START
+    e_wave = filling[~kick].max()
+    e_volume = np.clip(filling[~kick], 0, None).sum() * step
+    a_wave = filling[kick].max()
+    stroke = volume.max() - volume.min()
+
+    # Isovolumetric phases: neither valve leaves an orifice.
+    closed = ~open_["mitral"] & ~open_["aortic"]
+    moved = time > 0.005
+    contraction = (closed & moved & (time < time[ejects[0]])).sum() * step * 1e3
+    relaxation = (closed & (time > time[ejects[-1]])).sum() * step * 1e3
+    has_phases = open_["mitral"].any() and not open_["mitral"].all()
+
+    forward = (aortic > 0) & open_["aortic"] & (ventricle > aorta)
+    gradient = (ventricle - aorta)[forward]
+    effective = aortic[forward].mean() * ML * np.sqrt(RHO / (2 * gradient.mean() * MMHG))
+    back = -np.clip(mitral, None, 0).sum() * step
+
+    jets, drops, swirls = [], [], []
+    for name in written(case):
+        at = float(name) - beat.time[first] + step
+        if not 0 < at <= PERIOD + step / 2:
+            continue
+        points, corners, velocity = plane(case, name)
+        speed = np.linalg.norm(velocity, axis=1)
+        in_tube, k = (points[:, 1] > 2e-3) & (points[:, 0] > 0), min(n - 1, round(at / step) - 1)
+        if open_["aortic"][k]:
+            jets.append(speed[in_tube].max())
+        if time[ejects[-1]] < at < zero_d.KICK_START:
+            below = (points[:, 0] < 0) & (points[:, 1] > -30e-3)
+            drops.append(-velocity[below, 1].min())
+        if at > time[ejects[-1]]:
+            swirls.append((*vortex(points, corners, velocity), float(name)))
+    swirl = max(swirls, key=lambda row: abs(row[0]))
+    area = orifices["mitral"][1][-1]
+    return {
+        "end-diastolic volume, ml": volume.max(),
+        "end-systolic volume, ml": volume.min(),
+        "stroke volume, ml": stroke,
+        "ejection fraction": stroke / volume.max(),
+        "blood into the aorta, ml": aortic.sum() * step,
+        "blood back through the mitral valve, ml": back,
+        "share of it in the stroke volume": back / stroke,
+        "pressure in the ventricle, end of diastole, mmHg": ventricle[np.argmax(volume)],
+        "largest pressure in the ventricle, mmHg": ventricle.max(),
+        "pressure in the aorta, mmHg": (aorta.min(), aorta.max()),
+        "pressure in the atrium, mean, mmHg": atrium.mean(),
+        "largest pressure in the atrium, mmHg": atrium.max(),
+        "aortic gradient, mean, mmHg": gradient.mean(),
+        "aortic gradient, largest, mmHg": gradient.max(),
+        "effective aortic area, cm2": effective * 1e4,
+        "largest flow into the aorta, ml/s": aortic.max(),
+        "fastest blood in the aorta, m/s": max(jets),
+        "E wave, ml/s": e_wave,
+        "A wave, ml/s": a_wave,
+        "E/A": e_wave / a_wave,
+        "fastest blood of the E wave, m/s": max(drops),
+        "isovolumetric contraction, ms": contraction if has_phases else NONE,
+        "ejection, ms": len(ejects) * step * 1e3,
+        "isovolumetric relaxation, ms": relaxation if has_phases else NONE,
+        "stroke work, J": -np.sum(ventricle * np.gradient(volume)) * MMHG * ML,
+        "vortex: circulation, m2/s": abs(swirl[0]),
+        "vortex: formation time": e_volume * ML / area / np.sqrt(4 * area / np.pi),
+    }, swirl
+
+
+def show(value):
+    if isinstance(value, tuple):
+        return " to ".join(show(one) for one in value)
+    return "none" if np.isnan(value) else f"{value:.3g}"
+
+
+def main(words):
+    if not words or len(words) % 2:
+        sys.exit(__doc__)
+    hearts = [numbers(case, tables) for case, tables in zip(words[::2], words[1::2])]
+    names = ["healthy" if pathlib.Path(case).name == "beat" else pathlib.Path(case).name for case in words[::2]]
+    print("| last beat | " + " | ".join(names) + " |\n|---|" + "---|" * len(names))
+    for row in hearts[0][0]:
+        print(f"| {row} | " + " | ".join(show(values[row]) for values, _ in hearts) + " |")
+    for name, (_, (_, (y, z), radius, time)) in zip(names, hearts):
+        print(f"{name}: the strongest vortex has its middle at y {y:.0f}, z {z:.0f} mm, radius {radius:.0f} mm, at {time:.2f} s")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

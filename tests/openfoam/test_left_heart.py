@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("skipped: there is no numpy")
+    sys.exit(77)
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "examples/left_heart"))
+import check  # noqa: E402
+import clinic  # noqa: E402
+import zero_d  # noqa: E402
+
+HEAD = "opening,area,leak,flow,difference\n"
+WELL = HEAD + "0,0,0.03,0.3,12\n0.5,1e-4,0.03,100,12\n1,3e-4,0.03,300,12\n"
+OPEN = HEAD + "0.3,2e-5,0,20,12\n0.5,1e-4,0,100,12\n1,3e-4,0,300,12\n"
+
+
+def square(n, velocity):
+    """Returns points y and z of a square of 80 mm below z = 0, its triangles, and the velocities there."""
+    y, z = np.meshgrid(np.linspace(-40e-3, 40e-3, n), np.linspace(-80e-3, 0, n), indexing="ij")
+    points = np.column_stack([y.ravel(), z.ravel()])
+    here = np.arange(n * n).reshape(n, n)
+    a, b, c, d = (part.ravel() for part in (here[:-1, :-1], here[1:, :-1], here[1:, 1:], here[:-1, 1:]))
+    return points, np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, d, c])]), velocity(*points.T)
+
+
+class Vortex(unittest.TestCase):
+    def test_rigid_rotation(self):
+        """Around a disc of rigid rotation the circulation is twice its area times the angular velocity."""
+        for turn in (7.0, -7.0):
+            circulation, _, radius = clinic.vortex(*square(81, lambda y, z: np.column_stack([-turn * z, turn * y])))
+            self.assertEqual(radius, 18)
+            self.assertAlmostEqual(circulation / (2 * turn * np.pi * 18e-3**2), 1, delta=0.03)
+
+    def test_middle(self):
+        """A vortex that turns only within 9 mm of a point is found there."""
+        def velocity(y, z):
+            turn = 7 * (np.hypot(y - 6e-3, z + 33e-3) < 9.5e-3)
+            return np.column_stack([-turn * (z + 33e-3), turn * (y - 6e-3)])
+
+        circulation, middle, _ = clinic.vortex(*square(161, velocity))
+        self.assertAlmostEqual(circulation / (2 * 7 * np.pi * 9e-3**2), 1, delta=0.15)
+        self.assertLess(np.hypot(middle[0] - 6, middle[1] + 33), 4.5)
+
+    def test_stream_without_vortex(self):
+        circulation, _, _ = clinic.vortex(*square(41, lambda y, z: np.column_stack([0 * y, 0.5 + 0 * z])))
+        self.assertLess(abs(circulation), 1e-12)
+
+
+class Tables(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def read(self, text):
+        path = self.folder / "valve.csv"
+        path.write_text(text, encoding="ascii")
+        return zero_d.read_orifice(path)
+
+    def refused(self, text, words):
+        with self.assertRaises(SystemExit) as raised:
+            self.read(text)
+        self.assertIn(words, str(raised.exception))
+
+    def test_orifices(self):
+        self.assertEqual(self.read(WELL)[2:], (0.03, 0))
+        self.assertEqual(self.read(OPEN)[2:], (0, -1))
+
+    def test_refusals(self):
+        self.refused("a,b\n1,2\n", "has no column opening")
+        self.refused(WELL.replace(",0.03,", ",0,"), "the leak is 0, and must be positive")
+        self.refused(OPEN.replace("2e-5", "0"), "the leak is 0, and must be positive")
+        self.refused(WELL.replace("0.5,", "1.5,"), "openings must ascend from 0 to 1")
+        self.refused(OPEN.replace("0.3,2e-5,0", "0.3,2e-5,0.03"), "openings must ascend from 0 to 1")
+
+    def test_least_opening(self):
+        self.assertEqual(check.held("0.3")[::14], [0.3, 1.0])
+        for least in ("-0.1", "1"):
+            with self.assertRaises(SystemExit) as raised:
+                check.held(least)
+            self.assertIn(f"the least opening is {least}, and must be at least 0 and below 1", str(raised.exception))
+
+    def test_valve_that_does_not_close(self):
+        valve = zero_d.Valve("mitral", self.read(OPEN))
+        self.assertEqual(valve.opening(), 0.3)
+        for k in range(4000):
+            valve.step(k * zero_d.STEP, -100)
+        area, flow = 2e-5, -valve.flow * zero_d.ML
+        self.assertEqual(valve.opening(), 0.3)
+        self.assertAlmostEqual(flow / (area * np.sqrt(2 * 100 * zero_d.MMHG / zero_d.RHO)), 1, delta=1e-3)
+
+    def test_run_that_was_cut_off(self):
+        """The later table counts from its start on."""
+        for start, rows in (("0", "1 10\n2 20\n3 30\n"), ("2", "3 31\n4 41\n")):
+            folder = self.folder / "postProcessing/inflow" / start
+            folder.mkdir(parents=True)
+            (folder / "surfaceFieldValue.dat").write_text("# Time sum(phi)\n" + rows, encoding="ascii")
+        self.assertEqual(check.foam.table(self.folder, "inflow").tolist(), [[1, 10], [2, 20], [3, 31], [4, 41]])
+
+
+if __name__ == "__main__":
+    unittest.main()
