@@ -952,9 +952,11 @@ static void warps_of_patients_do_not_fold(void **state) {
   for (int trial = 0; trial < 3 * n_patients; ++trial) {
     const int owned_before = n_owned(), sort = trial % 3;
     riis_valve *valve = new_valve("coapting");
-    const double radius = between(1.15, 1.35), height = between(1.5, 1.8);
+    const double radius = between(1.15, 1.35), wanted = between(1.5, 1.8), commissures = radius * between(1, 1.12);
+    /* With heights below 1.05 times the commissures' radius, the valve itself is refused, without a warp. */
+    const double height = fmax(wanted, 1.1 * commissures);
     CHECK_OK(riis_valve_set_scalar(valve, "root_radius", radius));
-    CHECK_OK(riis_valve_set_scalar(valve, "commissure_radius", radius * between(1, 1.12)));
+    CHECK_OK(riis_valve_set_scalar(valve, "commissure_radius", commissures));
     CHECK_OK(riis_valve_set_scalar(valve, "commissure_height", height));
     riis_surface *surface = new_surface(valve, NULL);
     double from[3 * max_landmarks], to[3 * max_landmarks];
