@@ -7,13 +7,14 @@ of_swing='{ swing { solidBodyMotionFunction oscillatingRotatingMotion; origin (0
   along { solidBodyMotionFunction oscillatingLinearMotion; amplitude (0.001 0.002 0.003); omega 300; } }'
 of_steady='{ along { solidBodyMotionFunction linearMotion; velocity (0.1 0.2 0.3); } }'
 
-# of_box NAME: makes a closed box of cubes in which a valve opens from 0.3. Eight steps, all written.
+# of_box NAME: makes a closed box of cubes in which a valve opens from 0.3. Eight steps, all written. The ball upstream lies at the
+# end of the box. A ball that stayed behind would be outside a mesh that has moved.
 of_box() {
   of_moving "$1" hexahedra-28 "$(of_band 28)" "${2:-riisSource}" 0.3 && of_closed "$1" &&
     of_set "$1" system/fvOptions aorticValve/writeLeaflets yes &&
     of_set "$1" system/controlDict endTime 0.008 writeInterval 1 &&
     cp "$openfoam_here/case/system/valveTable" "$of_cases/$1/system" &&
-    of_set "$1" system/valveTable valve/upstream '{ centre (0 0 -0.012); radius 0.003; }'
+    of_set "$1" system/valveTable valve/upstream '{ centre (0 0 -0.016); radius 0.0012; }'
 }
 
 # of_moves NAME MOTION: lets the mesh of a closed box move as a rigid body.
