@@ -396,9 +396,9 @@ std::string foam_of(const std::string &kind, const Placed &placed) {
     text += "    " + std::string(size.parameter.name) + " " + (size.values.size() == 1 ? values : "(" + values + ")") +
             ";\n";
   }
-  text += "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" +
-          numbers_text(at.rotation_axis, 3, " ") + ");\n    rotationAngle   " + shortest(at.rotation_angle) +
-          ";\n    translation     (" + numbers_text(translation, 3, " ") + ");\n}\n";
+  text += "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" + numbers_text(at.rotation_axis, 3, " ") +
+          ");\n    rotationAngle   " + shortest(at.rotation_angle) + ";\n    translation     (" +
+          numbers_text(translation, 3, " ") + ");\n}\n";
   if (!placed.warp) return text;
   const auto points = [&](const std::vector<double> &xyz) {
     std::string list;
