@@ -142,7 +142,8 @@ def deform(case):
         stretch = max(stretch, numpy.abs(now[nearest] - rigid_part)[:3].max())
         before = nadirs
     print(f"  {case.name}: nadirs move by up to {1e3 * numpy.abs(moved[:3]).max():.2f} mm,"
-          f" {1e3 * stretch:.2f} mm of it not rigid. They differ by {worst[0]:.1e} half thicknesses, and their velocity by {worst[1] / speed:.1e}")
+          f" {1e3 * stretch:.2f} mm of it not rigid. They differ by {worst[0]:.1e} half thicknesses,"
+          f" and their velocity by {worst[1] / speed:.1e}")
     require(stretch > 0.05 * half, f"the wall of {case} deforms: {stretch:.1e} m")
     require(worst[0] < 1e-6, f"the nadirs of {case} move with the wall to 1e-6 half thicknesses: {worst[0]:.1e}")
     require(worst[1] < 1e-3 * speed, f"the nadirs of {case} have the velocity of the wall to 1e-3: {worst[1]:.1e} m/s")

@@ -71,7 +71,8 @@ class Follow(Files):
             self.write(folder / "constant/polyMesh/points", list_of(self.points, "vectorField"))
             self.write(folder / "constant/polyMesh/boundary", "wall { type wall; nFaces 4; startFace 0; }")
             self.write(folder / "constant/polyMesh/faces",
-                       b"FoamFile\n{\n format binary;\n}\n%d\n(" % len(faces) + faces.tobytes() + b")\n%d\n(" % M + numpy.arange(M, dtype="<i4").tobytes() + b")\n")
+                       b"FoamFile\n{\n format binary;\n}\n%d\n(" % len(faces) + faces.tobytes()
+                       + b")\n%d\n(" % M + numpy.arange(M, dtype="<i4").tobytes() + b")\n")
         log = "Create time\n"
         table = "# Time pressure_difference\n"
         before = None
