@@ -282,7 +282,8 @@ void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
 }
 
-// Moves the placement to the present points of the mesh. A warp that follows points gets the part of their motion that is not rigid.
+// Moves the placement to the present points of the mesh. A warp that follows points gets the part of their motion that is not
+// rigid.
 void riisValve::follow() {
   placement_ = placementAtRest_;
   if (!follow_) return;
