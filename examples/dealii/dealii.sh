@@ -3,7 +3,8 @@
 # The steps of ./run dealii: install deal.II, compile, run, check, draw. `run` sources this file. The steps use $build, $n_jobs,
 # $packages, install_missing, is_on_offer, python_of_packages, say and step of `run`.
 
-dealii_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev libdeal.ii-dev openmpi-bin libopenblas0-pthread
+# Debian 13's deal.II passes -fuse-ld=mold to the programs that link it, but its package does not depend on mold.
+dealii_packages=(gcc g++ cmake ninja-build mold libembree-dev libtbb-dev libdeal.ii-dev openmpi-bin libopenblas0-pthread
   python3-numpy python3-matplotlib)
 dealii_here=$PWD/examples/dealii
 

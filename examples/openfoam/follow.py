@@ -115,14 +115,14 @@ def follow(cases):
 
 
 def deform(case):
-    """Checks that the nadirs of the valve, which are landmarks and rest while it opens, move with the nearest points of the wall while
-    the mesh deforms."""
+    """Checks that the nadirs of the valve, which are landmarks and rest while it opens, move with the nearest points of the wall
+    while the mesh deforms."""
     case = pathlib.Path(case)
     sources = numpy.array(re.findall(r"\(([-.\de]+) ([-.\de]+) ([-.\de]+)\)", foam.text(case / "system/warp")), float)
     require(len(sources) == 6, f"{case}/system/warp has six landmarks, not {len(sources)}")
     folders = [folder for folder, _ in foam.parts(case)]
     rest, order = numpy.unique(numpy.concatenate([wall_points(folder, "constant") for folder in folders]), axis=0,
-                               return_index=True)  # sorted, as the plug-in sorts them: of two points as near, the first one counts
+                               return_index=True)  # sorted, as in the plug-in: of two points as near, the first counts
     nearest = [((rest - source) ** 2).sum(axis=1).argmin() for source in sources]
     half, dt = check.constant(case, "halfThickness"), 1e-3
     before, worst, stretch, speed = sources[:3], numpy.zeros(2), 0.0, 0.0
@@ -141,8 +141,8 @@ def deform(case):
         speed = max(speed, numpy.abs(velocity).max())
         stretch = max(stretch, numpy.abs(now[nearest] - rigid_part)[:3].max())
         before = nadirs
-    print(f"  {case.name}: nadirs move by up to {1e3 * numpy.abs(moved[:3]).max():.2f} mm, {1e3 * stretch:.2f} mm of it not rigid."
-          f" They differ by {worst[0]:.1e} half thicknesses, and their velocity by {worst[1] / speed:.1e}")
+    print(f"  {case.name}: nadirs move by up to {1e3 * numpy.abs(moved[:3]).max():.2f} mm,"
+          f" {1e3 * stretch:.2f} mm of it not rigid. They differ by {worst[0]:.1e} half thicknesses, and their velocity by {worst[1] / speed:.1e}")
     require(stretch > 0.05 * half, f"the wall of {case} deforms: {stretch:.1e} m")
     require(worst[0] < 1e-6, f"the nadirs of {case} move with the wall to 1e-6 half thicknesses: {worst[0]:.1e}")
     require(worst[1] < 1e-3 * speed, f"the nadirs of {case} have the velocity of the wall to 1e-3: {worst[1]:.1e} m/s")

@@ -7,8 +7,8 @@ of_swing='{ swing { solidBodyMotionFunction oscillatingRotatingMotion; origin (0
   along { solidBodyMotionFunction oscillatingLinearMotion; amplitude (0.001 0.002 0.003); omega 300; } }'
 of_steady='{ along { solidBodyMotionFunction linearMotion; velocity (0.1 0.2 0.3); } }'
 
-# of_box NAME: makes a closed box of cubes in which a valve opens from 0.3. Eight steps, all written. The ball upstream lies at the
-# end of the box. A ball that stayed behind would be outside a mesh that has moved.
+# of_box NAME: makes a closed box of cubes in which a valve opens from 0.3. Eight steps, all written. The ball upstream lies at
+# the end of the box. A ball that stayed behind would be outside a mesh that has moved.
 of_box() {
   of_moving "$1" hexahedra-28 "$(of_band 28)" "${2:-riisSource}" 0.3 && of_closed "$1" &&
     of_set "$1" system/fvOptions aorticValve/writeLeaflets yes &&
@@ -54,8 +54,9 @@ END
   of_logged "$1" topoSet topoSet -case "$of_cases/$1"
 }
 
-# of_deforms NAME: lets the mesh deform, because the points of the inlet swing and those of the outlet rest. Landmarks of the valve
-# follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six digits.
+# of_deforms NAME: lets the mesh deform, because the points of the inlet swing and those of the outlet rest. Landmarks of the
+# valve follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six
+# digits.
 of_deforms() {
   local folder=$of_cases/$1 name
   of_moving "$1" hexahedra-28 "$(of_band 28)" riisSource 0.3 &&
@@ -165,7 +166,8 @@ openfoam_follow_refusals() {
     of_bad_follow "nothing to follow" bad-nothing '' 'follow has 0 of the keys patch, faceZone and points, and needs one' &&
     of_bad_follow "an unknown key of follow" bad-key 'pointZone ring;' "unknown key 'pointZone'" &&
     of_bad_warp "an unknown key of the warp" warp-key 'target (1 2 3);' "unknown key 'target'" &&
-    of_bad_warp "landmarks without targets" warp-targets "targets ($line);" 'targets.n_points is 3, but the warp has 5 landmarks' &&
+    of_bad_warp "landmarks without targets" warp-targets "targets ($line);" \
+      'targets.n_points is 3, but the warp has 5 landmarks' &&
     of_bad_warp "landmarks on a line" warp-line "sources ($line);" 'sources: all 3 landmarks lie on a line' &&
     of_bad_warp "a negative noise" warp-noise 'noise -1;' 'RIIS_INVALID_ARGUMENT: options.noise is -1' &&
     of_bad_warp "fewer points than landmarks" warp-points 'follow { points (1 2 3); }' \

@@ -815,8 +815,8 @@ contains
     call finish(code, status)
   end subroutine surface_get_triangles
 
-  !> Points to the rates of the surface's vertices in a direction of %add_direction, without a copy. The pointer is valid until the
-  !! surface's next update or its destruction. Do not write to the array. On an error its size is 0. Errors: RIIS_INVALID_ARGUMENT
+  !> Points to the rates of the surface's vertices in a direction of %add_direction, without a copy. The pointer is valid until
+  !! the surface's next update or its destruction. Do not write to the array. On an error its size is 0. Errors: RIIS_INVALID_ARGUMENT
   !! for a direction that the surface lacks.
   subroutine surface_get_direction(this, direction_id, rate, status, area_rate)
     class(riis_surface), intent(in) :: this                 !< Must be created.

@@ -47,8 +47,8 @@ static void numbers_are_mixed_by_weights(void **state) {
   }
 }
 
-/* A derivative is -n.V with the unit vector n from the closest point to the point and the mean V of the rates. It is 0 at distance
- * 0. Nothing is written behind the last point. */
+/* A derivative is -n.V with the unit vector n from the closest point to the point and the mean V of the rates. It is 0 at
+ * distance 0. Nothing is written behind the last point. */
 static void distances_are_differentiated(void **state) {
   (void)state;
   enum { n_vertices = 20, most_directions = 3, room = most_directions * n_lanes + 1 };

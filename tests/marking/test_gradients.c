@@ -191,8 +191,8 @@ static slopes slopes_of(double before, double now, double after, double step) {
 }
 
 /* Tells whether a derivative that differs from the central difference is right beside a tie. At a tie within the step, the
- * distance changes from one place of the surface to another. It has a kink there, where its slope falls, and the central difference
- * is off by up to half the kink. The derivative is then the slope on the side without the tie. */
+ * distance changes from one place of the surface to another. It has a kink there, where its slope falls, and the central
+ * difference is off by up to half the kink. The derivative is then the slope on the side without the tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {
   return s.right < s.left && fmin(fabs(gradient - s.left), fabs(gradient - s.right)) <= 1e-5 * speed;
 }

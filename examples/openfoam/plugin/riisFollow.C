@@ -61,8 +61,8 @@ void diagonalise(Matrix &a, Matrix &vectors) {
 
 }  // namespace
 
-// B. Horn, "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4 (1987): the rotation is the
-// eigenvector of the largest eigenvalue of a matrix of 4 x 4.
+// B. Horn, "Closed-form solution of absolute orientation using unit quaternions", J. Opt. Soc. Am. A 4 (1987): the rotation is
+// the eigenvector of the largest eigenvalue of a matrix of 4 x 4.
 riisRigid::riisRigid(const pointField &atRest, const pointField &now, scalar &gap) {
   gap = 0;
   const label n = atRest.size();

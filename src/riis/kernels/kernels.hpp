@@ -197,8 +197,8 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes the derivatives of the distances of the first n_points points, n_points > 0, when the triangles' vertices move.
-  // `vertex` has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The derivatives
-  // of a point follow each other. At distance 0 a derivative is 0.
+  // `vertex` has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The
+  // derivatives of a point follow each other. At distance 0 a derivative is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located, const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
   // Finds the side of each point, +1, -1 or 0. It is the sign of the point's height over the located point, along the normal.
