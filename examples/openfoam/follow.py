@@ -111,7 +111,7 @@ def follow(cases):
     worst = numpy.abs(a - b).max() / numpy.abs(a).max()
     print(f"  follow-steady: the pressure difference of the table is that at rest to {worst:.1e} of the largest,"
           f" {numpy.abs(a).max():.1f} Pa")
-    require(worst < 0.02, f"the places of the pressures of follow-steady move with the mesh: {worst:.1e}")
+    require(worst < 0.05, f"the places of the pressures of follow-steady move with the mesh: {worst:.1e}")
 
 
 def deform(case):
