@@ -85,7 +85,7 @@ openfoam_headers() {
     switches+=(-isystem "$source/$part/lnInclude")
   done
   while read -r file; do
-    "${CXX:-g++}" -std=c++14 -c -o /dev/null -fPIC -Wall -Wextra -Werror -DWM_DP -DWM_LABEL_SIZE=32 -DNoRepository \
+    "${CXX:-g++}" -std=c++17 -c -o /dev/null -fPIC -Wall -Wextra -Werror -DWM_DP -DWM_LABEL_SIZE=32 -DNoRepository \
       -ftemplate-depth-100 "${switches[@]}" -I include -I "$openfoam_here/plugin" "$plugin/$file" || exit
     say "compiled, and neither linked nor run: $plugin/$file"
   done < <(grep '\.C$' "$plugin/Make/files")

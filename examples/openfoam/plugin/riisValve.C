@@ -315,10 +315,8 @@ void riisValve::forces(const volVectorField &U, const vector &about, vectorField
   reaction.leaflet_moment = moment[0].data();
   const riis_resistance resistance = calibrated();
   check(riis_marks_add_reaction(result_.get(), &resistance, &flow, &reaction));
-  Pstream::listCombineGather(force, plusEqOp<vector>());
-  Pstream::listCombineScatter(force);
-  Pstream::listCombineGather(moment, plusEqOp<vector>());
-  Pstream::listCombineScatter(moment);
+  addOverRanks(force);
+  addOverRanks(moment);
 }
 
 // Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
