@@ -85,9 +85,9 @@ riisModel::riisModel(const word &name, const word &modelType, const fvMesh &mesh
       timeIndex_(mesh.time().timeIndex()),
       meshChanged_(true),
       K_(IOobject(IOobject::groupName("K", name), timeName(mesh), mesh, IOobject::NO_READ, IOobject::AUTO_WRITE), mesh,
-         dimensionedScalar(dimDensity / dimTime, 0)),
+         dimensionedScalar("K", dimDensity / dimTime, 0)),
       KU_(IOobject(IOobject::groupName("KU", name), timeName(mesh), mesh, IOobject::NO_READ, IOobject::AUTO_WRITE),
-          mesh, dimensionedVector(dimDensity * dimVelocity / dimTime, vector::zero)) {
+          mesh, dimensionedVector("KU", dimDensity * dimVelocity / dimTime, vector::zero)) {
   static_assert(sizeof(scalar) == sizeof(double), "riis needs OpenFOAM in double precision");
   riis_set_log(riisWarn, nullptr);
   readAll(dict);
@@ -162,9 +162,10 @@ void riisModel::updateCells() {
 // Prints the force of the flow on the valve at the end of the last step.
 void riisModel::printForce() const {
   const volVectorField &U = mesh().lookupObject<volVectorField>(UName_);
+  const scalarField &volume = mesh().V();
   const vectorField force(K_.primitiveField() * U.primitiveField() - KU_.primitiveField());
   Info << "riis " << name() << ": force of the flow at the end of the last step "
-       << gSum(vectorField(force * mesh().V().primitiveField())) << " N" << endl;
+       << gSum(vectorField(force * volume)) << " N" << endl;
 }
 
 // Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
@@ -191,7 +192,8 @@ void riisModel::correct() {
   const label marked = countMarked(marks_.get(), surface_.get(), name(), mesh(), check);
   K_.correctBoundaryConditions();
   KU_.correctBoundaryConditions();
-  const scalar integral = gSum(scalarField(K_.primitiveField() * mesh().V().primitiveField()));
+  const scalarField &volume = mesh().V();
+  const scalar integral = gSum(scalarField(K_.primitiveField() * volume));
   Info << "riis " << name() << ": opening " << opening_ << ", " << marked << " cells marked, integral of K " << integral
        << " kg/s" << endl;
 }
@@ -207,7 +209,7 @@ void riisModel::addSup(const volVectorField &U, fvMatrix<vector> &eqn) const {
     FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh()) << ": the solver has not called "
                          << "fvModels().correct() in this step" << exit(FatalError);
   }
-  const dimensionedScalar rho(dimDensity, rho_);
+  const dimensionedScalar rho("rho", dimDensity, rho_);
   eqn -= fvm::Sp(K_ / rho, eqn.psi());
   if (withVelocity_) eqn += KU_ / rho;
 }
