@@ -9,13 +9,14 @@ openfoam_here=examples/openfoam
 # shellcheck source=examples/openfoam/follow.sh
 . "$openfoam_here/follow.sh"
 
-# openfoam [--short | --size CENTIMETRES]
+# openfoam [--short | --size CENTIMETRES | --headers FOLDER]
 openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
     '') ;;
     --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
     --size | '--size '*) of_size=${*:2} ;;
+    --headers | '--headers '*) openfoam_headers "${*:2}" && return ;;
     *)
       echo "./run openfoam: '$*' is not an option" >&2
       exit 2
@@ -64,6 +65,30 @@ openfoam() {
   fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
+}
+
+# openfoam_headers FOLDER: compiles the plug-in against the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
+# linked or run. The Foundation's OpenFOAM has fvModels, and gets the plug-in in the folder foundation.
+openfoam_headers() {
+  local source=$1/src plugin=$openfoam_here/plugin part file switches=()
+  [[ -d $source/finiteVolume && -d $source/meshTools ]] || {
+    echo "./run openfoam: '$1' lacks src/finiteVolume or src/meshTools, so it has no sources of OpenFOAM" >&2
+    exit 2
+  }
+  if [[ -d $source/finiteVolume/cfdTools/general/fvModels ]]; then
+    plugin=$plugin/foundation
+  else
+    switches=(-D "OPENFOAM=$(sed -n 's/^api=//p' "$1/META-INFO/api-info")")
+  fi
+  for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools; do
+    [[ -d $source/$part/lnInclude ]] || "$1/wmake/wmakeLnInclude" -s "$source/$part" || exit
+    switches+=(-isystem "$source/$part/lnInclude")
+  done
+  while read -r file; do
+    "${CXX:-g++}" -std=c++17 -c -o /dev/null -fPIC -Wall -Wextra -Werror -DWM_DP -DWM_LABEL_SIZE=32 -DNoRepository \
+      -ftemplate-depth-100 "${switches[@]}" -I include -I "$openfoam_here/plugin" "$plugin/$file" || exit
+    say "compiled, and neither linked nor run: $plugin/$file"
+  done < <(grep '\.C$' "$plugin/Make/files")
 }
 
 # openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and

@@ -299,7 +299,8 @@ enum {
                                      RIIS_INVALID_PARAMETER names any other parameter that changed, and
                                      RIIS_LIMIT_EXCEEDED refuses an opening where the tolerance does not hold.
                                      A triangle without area is left out, and its id is not reused. An update
-                                     with RIIS_TRIANGULATION_ADAPTED forgets the choice */
+                                     with RIIS_TRIANGULATION_ADAPTED forgets the choice. Vertices of mitral or
+                                     warped valves slide along the surface, and velocities leave this slide out */
 };
 
 /* How a surface is made and then placed. The placement, also of arrays, is x -> scale * rotation * x + translation. */

@@ -6,6 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "labels.h"
 #include "searches.h"
 
 #include "random_meshes.h"
@@ -681,25 +682,6 @@ static double material_error(const riis_surface *surface, const warped_step *ste
   return worst;
 }
 
-/* Finds the velocity of a surface at a label of a patch, by linear interpolation in a triangle of labels. Returns 0 where the
- * triangles of labels leave a hole. */
-static int velocity_at_label(const riis_triangles *t, int32_t patch, const double *uv, double *velocity) {
-  for (int64_t i = 0; i < t->n_triangles; ++i) {
-    if (t->patch_id[i] != patch) continue;
-    const int64_t *id = t->vertex_id + 3 * i;
-    const double *a = t->uv + 2 * id[0], *b = t->uv + 2 * id[1], *c = t->uv + 2 * id[2];
-    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    const double of_b = ((uv[0] - a[0]) * (c[1] - a[1]) - (uv[1] - a[1]) * (c[0] - a[0])) / area;
-    const double of_c = ((b[0] - a[0]) * (uv[1] - a[1]) - (b[1] - a[1]) * (uv[0] - a[0])) / area;
-    if (!(of_b >= -1e-9 && of_c >= -1e-9 && of_b + of_c <= 1 + 1e-9)) continue;
-    for (int k = 0; k < 3; ++k)
-      velocity[k] = (1 - of_b - of_c) * t->velocity[3 * id[0] + k] + of_b * t->velocity[3 * id[1] + k] +
-                    of_c * t->velocity[3 * id[2] + k];
-    return 1;
-  }
-  return 0;
-}
-
 /* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. */
 static void a_moving_annulus_has_its_velocities(void **state) {
   (void)state;
@@ -729,7 +711,7 @@ static void a_moving_annulus_has_its_velocities(void **state) {
       double worst = 0, velocity[3];
       for (int64_t i = 0; i < b.n_triangles; i += 7) {
         const int64_t vertex = b.vertex_id[3 * i];
-        if (velocity_at_label(&a, b.patch_id[i], b.uv + 2 * vertex, velocity))
+        if (value_at_label(&a, a.uv, a.velocity, b.patch_id[i], b.uv + 2 * vertex, velocity))
           worst = fmax(worst, distance3(velocity, b.velocity + 3 * vertex));
       }
       assert_true(worst > 0);

@@ -52,6 +52,29 @@ double least_on_segment(Vec3 a, Vec3 b) {
 // Bounds the distance of a function from the line between its ends, if its second derivative is at most `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
+// A range of u, and the most that a function's first derivative can be on it.
+struct Slope {
+  double width, most;
+};
+
+// Bounds the distance of a continuous function from the line between its ends, from bounds of its slope on successive ranges. At
+// x, slopes before x count with the share of the whole width that lies behind x, and slopes behind x with the share before x.
+// With one slope everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
+double off_line(const Vector<Slope> &slopes) {
+  double width = 0, rise = 0;
+  for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
+  double largest = 0, start = 0, before = 0;
+  for (const auto &[range, most] : slopes) {
+    // On a range, the bound is a concave parabola in x.
+    const double top = (rise - 2 * before + most * (2 * start + width)) / (4 * most);
+    const double x = top >= start ? std::min(top, start + range) : start, behind = before + most * (x - start);
+    largest = larger(largest, (1 - x / width) * behind + x / width * (rise - behind));
+    start += range;
+    before += range * most;
+  }
+  return largest;
+}
+
 // A part of one Bézier piece of a curve, on a range of u.
 struct CurvePart {
   const Bezier *piece;
@@ -460,25 +483,26 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
   const SideInBoth on_base(base.now, base.before, shares.all()), on_edge(edge.now, edge.before, shares.all());
   const auto is_joint = [&](std::size_t i) { return on_base.is_joint(i) || on_edge.is_joint(i); };
   Vector<double> made;
+  Vector<Slope> slopes;
   for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
     const std::size_t from = shares.line(k), to = shares.line(k + 1);
     const double width = shares.all()[to] - shares.all()[from];
-    double largest = 0, second = 0, first = 0, passed = 0, slides = 0;
-    bool has_joint = false;
+    double largest = 0, second = 0, slides = 0;
+    bool is_smooth = true;
+    slopes.clear();
     for (std::size_t i = from; i < to; ++i) {
       const ArcRangeInBoth on = offset_on(on_base, on_edge, i);
       largest = larger(largest, on.largest);
       slides = larger(slides, slid.change(on));
-      has_joint = has_joint || (i > from && is_joint(i));
-      if (on_base.is_compared(i) && on_edge.is_compared(i)) {
-        second = larger(second, (of_factor * on.second).change);
-        first = larger(first, (of_factor * on.first).change);
-      } else {
-        passed += on_base.width(i) * 2 * of_factor.size * on.first.size;
-      }
+      const bool is_compared = on_base.is_compared(i) && on_edge.is_compared(i);
+      is_smooth = is_smooth && is_compared && !(i > from && is_joint(i));
+      second = larger(second, (of_factor * on.second).change);
+      slopes.push_back(
+          {on_base.width(i), is_compared ? (of_factor * on.first).change : 2 * of_factor.size * on.first.size});
     }
-    // O' jumps at a joint, so the bound for such a range uses the first derivative.
-    double error = has_joint || passed > 0 ? 0.5 * width * first + passed : off_line(width, second);
+    // O' jumps at a joint, so the bound for such a range uses the first derivative. Beside a joint near a curve's end, bounds on
+    // the short piece are far larger than the true derivatives.
+    double error = is_smooth ? off_line(width, second) : off_line(slopes);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
     error += 2 * of_factor.size * slides + off_line(width, rest);

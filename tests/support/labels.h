@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Finds values at labels (patch, u, v) of a surface. Include after handles.h. */
+#ifndef RIIS_TEST_LABELS_H
+#define RIIS_TEST_LABELS_H
+
+/* Writes the value of a label, by linear interpolation in a triangle of labels. Vertex i has the label uv[2 i] and the value
+ * values[3 i]. Returns 0 where the triangles of labels leave a hole. */
+static inline int value_at_label(const riis_triangles *t, const double *uv, const double *values, int32_t patch,
+                                 const double *label, double *value) {
+  for (int64_t i = 0; i < t->n_triangles; ++i) {
+    if (t->patch_id[i] != patch) continue;
+    const int64_t *id = t->vertex_id + 3 * i;
+    const double *a = uv + 2 * id[0], *b = uv + 2 * id[1], *c = uv + 2 * id[2];
+    const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const double of_b = ((label[0] - a[0]) * (c[1] - a[1]) - (label[1] - a[1]) * (c[0] - a[0])) / area;
+    const double of_c = ((b[0] - a[0]) * (label[1] - a[1]) - (b[1] - a[1]) * (label[0] - a[0])) / area;
+    if (!(of_b >= -1e-9 && of_c >= -1e-9 && of_b + of_c <= 1 + 1e-9)) continue;
+    for (int k = 0; k < 3; ++k)
+      value[k] =
+          (1 - of_b - of_c) * values[3 * id[0] + k] + of_b * values[3 * id[1] + k] + of_c * values[3 * id[2] + k];
+    return 1;
+  }
+  return 0;
+}
+
+/* The vertices of a surface, kept after the surface moves on. The test owns the arrays. */
+typedef struct kept_vertices {
+  int64_t n;
+  double *xyz, *uv;
+} kept_vertices;
+
+static inline kept_vertices vertices_of(const riis_surface *surface) {
+  const riis_triangles t = triangles_of(surface);
+  const size_t n = (size_t)t.n_vertices;
+  kept_vertices made = {t.n_vertices, own(malloc(n * 3 * sizeof(double))), own(malloc(n * 2 * sizeof(double)))};
+  memcpy(made.xyz, t.xyz, n * 3 * sizeof(double)), memcpy(made.uv, t.uv, n * 2 * sizeof(double));
+  return made;
+}
+
+#endif
