@@ -296,8 +296,8 @@ static double across(const riis_triangles *t, const double *was, double seconds,
   return fabs(dot(off, normal)) / sqrt(dot(normal, normal));
 }
 
-/* With a fixed triangulation, the skirt's vertices move with their velocities, except that the lines of a mitral skirt slide along
- * the annulus with the lines of the leaflet. The velocity does not contain this slide. */
+/* With a fixed triangulation, the skirt's vertices move with their velocities, except that the lines of a mitral skirt slide
+ * along the annulus with the lines of the leaflet. The velocity does not contain this slide. */
 static void vertices_of_fixed_skirts_move_with_their_velocities(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind) {
@@ -448,8 +448,8 @@ static double nearest_share(const strip *at, const double *p) {
   return share;
 }
 
-/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with it, and the outer side with the
- * points that lie outwards from it. */
+/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with it, and the outer side moves
+ * with the points that lie outwards from it. */
 static void skirts_move_with_warped_attachments(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind)
