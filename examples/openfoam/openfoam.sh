@@ -43,6 +43,8 @@ openfoam() {
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
   step "moving valves, with riisSource and without it" openfoam_moving
   of_check moving "$of_cases" "$of_work"/riis/lib*/libriis.so.1 | tee "$of_out/moving.txt"
+  step "the plug-in for the Foundation's OpenFOAM, with a stand-in for its fvModel" openfoam_model
+  of_check model "$of_cases"/{hexahedra-28,box-28,rest}-riisSource | tee "$of_out/model.txt"
   step "valves in meshes that move as rigid bodies" openfoam_follow
   of_check follow "$of_cases" | tee "$of_out/follow.txt"
   step "the angle law" openfoam_angle
@@ -528,6 +530,18 @@ openfoam_moving() {
       of_set "rest-$solver" 0/p boundaryField/inlet '{ type fixedValue; value uniform 0.5; }' boundaryField/outlet \
         '{ type fixedValue; value uniform 0; }' &&
       of_set "rest-$solver" system/controlDict endTime 0.005 writeInterval 5 && of_run "rest-$solver" 1 || return
+  done
+}
+
+# Runs two moving valves and a valve at rest again by modelFoam, each in the case NAME-model.
+openfoam_model() {
+  local name case
+  for name in {hexahedra-28,box-28,rest}-riisSource; do
+    case=$of_cases/$name-model
+    of_copy "$name" "$name-model" && rm -r "$case"/0.0* "$case/log.pimpleFoam" &&
+      sed '/writeLeaflets/d; s/fvOptions;/fvModels;/' "$case/system/fvOptions" >"$case/constant/fvModels" &&
+      rm "$case/system/fvOptions" && of_set "$name-model" system/fvSolution solvers/p/solver PCG &&
+      of_logged "$name-model" modelFoam timeout 3600 "$of_work/plugin/modelFoam" -case "$case" || return
   done
 }
 

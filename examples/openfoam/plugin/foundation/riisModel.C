@@ -164,8 +164,8 @@ void riisModel::printForce() const {
   const volVectorField &U = mesh().lookupObject<volVectorField>(UName_);
   const scalarField &volume = mesh().V();
   const vectorField force(K_.primitiveField() * U.primitiveField() - KU_.primitiveField());
-  Info << "riis " << name() << ": force of the flow at the end of the last step "
-       << gSum(vectorField(force * volume)) << " N" << endl;
+  Info << "riis " << name() << ": force of the flow at the end of the last step " << gSum(vectorField(force * volume))
+       << " N" << endl;
 }
 
 // Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
