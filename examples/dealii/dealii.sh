@@ -60,7 +60,7 @@ dealii() {
 }
 
 dealii_build() {
-  cmake --preset library -B "$di_work/library" -D CMAKE_INSTALL_PREFIX="$di_work/riis" &&
+  cmake --preset library -G Ninja -B "$di_work/library" -D CMAKE_INSTALL_PREFIX="$di_work/riis" &&
     cmake --build "$di_work/library" --parallel "$n_jobs" &&
     cmake --install "$di_work/library" &&
     cmake -S "$dealii_here" -B "$di_work/example" -G Ninja -D CMAKE_BUILD_TYPE=Release -D CMAKE_PREFIX_PATH="$di_work/riis" &&

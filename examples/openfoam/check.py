@@ -375,6 +375,22 @@ def beat(*cases):
                 f" {abs(leak).max():.2f} of {q.max():.1f} ml/s")
 
 
+def differences(first, second, time, fields):
+    """Compares fields of two runs. K must have the same bits, and others may differ by 1e-6. Returns the differences in words."""
+    words = []
+    for field in fields:
+        a, b = foam.global_field(first, time, field), foam.global_field(second, time, field)
+        require(len(a) == len(b), f"{first} and {second} have as many cells: {len(a)} and {len(b)}")
+        require((a != 0).any(), f"{field} of {first} at {time} is not 0 in every cell")
+        difference = numpy.abs(a - b).max() / numpy.abs(a).max()
+        words.append(f"{field} {'the same bits' if (a == b).all() else f'differs by {difference:.1e}'}")
+        if field in (K_NAME, KU_NAME):
+            cells = int((a != b).reshape(len(a), -1).any(axis=1).sum())
+            require(cells == 0, f"{field} at {time} has the same bits in {first} and {second}: {cells} cells differ")
+        require(difference < 1e-6, f"{field} of {second} at {time} differs by less than 1e-6 of the largest: {difference:.1e}")
+    return ", ".join(words)
+
+
 def restart(whole, again, none, none_again):
     """Compares a restart of the heartbeat with the run that was not stopped. Also compares a restart of a flow without a
     valve."""
@@ -384,19 +400,16 @@ def restart(whole, again, none, none_again):
         times = [time for time in foam.times(second) if float(time) > 0.2001]
         require(len(times) == 2, f"{second} has written two times after its start, not {times}")
         for time in times:
-            words = []
-            for field in fields:
-                a, b = foam.global_field(first, time, field), foam.global_field(second, time, field)
-                require(len(a) == len(b), f"{first} and {second} have as many cells: {len(a)} and {len(b)}")
-                require((a != 0).any(), f"{field} of {first} at {time} is not 0 in every cell")
-                difference = numpy.abs(a - b).max() / numpy.abs(a).max()
-                words.append(f"{field} {'the same bits' if (a == b).all() else f'differs by {difference:.1e}'}")
-                if field in (K_NAME, KU_NAME):
-                    cells = int((a != b).reshape(len(a), -1).any(axis=1).sum())
-                    require(cells == 0, f"{field} at {time} has the same bits in {first} and {second}: {cells} cells differ")
-                require(difference < 1e-6,
-                        f"{field} of {second} at {time} differs by less than 1e-6 of the largest: {difference:.1e}")
-            print(f"  {name:<16} {time:>6} s: {', '.join(words)}")
+            print(f"  {name:<16} {time:>6} s: {differences(first, second, time, fields)}")
+
+
+def model(*cases):
+    """Compares flows of the plug-in for the Foundation's OpenFOAM with those of riisValve and riisSource."""
+    print("The plug-in for the Foundation's OpenFOAM with a stand-in for its fvModel, against riisValve and riisSource:")
+    for case in cases:
+        time, again = foam.times(case)[-1], f"{case}-model"
+        require(foam.times(again)[-1] == time, f"{again} ends at {time}, not at {foam.times(again)[-1]}")
+        print(f"  {pathlib.Path(case).name:<24} {time:>6} s: {differences(case, again, time, (K_NAME, 'p', 'U'))}")
 
 
 def nan(pressure, owner):
@@ -548,7 +561,7 @@ def angle(case, again):
 if __name__ == "__main__":
     commands = {"marks": marks, "zones": zones, "drops": drops, "sizes": sizes, "hexahedra": hexahedra, "expected": expected,
                 "moving": moving, "tables": tables, "physiological": physiological, "follow": follow, "angle": angle,
-                "beat": beat, "restart": restart, "nan": nan, "pictures": pictures}
+                "beat": beat, "restart": restart, "model": model, "nan": nan, "pictures": pictures}
     if len(sys.argv) < 3 or sys.argv[1] not in commands:
         raise SystemExit(f"usage: check.py {'|'.join(commands)} ARGUMENT...")
     commands[sys.argv[1]](*sys.argv[2:])

@@ -9,13 +9,14 @@ openfoam_here=examples/openfoam
 # shellcheck source=examples/openfoam/follow.sh
 . "$openfoam_here/follow.sh"
 
-# openfoam [--short | --size CENTIMETRES]
+# openfoam [--short | --size CENTIMETRES | --headers FOLDER]
 openfoam() {
   of_size=0.16 of_time_step=1e-3 of_half_thickness=1.2e-3
   case $* in
     '') ;;
     --short) of_size=0.25 of_time_step=2e-3 of_half_thickness=1.8e-3 ;;
     --size | '--size '*) of_size=${*:2} ;;
+    --headers | '--headers '*) openfoam_headers "${*:2}" && return ;;
     *)
       echo "./run openfoam: '$*' is not an option" >&2
       exit 2
@@ -42,6 +43,8 @@ openfoam() {
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
   step "moving valves, with riisSource and without it" openfoam_moving
   of_check moving "$of_cases" "$of_work"/riis/lib*/libriis.so.1 | tee "$of_out/moving.txt"
+  step "the plug-in for the Foundation's OpenFOAM, with a stand-in for its fvModel" openfoam_model
+  of_check model "$of_cases"/{hexahedra-28,box-28,rest}-riisSource | tee "$of_out/model.txt"
   step "valves in meshes that move as rigid bodies" openfoam_follow
   of_check follow "$of_cases" | tee "$of_out/follow.txt"
   step "the angle law" openfoam_angle
@@ -64,6 +67,30 @@ openfoam() {
   fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
   say "wrote out/openfoam/beat.png, out/openfoam/velocity.png, and the heartbeat in $of_cases/beat"
+}
+
+# openfoam_headers FOLDER: compiles the plug-in against the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
+# linked or run. The Foundation's OpenFOAM has fvModels, and gets the plug-in in the folder foundation.
+openfoam_headers() {
+  local source=$1/src plugin=$openfoam_here/plugin part file switches=()
+  [[ -d $source/finiteVolume && -d $source/meshTools ]] || {
+    echo "./run openfoam: '$1' lacks src/finiteVolume or src/meshTools, so it has no sources of OpenFOAM" >&2
+    exit 2
+  }
+  if [[ -d $source/finiteVolume/cfdTools/general/fvModels ]]; then
+    plugin=$plugin/foundation
+  else
+    switches=(-D "OPENFOAM=$(sed -n 's/^api=//p' "$1/META-INFO/api-info")")
+  fi
+  for part in OpenFOAM OSspecific/POSIX finiteVolume meshTools; do
+    [[ -d $source/$part/lnInclude ]] || "$1/wmake/wmakeLnInclude" -s "$source/$part" || exit
+    switches+=(-isystem "$source/$part/lnInclude")
+  done
+  while read -r file; do
+    "${CXX:-g++}" -std=c++17 -c -o /dev/null -fPIC -Wall -Wextra -Werror -DWM_DP -DWM_LABEL_SIZE=32 -DNoRepository \
+      -ftemplate-depth-100 "${switches[@]}" -I include -I "$openfoam_here/plugin" "$plugin/$file" || exit
+    say "compiled, and neither linked nor run: $plugin/$file"
+  done < <(grep '\.C$' "$plugin/Make/files")
 }
 
 # openfoam_start CASES OUT [PACKAGE...]: builds the plug-in, and makes the empty folders build/openfoam/CASES, for cases, and
@@ -503,6 +530,18 @@ openfoam_moving() {
       of_set "rest-$solver" 0/p boundaryField/inlet '{ type fixedValue; value uniform 0.5; }' boundaryField/outlet \
         '{ type fixedValue; value uniform 0; }' &&
       of_set "rest-$solver" system/controlDict endTime 0.005 writeInterval 5 && of_run "rest-$solver" 1 || return
+  done
+}
+
+# Runs two moving valves and a valve at rest again by modelFoam, each in the case NAME-model.
+openfoam_model() {
+  local name case
+  for name in {hexahedra-28,box-28,rest}-riisSource; do
+    case=$of_cases/$name-model
+    of_copy "$name" "$name-model" && rm -r "$case"/0.0* "$case/log.pimpleFoam" &&
+      sed '/writeLeaflets/d; s/fvOptions;/fvModels;/' "$case/system/fvOptions" >"$case/constant/fvModels" &&
+      rm "$case/system/fvOptions" && of_set "$name-model" system/fvSolution solvers/p/solver PCG &&
+      of_logged "$name-model" modelFoam timeout 3600 "$of_work/plugin/modelFoam" -case "$case" || return
   done
 }
 

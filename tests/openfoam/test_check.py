@@ -786,6 +786,28 @@ class Beat(Files):
         self.stopped("log.pimpleFoam: No such file or directory", check.beat, case)
 
 
+class Model(Files):
+    def cases(self, spoil=None, by=0.0, last="0.04"):
+        """Writes a run and its run by modelFoam, in which one value of the field `spoil` differs."""
+        k = numpy.where(numpy.arange(N) < 150, self.random.random(N) + 1, 0)
+        values = {check.K_NAME: k, "p": self.random.random(N), "U": self.random.random((N, 3))}
+        shutil.rmtree(self.folder / "box-model", ignore_errors=True)
+        for case, time in (("box", "0.04"), ("box-model", last)):
+            self.parts(self.folder / case, [numpy.arange(N)])
+            for name, all_values in values.items():
+                all_values = all_values.copy()
+                all_values[3] += by if case == "box-model" and name == spoil else 0
+                self.write(self.folder / case / time / name, text_of(all_values, True))
+        return self.folder / "box"
+
+    def test_flows(self):
+        printed = self.printed(check.model, self.cases("p", 1e-9))
+        self.assertRegex(printed, r"box +0\.04 s: .* the same bits, p differs by 1\.0e-09, U the same bits")
+        self.stopped("box-model at 0.04 differs by less than 1e-6 of the largest: 1.0e-05", check.model, self.cases("U", 1e-5))
+        self.stopped("box-model: 1 cells differ", check.model, self.cases(check.K_NAME, 1e-15))
+        self.stopped("box-model ends at 0.04, not at 0.039", check.model, self.cases(last="0.039"))
+
+
 class Restart(Files):
     TIMES = ("0.2", "0.22", "0.24")
 

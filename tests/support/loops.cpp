@@ -150,6 +150,9 @@ int next_loop_is_on_a_team() {
 }
 
 int wait_long_for_a_thread() {
+#if defined(RIIS_STD_THREADS)
+  return next_loop_is_on_a_team();  // every loop is
+#endif
   // On a busy machine an earlier wait may have chosen a team, for 8 seconds at most. Its calling thread may run both blocks.
   for (bool are_openmps = false; !are_openmps;) {
     std::atomic<int> n_come{0};

@@ -448,8 +448,8 @@ static double nearest_share(const strip *at, const double *p) {
   return share;
 }
 
-/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with it, and the outer side with
- * the points that lie outwards from it. */
+/* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with it, and the outer side moves
+ * with the points that lie outwards from it. */
 static void skirts_move_with_warped_attachments(void **state) {
   (void)state;
   for (int kind = 0; kind < n_kinds; ++kind)

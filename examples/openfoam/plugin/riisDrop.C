@@ -25,11 +25,6 @@ namespace {
 constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band over the largest K
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
-void addOverRanks(scalarField &values) {
-  Pstream::listCombineGather(values, plusEqOp<scalar>());
-  Pstream::listCombineScatter(values);
-}
-
 // Returns for each cell -1 upstream of the closed band, 1 downstream, and 0 in the band and in pockets that the band encloses.
 // All entries are 0 if the band does not part the blood.
 labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked) {

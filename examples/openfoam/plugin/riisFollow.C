@@ -112,7 +112,7 @@ void riisRigid::place(const riis_surface_options &atRest, riis_surface_options &
 
 void riisRigid::share() {
   scalarList numbers({w_, v_.x(), v_.y(), v_.z(), shift_.x(), shift_.y(), shift_.z(), residual_});
-  Pstream::scatter(numbers);
+  giveToAll(numbers);
   w_ = numbers[0];
   v_ = vector(numbers[1], numbers[2], numbers[3]);
   shift_ = vector(numbers[4], numbers[5], numbers[6]);
@@ -144,7 +144,7 @@ riisFollow::riisFollow(const fvMesh &mesh, const dictionary &dict) : mesh_(mesh)
     }
     readFaces(mesh_.faceZones()[at]().meshPoints(), " of faceZone " + zone);
   }
-  Pstream::scatter(name_);
+  giveToAll(name_);
   fit(atRest_);  // refuses points that do not fix a rotation
 }
 
@@ -220,7 +220,7 @@ void riisFollow::readLabels(const dictionary &dict) {
     mine.append(*found);
   }
   Pstream::gatherList(places);
-  Pstream::scatterList(places);
+  giveToAll(places);
   const labelList all(ListListOps::combine<labelList>(places, accessOp<labelList>()));
   labelList order(wanted.size(), -1);
   forAll(all, i) order[all[i]] = order[all[i]] < 0 ? i : order[all[i]];
@@ -253,12 +253,12 @@ void riisFollow::chooseNearest(const pointField &places, const dictionary &dict)
       farthest = max(farthest, mag(atRest_[best] - places[i]));
     }
   }
-  Pstream::scatter(chosen);
+  giveToAll(chosen);
   // Each rank keeps its chosen points. Their new places in the list of all ranks' points follow from the number on each rank.
   labelList sizes(Pstream::nProcs(), 0);
   sizes[Pstream::myProcNo()] = local_.size();
   Pstream::gatherList(sizes);
-  Pstream::scatterList(sizes);
+  giveToAll(sizes);
   labelList kept, order(places.size());
   label before = 0, place = 0;
   forAll(sizes, rank) {
@@ -303,7 +303,7 @@ void riisFollow::update() {
 pointField riisFollow::deformed(const pointField &places) const {
   pointField found(gathered(mesh_.points()));
   forAll(found, i) found[i] = places[i] + motion_.turnedBack(found[i] - motion_(atRest_[i]));
-  Pstream::scatter(found);
+  giveToAll(found);
   return found;
 }
 

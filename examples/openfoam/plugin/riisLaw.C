@@ -10,45 +10,8 @@ namespace fv {
 
 void riisValve::readLaw(const dictionary &dict) {
   const word name = dict.get<word>("law");
-  if (name == "constant") {
-    refuseOthers(dict, {"law", "opening"});
-    law_ = Law::constant;
-    constant_ = dict.get<scalar>("opening");
-  } else if (name == "times") {
-    refuseOthers(
-        dict, {"law", "openingStart", "openingSeconds", "closingStart", "closingSeconds", "closed", "open", "period"});
-    law_ = Law::times;
-    check(riis_opening_times_init(&times_, sizeof times_));
-    times_.opening_start = dict.get<scalar>("openingStart");
-    times_.opening_duration = dict.get<scalar>("openingSeconds");
-    times_.closing_start = dict.get<scalar>("closingStart");
-    times_.closing_duration = dict.get<scalar>("closingSeconds");
-    times_.closed = dict.getOrDefault<scalar>("closed", times_.closed);
-    times_.open = dict.getOrDefault<scalar>("open", times_.open);
-    times_.period = dict.getOrDefault<scalar>("period", times_.period);
-    check(riis_opening_from_times(&times_, 0, nullptr, nullptr), dict);
-  } else if (name == "table") {
-    refuseOthers(dict, {"law", "keys", "interpolation", "period"});
-    law_ = Law::table;
-    const List<Tuple2<scalar, scalar>> keys = dict.get<List<Tuple2<scalar, scalar>>>("keys");
-    keyTimes_.setSize(keys.size());
-    keyOpenings_.setSize(keys.size());
-    forAll(keys, i) {
-      keyTimes_[i] = keys[i].first();
-      keyOpenings_[i] = keys[i].second();
-    }
-    check(riis_opening_table_init(&table_, sizeof table_));
-    table_.n_keys = keys.size();
-    table_.time = keyTimes_.cdata();
-    table_.opening = keyOpenings_.cdata();
-    table_.period = dict.getOrDefault<scalar>("period", table_.period);
-    const word interpolation = dict.getOrDefault<word>("interpolation", "linear");
-    if (interpolation != "linear" && interpolation != "cubic") {
-      FatalIOErrorInFunction(dict) << "interpolation is '" << interpolation << "', and must be linear or cubic"
-                                   << exit(FatalIOError);
-    }
-    table_.interpolation = interpolation == "cubic" ? RIIS_INTERPOLATION_CUBIC : RIIS_INTERPOLATION_LINEAR;
-    check(riis_opening_from_table(&table_, 0, nullptr, nullptr), dict);
+  if (timeLaw_.read(dict, check)) {
+    law_ = Law::time;
   } else if (name == "switch") {
     refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds",
                         "dwellSeconds", "upstream", "downstream", "flowPatch", "forward"});
@@ -129,14 +92,8 @@ riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
 void riisValve::restartLaw(bool found) {
   const scalar start = mesh_.time().value();
   switch (law_) {
-    case Law::constant:
-      opening_ = found ? opening_ : constant_;
-      break;
-    case Law::times:
-      if (!found) check(riis_opening_from_times(&times_, start, &opening_, nullptr));
-      break;
-    case Law::table:
-      if (!found) check(riis_opening_from_table(&table_, start, &opening_, nullptr));
+    case Law::time:
+      if (!found) opening_ = timeLaw_.at(start, check);
       break;
     case Law::pressure:
       check(riis_opening_switch_state_init(&switchState_, sizeof switchState_));
@@ -213,9 +170,8 @@ scalar riisValve::flow(const FlowPatch &patch) const {
 
 // Advances the law to the end of the step. The law uses the pressures and the flow at the beginning of the step.
 scalar riisValve::openingAt(scalar time, Ostream &report) {
-  scalar opening = constant_;
-  if (law_ == Law::times) check(riis_opening_from_times(&times_, time, &opening, nullptr));
-  if (law_ == Law::table) check(riis_opening_from_table(&table_, time, &opening, nullptr));
+  scalar opening = 0;
+  if (law_ == Law::time) opening = timeLaw_.at(time, check);
   if (hasSensors()) {
     const scalar difference = meanPressure(upstream_) - meanPressure(downstream_), volume = flow(flowPatch_);
     // A restart rounds OpenFOAM's time, but not the time of the state.

@@ -16,50 +16,6 @@ namespace fv {
 defineTypeNameAndDebug(riisValve, 0);
 addToRunTimeSelectionTable(option, riisValve, dictionary);
 
-namespace {
-
-// Prints the library's warnings, for example that the mesh and the valve have different units.
-void warn(void *, int32_t level, const char *message) {
-  if (level == RIIS_LOG_WARNING) Warning << "riis: " << message << endl;
-}
-
-// Reads a number or a list of numbers.
-scalarList numbers(const entry &e) {
-  ITstream &is = e.stream();
-  scalarList values;
-  if (is.size() == 1) {
-    values.append(readScalar(is));
-  } else {
-    is >> values;
-  }
-  return values;
-}
-
-void copy(const vector &from, double *to) {
-  for (direction c = 0; c < 3; ++c) to[c] = from[c];
-}
-
-}  // namespace
-
-void refuseOthers(const dictionary &dict, std::initializer_list<const char *> keys) {
-  for (const entry &e : dict) {
-    bool known = false;
-    for (const char *key : keys) known = known || e.keyword() == key;
-    if (known) continue;
-    FatalIOErrorInFunction(dict) << "unknown key '" << e.keyword() << "'. The keys are";
-    for (const char *key : keys) FatalIOError << ' ' << key;
-    FatalIOError << exit(FatalIOError);
-  }
-}
-
-scalar positive(const dictionary &dict, const word &key) {
-  const scalar value = dict.get<scalar>(key);
-  if (!(value > 0)) {
-    FatalIOErrorInFunction(dict) << key << " is " << value << ", and must be positive" << exit(FatalIOError);
-  }
-  return value;
-}
-
 bool riisState::writeData(Ostream &os) const {
   const int digits = os.precision(17);
   const bool good = IOdictionary::writeData(os);
@@ -82,9 +38,9 @@ bool riisState::writeObject(IOstreamOption stream, const bool valid) const {
 
 riisValve::riisValve(const word &name, const word &modelType, const dictionary &dict, const fvMesh &mesh)
     : option(name, modelType, dict, mesh),
+      check(name, mesh),
       rho_("rho", dimDensity, 1),  // readAll reads it
-      law_(Law::constant),
-      constant_(0),
+      law_(Law::time),
       factor_(1),
       estimated_(false),
       opening_(0),
@@ -95,7 +51,7 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
       state_(IOobject(name + "State", mesh.time().timeName(), "uniform", mesh, IOobject::READ_IF_PRESENT,
                       IOobject::AUTO_WRITE)) {
   static_assert(sizeof(scalar) == sizeof(double), "riis needs OpenFOAM in double precision");
-  riis_set_log(warn, nullptr);
+  riis_set_log(riisWarn, nullptr);
   readAll();
   restart();
 
@@ -116,18 +72,6 @@ void riisValve::copyValve() {
   riis_valve *before = nullptr;
   check(riis_valve_copy(valve_.get(), &before));
   before_.reset(before);
-}
-
-void riisValve::check(riis_status status) const {
-  if (status == RIIS_OK) return;
-  FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": "
-                       << riis_status_name(status) << ": " << riis_last_error() << exit(FatalError);
-}
-
-void riisValve::check(riis_status status, const dictionary &dict) const {
-  if (status == RIIS_OK) return;
-  FatalIOErrorInFunction(dict) << "valve " << name_ << " at time " << mesh_.time().timeName() << ": "
-                               << riis_status_name(status) << ": " << riis_last_error() << exit(FatalIOError);
 }
 
 void riisValve::readAll() {
@@ -163,9 +107,13 @@ void riisValve::readAll() {
     KU_.clear();
   }
 
-  readValve(coeffs_.subDict("valve"));
+  kind_ = coeffs_.subDict("valve").get<word>("kind");
+  valve_ = readValve(coeffs_.subDict("valve"), check);
   check(riis_surface_options_init(&placementAtRest_, sizeof placementAtRest_));
-  readPlacement(coeffs_.subDict("placement"), placementAtRest_);
+  const dictionary &placement = coeffs_.subDict("placement");
+  refuseOthers(placement, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals", "follow"});
+  readPlacement(placement, placementAtRest_);
+  follow_.reset(placement.found("follow") ? new riisFollow(mesh_, placement.subDict("follow")) : nullptr);
   halfThickness_ = dimensionedScalar("halfThickness", dimLength, coeffs_).value();
   placementAtRest_.half_thickness = halfThickness_;
   // By default the library uses one thread in each rank, as the solver does.
@@ -180,18 +128,8 @@ void riisValve::readAll() {
   check(riis_mark_options_init(&markOptions_, sizeof markOptions_));
   markOptions_.n_threads = placement_.n_threads;
   markOptions_.fields = RIIS_FIELD_POINT | (withVelocity_ ? RIIS_FIELD_VELOCITY : 0);  // moments need the points
-  check(riis_resistance_init(&resistance_, sizeof resistance_));
-  resistance_.R = dimensionedScalar("resistance", dimMass / dimLength / dimTime, coeffs_).value();
-  if (!(resistance_.R >= 0)) {
-    FatalIOErrorInFunction(coeffs_) << "resistance is " << resistance_.R << ", and must be at least 0"
-                                    << exit(FatalIOError);
-  }
-  const word rim = coeffs_.getOrDefault<word>("rim", "round");
-  if (rim != "round" && rim != "cut") {
-    FatalIOErrorInFunction(coeffs_) << "rim is '" << rim << "', and must be round or cut" << exit(FatalIOError);
-  }
-  resistance_.rim = rim == "cut" ? RIIS_RIM_CUT : RIIS_RIM_ROUND;
-  if (rim == "cut") markOptions_.fields |= RIIS_FIELD_RIM;
+  readResistance(coeffs_, check, resistance_);
+  if (resistance_.rim == RIIS_RIM_CUT) markOptions_.fields |= RIIS_FIELD_RIM;
 }
 
 // Reads the keys by which other options choose cells and fields. The leaflets choose the cells, so only one value makes sense.
@@ -206,32 +144,6 @@ void riisValve::readFields(const dictionary &dict) const {
     FatalIOErrorInFunction(dict) << "fields is " << fields << ", and must be (" << UName_ << "), the velocity"
                                  << exit(FatalIOError);
   }
-}
-
-void riisValve::readValve(const dictionary &dict) {
-  kind_ = dict.get<word>("kind");
-  riis_valve *valve = nullptr;
-  check(riis_valve_create(kind_.c_str(), &valve), dict);
-  valve_.reset(valve);
-  for (const entry &e : dict) {
-    if (e.keyword() == "kind") continue;
-    if (e.isDict() || e.keyword() == "opening") {
-      FatalIOErrorInFunction(dict) << "'" << e.keyword() << "' is no parameter here; the law sets the opening"
-                                   << exit(FatalIOError);
-    }
-    const scalarList values = numbers(e);
-    check(riis_valve_set(valve, e.keyword().c_str(), values.size(), values.cdata()), dict);
-  }
-}
-
-void riisValve::readPlacement(const dictionary &dict, riis_surface_options &options) {
-  refuseOthers(dict, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals", "follow"});
-  options.scale = dict.get<scalar>("scale");
-  copy(dict.getOrDefault<vector>("rotationAxis", vector(0, 0, 1)), options.rotation_axis);
-  options.rotation_angle = dict.getOrDefault<scalar>("rotationAngle", 0);
-  copy(dict.getOrDefault<vector>("translation", Zero), options.translation);
-  options.flip_normals = dict.getOrDefault<Switch>("flipNormals", false);
-  follow_.reset(dict.found("follow") ? new riisFollow(mesh_, dict.subDict("follow")) : nullptr);
 }
 
 // Reads the landmarks of a warp. Sources lie on the valve, and targets are their places in the mesh at rest.
@@ -403,10 +315,8 @@ void riisValve::forces(const volVectorField &U, const vector &about, vectorField
   reaction.leaflet_moment = moment[0].data();
   const riis_resistance resistance = calibrated();
   check(riis_marks_add_reaction(result_.get(), &resistance, &flow, &reaction));
-  Pstream::listCombineGather(force, plusEqOp<vector>());
-  Pstream::listCombineScatter(force);
-  Pstream::listCombineGather(moment, plusEqOp<vector>());
-  Pstream::listCombineScatter(moment);
+  addOverRanks(force);
+  addOverRanks(moment);
 }
 
 // Moves the valve to its position at the end of the step, marks the cells, and computes K. This happens once in a step, so all
@@ -437,35 +347,11 @@ void riisValve::mark() {
     check(riis_surface_update(surface_.get(), valve_.get(), &placement_));
   }
   check(riis_mark_nodes(surface_.get(), cells_.get(), &markOptions_, result_.get()));
-  K_.primitiveFieldRef() = 0;
-  if (withVelocity_) KU_->primitiveFieldRef() = Zero;
-  const label nCells = mesh_.nCells();
-  double *momentum = withVelocity_ && nCells > 0 ? KU_->primitiveFieldRef()[0].data() : nullptr;
-  riis_resistance_arrays arrays;
-  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
-  arrays.n_nodes = nCells;
-  arrays.K = K_.primitiveFieldRef().data();
-  for (int c = 0; momentum && c < 3; ++c) arrays.K_u_surface[c] = momentum + c;
-  arrays.K_u_surface_stride = 3;
-  const riis_resistance resistance = calibrated();
-  check(riis_marks_add_resistance(result_.get(), &resistance, &arrays));
-  riis_mark_stats stats;
-  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
-  const int64_t marked = stats.n_marked;
+  computeResistance(result_.get(), calibrated(), check, K_.primitiveFieldRef(),
+                    withVelocity_ ? &KU_->primitiveFieldRef() : nullptr);
   const std::chrono::duration<scalar> seconds = std::chrono::steady_clock::now() - start;
 
-  const label all = returnReduce(label(marked), sumOp<label>());
-  if (all == 0) {
-    riis_surface_info info;
-    check(riis_surface_get_info(surface_.get(), &info, sizeof info));
-    FatalErrorInFunction << "valve " << name_ << " at time " << time.timeName()
-                         << ": no cell centre lies within the half thickness " << info.half_thickness
-                         << " of a leaflet. The valve lies in the box ("
-                         << vector(info.lower[0], info.lower[1], info.lower[2]) << ' '
-                         << vector(info.upper[0], info.upper[1], info.upper[2]) << "), the mesh in ("
-                         << mesh_.bounds().min() << ' ' << mesh_.bounds().max() << "): look at placement"
-                         << exit(FatalError);
-  }
+  const label all = countMarked(result_.get(), surface_.get(), name_, mesh_, check);
   K_.correctBoundaryConditions();
   if (withVelocity_) KU_->correctBoundaryConditions();
   keepState();
@@ -537,12 +423,12 @@ void riisValve::correct(volVectorField &U) {
 
 bool riisValve::read(const dictionary &dict) {
   if (dict == dict_) return true;
+  const word before = coeffs_.subDict("opening").get<word>("law");
   dict_ = dict;
   coeffs_ = dict.optionalSubDict(modelType_ + "Coeffs");
   active_ = dict_.getOrDefault<Switch>("active", true);
-  const Law before = law_;
   readAll();
-  if (law_ != before) {
+  if (coeffs_.subDict("opening").get<word>("law") != before) {
     FatalIOErrorInFunction(dict) << "the law of valve " << name_ << " changed during the run: start again from time "
                                  << mesh_.time().timeName() << exit(FatalIOError);
   }

@@ -12,6 +12,11 @@ struct Doubles3 {
   Doubles x, y, z;
 };
 
+RIIS_INLINE Doubles3 gather_points(const double *const *from, int64_t offset) {
+  Doubles3 p;
+  gather_three(from, offset, p.x, p.y, p.z);
+  return p;
+}
 RIIS_INLINE Doubles3 operator+(Doubles3 a, Doubles3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 RIIS_INLINE Doubles3 operator-(Doubles3 a, Doubles3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 RIIS_INLINE Doubles3 operator*(Doubles s, Doubles3 a) { return {s * a.x, s * a.y, s * a.z}; }
@@ -123,20 +128,15 @@ void decide(int32_t n, const int32_t *point, const int32_t *triangle, const doub
       p[lane] = points + 3 * point[pair];
       t[lane] = corners + int64_t{9} * triangle[pair];
     }
-    const auto corner = [&](int i) RIIS_LAMBDA {
-      return Doubles3{Doubles::gather(t, 3 * i), Doubles::gather(t, 3 * i + 1), Doubles::gather(t, 3 * i + 2)};
-    };
-    const Doubles3 q = {Doubles::gather(p, 0), Doubles::gather(p, 1), Doubles::gather(p, 2)};
-    const Doubles answers = closest_points<false>(q, corner(0), corner(1), corner(2)).distance_sq;
+    const Doubles answers =
+        closest_points<false>(gather_points(p, 0), gather_points(t, 0), gather_points(t, 3), gather_points(t, 6))
+            .distance_sq;
     __builtin_memcpy(distance_sq + first, answers.part, sizeof answers.part);
   }
 }
 
 void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
-  const auto corner = [&](int i) RIIS_LAMBDA {
-    return Doubles3{Doubles::gather(pairs.corners, 3 * i), Doubles::gather(pairs.corners, 3 * i + 1),
-                    Doubles::gather(pairs.corners, 3 * i + 2)};
-  };
+  const auto corner = [&](int i) RIIS_LAMBDA { return gather_points(pairs.corners, 3 * i); };
   const Doubles3 point = {Doubles::load(pairs.point[0]), Doubles::load(pairs.point[1]), Doubles::load(pairs.point[2])};
   const ClosestPoints closest = closest_points<true>(point, corner(0), corner(1), corner(2));
   const auto store = [](Doubles3 v, double(*to)[pairs_at_once]) RIIS_LAMBDA {
@@ -232,10 +232,7 @@ RIIS_INLINE Corners corners_by_id(const double *vertices, const int64_t *vertex_
   const double *of_lane[3][Doubles::n];
   for (int lane = 0; lane < Doubles::n; ++lane)
     for (int k = 0; k < 3; ++k) of_lane[k][lane] = vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k];
-  const auto vertex = [&](int k) RIIS_LAMBDA {
-    return Doubles3{Doubles::gather(of_lane[k], 0), Doubles::gather(of_lane[k], 1), Doubles::gather(of_lane[k], 2)};
-  };
-  return {vertex(0), vertex(1), vertex(2)};
+  return {gather_points(of_lane[0], 0), gather_points(of_lane[1], 0), gather_points(of_lane[2], 0)};
 }
 
 void place_points(const PlacedBy &by, const double *points, int64_t n, double *placed) {

@@ -50,12 +50,12 @@ RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&
     const Floats past_ab = beyond(e[i], ab);
     in_plane[i] = multiply_add(past_ab, past_ab, f[i] * f[i]);
 
-    const Floats inside_ac = e[i] * ac_f - f[i] * ac_e;
+    const Floats inside_ac = subtract_product(f[i], ac_e, e[i] * ac_f);
     const Floats past_ac = beyond(multiply_add(e[i], ac_e, f[i] * ac_f), ac);
     in_plane[i] = least(in_plane[i], multiply_add(past_ac, past_ac, inside_ac * inside_ac));
 
     const Floats eb = e[i] - ab;
-    const Floats inside_bc = f[i] * bc_e - eb * bc_f;
+    const Floats inside_bc = subtract_product(eb, bc_f, f[i] * bc_e);
     const Floats past_bc = beyond(multiply_add(eb, bc_e, f[i] * bc_f), bc);
     in_plane[i] = least(in_plane[i], multiply_add(past_bc, past_bc, inside_bc * inside_bc));
 

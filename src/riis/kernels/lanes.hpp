@@ -79,6 +79,17 @@ RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRe
 #endif
 }
 
+// Returns c - a * b, rounded only once if the instruction set can do that.
+RIIS_INLINE FloatRegister subtract_product(FloatRegister a, FloatRegister b, FloatRegister c) {
+#if defined(__AVX512F__)
+  return (FloatRegister)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
+#elif defined(__AVX2__) && defined(__FMA__)
+  return (FloatRegister)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#else
+  return c - a * b;
+#endif
+}
+
 // The lanes of several registers. A comparison gives 0 or -1 in each lane.
 template <class Scalar, class Register, int n_lanes>
 struct Lanes {
@@ -139,6 +150,37 @@ struct Lanes {
 typedef Lanes<float, FloatRegister, 16> Floats;
 typedef Lanes<double, DoubleRegister, 8> Doubles;
 
+// Gathers three neighbouring numbers from each address. An address is read once, and the numbers are transposed in registers.
+RIIS_INLINE void gather_three(const double *const *from, int64_t offset, Doubles &x, Doubles &y, Doubles &z) {
+#if defined(__AVX512F__)
+  __m512d r[4];
+  for (int i = 0; i < 4; ++i)
+    r[i] = _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_maskz_loadu_pd(7, from[i] + offset)),
+                              _mm256_maskz_loadu_pd(7, from[i + 4] + offset), 1);
+  const __m512d xz01 = _mm512_unpacklo_pd(r[0], r[1]), xz23 = _mm512_unpacklo_pd(r[2], r[3]);
+  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+  x.part[0] = (DoubleRegister)_mm512_permutex2var_pd(xz01, low, xz23);
+  y.part[0] =
+      (DoubleRegister)_mm512_permutex2var_pd(_mm512_unpackhi_pd(r[0], r[1]), low, _mm512_unpackhi_pd(r[2], r[3]));
+  z.part[0] = (DoubleRegister)_mm512_permutex2var_pd(xz01, high, xz23);
+#elif defined(__AVX2__)
+  const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+  for (int i = 0; i < Doubles::n_registers; ++i) {
+    const double *const *const f = from + 4 * i;
+    const __m256d r0 = _mm256_maskload_pd(f[0] + offset, three), r1 = _mm256_maskload_pd(f[1] + offset, three),
+                  r2 = _mm256_maskload_pd(f[2] + offset, three), r3 = _mm256_maskload_pd(f[3] + offset, three);
+    const __m256d xz01 = _mm256_unpacklo_pd(r0, r1), xz23 = _mm256_unpacklo_pd(r2, r3);
+    x.part[i] = (DoubleRegister)_mm256_permute2f128_pd(xz01, xz23, 0x20);
+    y.part[i] = (DoubleRegister)_mm256_permute2f128_pd(_mm256_unpackhi_pd(r0, r1), _mm256_unpackhi_pd(r2, r3), 0x20);
+    z.part[i] = (DoubleRegister)_mm256_permute2f128_pd(xz01, xz23, 0x31);
+  }
+#else
+  x = Doubles::gather(from, offset);
+  y = Doubles::gather(from, offset + 1);
+  z = Doubles::gather(from, offset + 2);
+#endif
+}
+
 #define RIIS_LANES                   \
   template <class S, class R, int n> \
   RIIS_INLINE
@@ -192,6 +234,10 @@ RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) {
 RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) {
   typedef Lanes<S, R, n> L;
   RIIS_ARITHMETIC(L, multiply_add(a.part[i], b.part[i], c.part[i]));
+}
+RIIS_LANES Lanes<S, R, n> subtract_product(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) {
+  typedef Lanes<S, R, n> L;
+  RIIS_ARITHMETIC(L, subtract_product(a.part[i], b.part[i], c.part[i]));
 }
 // clang-format on
 

@@ -213,7 +213,7 @@ class ClosestPoints {
 
   // Writes the points that were found. id_of(node) is the point's id.
   template <class IdOf>
-  void write_found(const std::vector<FoundNode> &list, const IdOf &id_of) const {
+  void write_found(const UnfilledVector<FoundNode> &list, const IdOf &id_of) const {
     const TriangleSet &set = surface_.triangles();
     for (const FoundNode &found : list) {
       const std::int64_t i = id_of(static_cast<std::int64_t>(found.node));

@@ -99,6 +99,7 @@ class ClusterSearch {
     constexpr std::int64_t few = 128;  // searching this many clusters takes about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
+      if (i + 1 < n) prefetch_first_leaf(view(items)[i + 1]);
       search_cluster(view(items)[i], view(own_.threads)[thread], thread);
     });
     n_threads_ = std::max(n_threads_, n_ran);
@@ -172,6 +173,12 @@ class ClusterSearch {
     return n_added;
   }
 
+  static std::uint32_t near_leaves(const std::uint16_t *leaf_bits, std::size_t n) {
+    std::uint32_t near = 0;
+    for (std::size_t k = 0; k < n; ++k) near |= leaf_bits[k];
+    return near;
+  }
+
   static std::size_t n_marked(const std::uint16_t *bits, std::size_t n, std::int64_t bit) {
     std::size_t count = 0;
     for (std::size_t k = 0; k < n; ++k) count += bits[k] >> bit & 1;
@@ -186,7 +193,7 @@ class ClusterSearch {
     own.leaf_bits.resize(first + n);
     if (kernels_.near_boxes(task_, view(clusters_.clusters)[cluster], own.near_groups.data() + first,
                             static_cast<std::int32_t>(n), own.leaf_bits.data() + first)) {
-      own.items.push_back({cluster, first, n, 0});
+      own.items.push_back({cluster, first, n, 0, near_leaves(own.leaf_bits.data() + first, n)});
     } else {
       own.near_groups.resize(first);
       own.leaf_bits.resize(first);
@@ -291,7 +298,7 @@ class ClusterSearch {
       for (std::size_t k = 0; k < n; ++k)
         own.leaf_bits[k] = static_cast<std::uint16_t>(own.leaf_bits[k] & own.bits_within[k]);
     }
-    search_cluster({cluster, 0, n, thread}, own, thread, &bounds);
+    search_cluster({cluster, 0, n, thread, near_leaves(own.leaf_bits.data(), n)}, own, thread, &bounds);
   }
 
   // Queries the nodes of a leaf one by one.
@@ -315,8 +322,7 @@ class ClusterSearch {
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
     const Range leaves = clusters_.leaves_of(item.cluster);
-    std::uint32_t near = 0;  // a bit for each near leaf
-    for (std::size_t k = 0; k < item.n; ++k) near |= leaf_bits[k];
+    std::uint32_t near = item.near_leaves;
     if (bounds)
       for (std::uint32_t rest = near; rest; rest &= rest - 1) {
         const int bit = __builtin_ctz(rest);
@@ -329,10 +335,9 @@ class ClusterSearch {
     for (; near; near &= near - 1) {
       const int bit = __builtin_ctz(near);
       const std::uint32_t after = near & (near - 1);
-      if (after) prefetch(leaves.begin + __builtin_ctz(after));
+      if (after) prefetch_leaf(leaves.begin + __builtin_ctz(after));
       own.leaf_groups.clear();
       add_marked(candidates, leaf_bits, item.n, bit, own.leaf_groups);
-      std::fill_n(own.closest.begin() + nodes_per_leaf * bit, nodes_per_leaf, nothing);
       if (!bounds)
         filter_leaf(leaves.begin + bit, task_, own, pairs);
       else
@@ -340,7 +345,7 @@ class ClusterSearch {
     }
     decide(own, pairs);
     // Every node with pairs is written, but the place moves on only after a node within the limit.
-    std::vector<FoundNode> &found = view(found_.by_thread)[thread];
+    UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;
     for (const std::uint32_t nodes : pairs.nodes) n_paired += static_cast<std::size_t>(__builtin_popcount(nodes));
@@ -372,13 +377,15 @@ class ClusterSearch {
     });
   }
 
-  void prefetch(std::int64_t leaf) const {
-    const auto bytes = [](const auto &of) {
-      constexpr std::size_t line = 64;
-      for (std::size_t at = 0; at < sizeof of; at += line) __builtin_prefetch(reinterpret_cast<const char *>(&of) + at);
-    };
-    bytes(clusters_.leaves.get()[leaf]);
-    bytes(clusters_.points.get()[leaf]);
+  // Requests what the filter reads.
+  void prefetch_leaf(std::int64_t leaf) const { prefetch(clusters_.leaves.get()[leaf].x, 3 * sizeof(Leaf::x)); }
+  void prefetch_first_leaf(const ClusterScratch::Item &item) const {
+    prefetch_leaf(clusters_.leaves_of(item.cluster).begin + __builtin_ctz(item.near_leaves));
+  }
+
+  static void prefetch(const void *from, std::size_t size) {
+    constexpr std::size_t line = 64;
+    for (std::size_t at = 0; at < size; at += line) __builtin_prefetch(static_cast<const char *>(from) + at);
   }
 
   // Returns false if the filter's error is so large that the filter would leave many triangles.
@@ -392,6 +399,13 @@ class ClusterSearch {
     FilterTask task = task_;
     limit_within(std::min(limit, limit_), task);
     return task;
+  }
+
+  // Prepares for the first pairs of a leaf. Most leaves near the surface have none. So only now their nodes' points are read.
+  void begin_pairs(std::int64_t number, ClusterScratch::Thread &own, const Pairs &pairs) const {
+    prefetch(&clusters_.points.get()[number], sizeof(LeafPoints));
+    prefetch(clusters_.leaves.get()[number].node, sizeof(Leaf::node));
+    std::fill_n(own.closest.begin() + (number - pairs.first_leaf) * nodes_per_leaf, nodes_per_leaf, nothing);
   }
 
   void filter_leaf(std::int64_t number, const FilterTask &filter, ClusterScratch::Thread &own, Pairs &pairs) {
@@ -414,7 +428,9 @@ class ClusterSearch {
       if (room - pairs.n < enough) decide(own, pairs);
       pairs.n += kernels_.filter_leaf(
           filter, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
-      pairs.nodes[number - pairs.first_leaf] |= task.found;
+      std::uint32_t &nodes = pairs.nodes[number - pairs.first_leaf];
+      if (task.found && !nodes) begin_pairs(number, own, pairs);
+      nodes |= task.found;
     }
   }
 

@@ -22,6 +22,7 @@ struct ClusterScratch {
     std::int64_t cluster;
     std::size_t first, n;
     int thread;
+    std::uint32_t near_leaves;  // a bit for each leaf that a group may be near
   };
   struct alignas(64) Thread {
     std::vector<std::int32_t> candidates;  // groups near a region

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/unfilled.hpp"
 #include "common/array_view.hpp"
 #include "surface/ties.hpp"
 #include "surface/triangle_set.hpp"
@@ -45,7 +46,7 @@ void make_room(Threads &threads, const ListOf &list_of) {
 
 // One list for each thread. The order within a list has no meaning.
 struct FoundNodes {
-  std::vector<std::vector<FoundNode>> by_thread;
+  std::vector<UnfilledVector<FoundNode>> by_thread;
   std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 
   // Empties the lists, and makes room for the next search.

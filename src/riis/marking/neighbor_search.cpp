@@ -127,7 +127,7 @@ class NeighborSearch {
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
-      const std::vector<FoundNode> &found = view(found_.by_thread)[thread];
+      const UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
       const std::int64_t n_before = view(found).size();
       for (std::int64_t g = block.begin; g < block.end; ++g) {
         const NearBall &near = view(walked_.near_balls)[g];

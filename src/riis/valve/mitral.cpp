@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "geometry/bulge.hpp"
@@ -245,7 +246,7 @@ class Patches {
 
  private:
   struct Arc {
-    double u;
+    PointOnPiece where;  // on half the annulus
     Vec3 on_annulus;
     Side side;
   };
@@ -257,10 +258,11 @@ class Patches {
 
   // Returns the arc from the annulus at u to a point of the edge, as a side that is shared by the patches on both sides of it.
   Arc arc(double u, Vec3 on_edge) {
-    const auto [on_annulus, along] = annulus_.frame(u);
+    const PointOnPiece where = annulus_.half().on_piece(2 * u);
+    const auto [on_annulus, along] = annulus_.half().frame(where);
     Vec3 offset = arc_offset(on_edge - on_annulus, along, half_.bulge);
     if (u == 0 || u == 0.5) offset.x = 0;  // the plane of symmetry is x = 0 exactly
-    return {u, on_annulus, {add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))}};
+    return {where, on_annulus, {add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))}};
   }
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
@@ -270,8 +272,10 @@ class Patches {
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
-    const Side base{
-        add(annulus_.half().between(2 * to.u, 2 * from.u).reversed().through(from.on_annulus, to.on_annulus))};
+    Vector<Bezier> pieces = annulus_.half().pieces_between(to.where, from.where);
+    std::reverse(pieces.begin(), pieces.end());
+    for (Bezier &piece : pieces) piece = piece.reversed();
+    const Side base{add(Curve(std::move(pieces)).through(from.on_annulus, to.on_annulus))};
     set_.patches.push_back({base,
                             edge,
                             from.side,

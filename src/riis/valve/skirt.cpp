@@ -36,42 +36,53 @@ Vec3 without_placement(const PatchImage &image, Vec3 p) {
           turned.z};
 }
 
-// Takes evenly spaced points of a curve, with the curve's steps between them.
-template <class Visit>
-void for_points(const Curve &curve, const Visit &visit) {
+// A point of a curve, and the curve's step there to the next point.
+struct Step {
+  Vec3 at, by;
+};
+
+// Takes evenly spaced points of a curve.
+Vector<Step> steps_of(const Curve &curve) {
   constexpr int n = 8;
+  Vector<Step> steps;
+  steps.reserve(n * curve.pieces().size());
   for (const Bezier &piece : curve.pieces())
     for (int i = 0; i < n; ++i) {
       const double t = (i + 0.5) / n;
-      visit(evaluate(piece, t), (1.0 / n) * derivative(piece, t));
+      steps.push_back({evaluate(piece, t), (1.0 / n) * derivative(piece, t)});
     }
+  return steps;
 }
 
-// Returns the line through the centroid of the attachment along its vector area. The direction has length 0 if the attachment
-// encloses no area, and otherwise length 1.
-AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides) {
+Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides) {
+  Vector<Step> steps;
+  for (const HeldSide &held : sides) {
+    const Vector<Step> of_side = steps_of(along(set, held.side));
+    for (const PatchImage &image : set.patches[held.patch].images) {
+      const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+      // Triangles are turned over in a mirror image, and in a patch that a warp made of one. There the sides run the other way.
+      const double sign = points_upstream(image) ? -1 : 1;
+      for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
+    }
+  }
+  return steps;
+}
+
+// Returns the line through the centroid of the attachment. The line of a vertical axis is vertical, and each other line leads
+// along the attachment's vector area. A direction has length 0 if the attachment encloses no area, and otherwise length 1.
+AxisLine axis_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides, SkirtAxis axis) {
+  const Vector<Step> steps = steps_of_attachment(set, sides);
   double whole = 0;
   Vec3 sum{0, 0, 0};
-  const auto for_all = [&](const auto &visit) {
-    for (const HeldSide &held : sides) {
-      const Curve curve = along(set, held.side);
-      for (const PatchImage &image : set.patches[held.patch].images) {
-        const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
-        // Triangles are turned over in a mirror image, and in a patch that a warp made of one. There the sides run the other way.
-        const double sign = points_upstream(image) ? -1 : 1;
-        for_points(curve, [&](Vec3 p, Vec3 step) { visit(place(image, p), sign * place(turn, step)); });
-      }
-    }
-  };
-  for_all([&](Vec3 p, Vec3 step) {
-    const double weight = length(step);
+  for (const Step &step : steps) {
+    const double weight = length(step.by);
     whole += weight;
-    sum = sum + weight * p;
-  });
-  if (!(whole > 0)) return {{0, 0, 0}, {0, 0, 0}};
-  const Vec3 centre = (1 / whole) * sum;
+    sum = sum + weight * step.at;
+  }
+  const Vec3 centre = whole > 0 ? (1 / whole) * sum : Vec3{0, 0, 0};
+  if (axis == SkirtAxis::vertical) return {centre, {0, 0, 1}};
   Vec3 area{0, 0, 0};
-  for_all([&](Vec3 p, Vec3 step) { area = area + 0.5 * cross(p - centre, step); });
+  for (const Step &step : steps) area = area + 0.5 * cross(step.at - centre, step.by);
   // A circle of this length has the area whole^2 / (4 pi).
   const double size = length(area);
   return {centre, size > 1e-3 * whole * whole ? (1 / size) * area : Vec3{0, 0, 0}};
@@ -369,8 +380,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
   if (axis == SkirtAxis::none || axis == SkirtAxis::of_cusp)
     return;  // patches have the axis of their cusp from the start
   const Vector<HeldSide> sides = held_sides(set);
-  AxisLine whole = axis_of_attachment(set, sides);
-  if (axis == SkirtAxis::vertical) whole.direction = {0, 0, 1};
+  const AxisLine whole = axis_of_attachment(set, sides, axis);
   for (const HeldSide &held : sides) {
     Patch &patch = set.patches[held.patch];
     const PatchImage &image = patch.images.front();
