@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs riisModel.C with the libraries of OpenFOAM 1912: a laminar flow by PISO, whose equations take sources from fvModels as
-// the Foundation's module incompressibleFluid does. ./run openfoam compares the flow with that of pimpleFoam, riisValve and
-// riisSource.
+// Runs riisModel.C with the libraries of OpenFOAM 1912: a laminar flow by PISO, whose equations take sources from fvModels as the
+// Foundation's module incompressibleFluid does. ./run openfoam compares the flow with that of riisValve and riisSource in
+// pimpleFoam.
 #include "adjustPhi.H"
 #include "argList.H"
 #include "constrainHbyA.H"
