@@ -168,7 +168,7 @@ pointField pointsAtRest(const fvMesh &mesh) {
                          << " points, and the present mesh " << mesh.nPoints()
                          << ": a valve cannot follow a mesh whose points become more or fewer" << exit(FatalError);
   }
-  return std::move(points);
+  return points;
 }
 
 }  // namespace
