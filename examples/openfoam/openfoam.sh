@@ -541,7 +541,7 @@ openfoam_model() {
     of_copy "$name" "$name-model" && rm -r "$case"/0.0* "$case/log.pimpleFoam" &&
       sed '/writeLeaflets/d; s/fvOptions;/fvModels;/' "$case/system/fvOptions" >"$case/constant/fvModels" &&
       rm "$case/system/fvOptions" && of_set "$name-model" system/fvSolution solvers/p/solver PCG &&
-      of_logged "$name-model" modelFoam timeout 3600 "$of_work/plugin/modelFoam" -case "$case" || return
+      of_logged "$name-model" modelFoam timeout 3600 "${of_with[@]}" "$of_work/plugin/modelFoam" -case "$case" || return
   done
 }
 
