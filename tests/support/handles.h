@@ -105,6 +105,16 @@ static inline riis_closest closest_to(const riis_surface *surface, double x, dou
   return closest;
 }
 
+/* Describes n points xyz (3, n). The array must outlive the description. */
+static inline riis_points points_at(int64_t n, const double *xyz) {
+  riis_points points;
+  CHECK_OK(riis_points_init(&points, sizeof points));
+  points.n_points = n;
+  points.x = xyz, points.y = xyz + 1, points.z = xyz + 2;
+  points.stride = 3;
+  return points;
+}
+
 /* Makes n random triangles in [-1,1]^3, all with an area: xyz (9 n), ids (3 n). */
 static inline void random_soup(random_source *random, int64_t n, double size, double **xyz, int32_t **ids) {
   *xyz = own(malloc((size_t)n * 9 * sizeof **xyz));

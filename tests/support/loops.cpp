@@ -151,7 +151,7 @@ int next_loop_is_on_a_team() {
 
 int wait_long_for_a_thread() {
 #if defined(RIIS_STD_THREADS)
-  return next_loop_is_on_a_team();  // every loop is
+  return next_loop_is_on_a_team();  // every loop runs on a team, so no wait chooses one
 #endif
   // On a busy machine an earlier wait may have chosen a team, for 8 seconds at most. Its calling thread may run both blocks.
   for (bool are_openmps = false; !are_openmps;) {

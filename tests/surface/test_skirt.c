@@ -7,7 +7,7 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "labels.h"
+#include "moving_surfaces.h"
 #include "sanitized.h"
 #include "searches.h"
 

@@ -6,7 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "labels.h"
+#include "moving_surfaces.h"
 #include "shapes.h"
 #include "smooth_motion.h"
 
@@ -338,25 +338,6 @@ static void vertices_of_fixed_skirts_move_with_their_velocities(void **state) {
 }
 
 /* --- A moving warp ---------------------------------------------------------------------------------------------------- */
-
-static riis_points points_at(int64_t n, const double *xyz) {
-  riis_points points;
-  CHECK_OK(riis_points_init(&points, sizeof points));
-  points.n_points = n;
-  points.x = xyz, points.y = xyz + 1, points.z = xyz + 2;
-  points.stride = 3;
-  return points;
-}
-
-/* A root that widens unevenly, tilts and shifts in a beat. `of` has the sizes of these motions. */
-static void beat(const double *x, double time, const double *of, double *y) {
-  const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
-  const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));
-  const double p[3] = {x[0] * wide, x[1] * wide, x[2] + of[2] * sin(phase) * cos(angle)};
-  y[0] = cos(tilt) * p[0] + sin(tilt) * p[2] + of[3] * sin(phase);
-  y[1] = p[1] + 0.5 * of[3] * cos(phase);
-  y[2] = cos(tilt) * p[2] - sin(tilt) * p[0];
-}
 
 /* Gives a valve a warp that takes its attachment to where the beat takes it. */
 static riis_warp *warp_at(riis_valve *valve, const riis_surface *rest, double time, const double *of) {

@@ -129,13 +129,6 @@ static riis_surface *wall_of(const root *of, double margin) {
   return surface_from(&arrays, NULL);
 }
 
-static riis_points points_at(int64_t n, const double *xyz) {
-  riis_points points;
-  CHECK_OK(riis_points_init(&points, sizeof points));
-  points.n_points = n, points.stride = 3, points.x = xyz, points.y = xyz + 1, points.z = xyz + 2;
-  return points;
-}
-
 /* Warps a valve from its own landmarks to targets, smoothed by the noise. */
 static void warp_valve(riis_valve *valve, int64_t n, const double *from, const double *to, double noise,
                        const riis_surface_options *placement) {

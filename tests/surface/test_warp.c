@@ -6,7 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "labels.h"
+#include "moving_surfaces.h"
 #include "searches.h"
 
 #include "random_meshes.h"
@@ -22,15 +22,6 @@ static double between(double low, double high) { return random_between(&rng, low
 enum { max_landmarks = 60 };
 
 static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
-
-static riis_points points_at(int64_t n, const double *xyz) {
-  riis_points points;
-  CHECK_OK(riis_points_init(&points, sizeof points));
-  points.n_points = n;
-  points.x = xyz, points.y = xyz + 1, points.z = xyz + 2;
-  points.stride = 3;
-  return points;
-}
 
 static riis_warp *new_warp(int64_t n, const double *xyz, double noise, const riis_surface_options *placement) {
   riis_warp_options options;
@@ -571,16 +562,6 @@ static void warped_valves_seal(void **state) {
 }
 
 /* --- An annulus that moves -------------------------------------------------------------------------------------------- */
-
-/* A root that widens unevenly, tilts and shifts in a beat. `of` has the sizes of these motions. */
-static void beat(const double *x, double time, const double *of, double *y) {
-  const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
-  const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));
-  const double p[3] = {x[0] * wide, x[1] * wide, x[2] + of[2] * sin(phase) * cos(angle)};
-  y[0] = cos(tilt) * p[0] + sin(tilt) * p[2] + of[3] * sin(phase);
-  y[1] = p[1] + 0.5 * of[3] * cos(phase);
-  y[2] = cos(tilt) * p[2] - sin(tilt) * p[0];
-}
 
 /* A step of a moving annulus. The maps of both times are taken by warps of their own. */
 typedef struct {

@@ -164,8 +164,8 @@ Vector<Bezier> Curve::pieces_between(const PointOnPiece &from, const PointOnPiec
 }
 
 Curve Curve::reversed() const {
-  Vector<Bezier> pieces;
-  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) pieces.push_back(piece->reversed());
+  Vector<Bezier> pieces = pieces_;
+  reverse(pieces);
   return Curve(std::move(pieces));
 }
 
@@ -175,6 +175,11 @@ Curve Curve::through(Vec3 first, Vec3 last) const {
   Bezier &last_piece = moved.pieces_.back();
   view(last_piece.control)[last_piece.degree] = last;
   return moved;
+}
+
+void reverse(Vector<Bezier> &pieces) {
+  std::reverse(pieces.begin(), pieces.end());
+  for (Bezier &piece : pieces) piece = piece.reversed();
 }
 
 bool are_equal(const Curve &a, const Curve &b) {

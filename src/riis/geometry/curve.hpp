@@ -75,6 +75,9 @@ class Curve {
   Vector<double> ends_;  // the length from the start of the curve to the end of each piece
 };
 
+// Turns the direction of successive pieces.
+void reverse(Vector<Bezier> &pieces);
+
 // Returns whether both curves have exactly the same control points.
 bool are_equal(const Curve &a, const Curve &b);
 

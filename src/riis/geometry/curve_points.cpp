@@ -69,10 +69,7 @@ const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
     if (t1 > t0) parts_.push_back(part_of(curve_.pieces()[piece], t0, t1));
   }
   if (parts_.empty()) parts_.push_back(Bezier::point(point(i)));
-  if (is_reversed_) {
-    std::reverse(parts_.begin(), parts_.end());
-    for (Bezier &part : parts_) part = part.reversed();
-  }
+  if (is_reversed_) reverse(parts_);
   return parts_;
 }
 

@@ -12,11 +12,13 @@ struct Doubles3 {
   Doubles x, y, z;
 };
 
+// Gathers a point from each of eight addresses.
 RIIS_INLINE Doubles3 gather_points(const double *const *from, int64_t offset) {
   Doubles3 p;
   gather_three(from, offset, p.x, p.y, p.z);
   return p;
 }
+
 RIIS_INLINE Doubles3 operator+(Doubles3 a, Doubles3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 RIIS_INLINE Doubles3 operator-(Doubles3 a, Doubles3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 RIIS_INLINE Doubles3 operator*(Doubles s, Doubles3 a) { return {s * a.x, s * a.y, s * a.z}; }

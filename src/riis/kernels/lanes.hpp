@@ -150,7 +150,7 @@ struct Lanes {
 typedef Lanes<float, FloatRegister, 16> Floats;
 typedef Lanes<double, DoubleRegister, 8> Doubles;
 
-// Gathers three neighbouring numbers from each address. An address is read once, and the numbers are transposed in registers.
+// Gathers three neighbouring numbers from each address. The function loads each address once, and transposes in registers.
 RIIS_INLINE void gather_three(const double *const *from, int64_t offset, Doubles &x, Doubles &y, Doubles &z) {
 #if defined(__AVX512F__)
   __m512d r[4];

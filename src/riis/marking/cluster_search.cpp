@@ -377,7 +377,7 @@ class ClusterSearch {
     });
   }
 
-  // Requests what the filter reads.
+  // Requests the coordinates of a leaf ahead of the filter.
   void prefetch_leaf(std::int64_t leaf) const { prefetch(clusters_.leaves.get()[leaf].x, 3 * sizeof(Leaf::x)); }
   void prefetch_first_leaf(const ClusterScratch::Item &item) const {
     prefetch_leaf(clusters_.leaves_of(item.cluster).begin + __builtin_ctz(item.near_leaves));
@@ -401,7 +401,8 @@ class ClusterSearch {
     return task;
   }
 
-  // Prepares for the first pairs of a leaf. Most leaves near the surface have none. So only now their nodes' points are read.
+  // Prepares for the first pairs of a leaf. Many leaves near the surface have no pairs, so points and node numbers are requested
+  // only here.
   void begin_pairs(std::int64_t number, ClusterScratch::Thread &own, const Pairs &pairs) const {
     prefetch(&clusters_.points.get()[number], sizeof(LeafPoints));
     prefetch(clusters_.leaves.get()[number].node, sizeof(Leaf::node));

@@ -273,8 +273,7 @@ class Patches {
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
     Vector<Bezier> pieces = annulus_.half().pieces_between(to.where, from.where);
-    std::reverse(pieces.begin(), pieces.end());
-    for (Bezier &piece : pieces) piece = piece.reversed();
+    reverse(pieces);
     const Side base{add(Curve(std::move(pieces)).through(from.on_annulus, to.on_annulus))};
     set_.patches.push_back({base,
                             edge,

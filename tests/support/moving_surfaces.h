@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Finds values at labels (patch, u, v) of a surface. Include after handles.h. */
-#ifndef RIIS_TEST_LABELS_H
-#define RIIS_TEST_LABELS_H
+ * Helpers for surfaces that move: values at labels (patch, u, v), kept vertices, and a root that beats. Include after
+ * handles.h. */
+#ifndef RIIS_TEST_MOVING_SURFACES_H
+#define RIIS_TEST_MOVING_SURFACES_H
 
 /* Writes the value of a label, by linear interpolation in a triangle of labels. Vertex i has the label uv[2 i] and the value
  * values[3 i]. Returns 0 where the triangles of labels leave a hole. */
@@ -35,6 +36,16 @@ static inline kept_vertices vertices_of(const riis_surface *surface) {
   kept_vertices made = {t.n_vertices, own(malloc(n * 3 * sizeof(double))), own(malloc(n * 2 * sizeof(double)))};
   memcpy(made.xyz, t.xyz, n * 3 * sizeof(double)), memcpy(made.uv, t.uv, n * 2 * sizeof(double));
   return made;
+}
+
+/* A root that widens unevenly, tilts and shifts in a beat. `of` has the sizes of these motions. */
+static inline void beat(const double *x, double time, const double *of, double *y) {
+  const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
+  const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));
+  const double p[3] = {x[0] * wide, x[1] * wide, x[2] + of[2] * sin(phase) * cos(angle)};
+  y[0] = cos(tilt) * p[0] + sin(tilt) * p[2] + of[3] * sin(phase);
+  y[1] = p[1] + 0.5 * of[3] * cos(phase);
+  y[2] = cos(tilt) * p[2] - sin(tilt) * p[0];
 }
 
 #endif
