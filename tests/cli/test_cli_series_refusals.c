@@ -222,9 +222,28 @@ static void interrupt_series(int signal_number) {
   finish_program(process);
 }
 
-/* The main thread is stopped in the middle of a step, as if the step took very long. The program must still write the list.
- * Then the process is killed. The list may lack one file, if the thread was stopped after it wrote a file and before it listed
- * the file. */
+/* Stops the main thread of the process in the middle of a step, as if the step took very long. Returns 0 if the system does not
+ * let a process stop the threads of another. */
+static int stop_main_thread(pid_t process, int is_seized) {
+  int status = 0;
+  if (!is_seized && ptrace(PTRACE_SEIZE, process, NULL, NULL) != 0) return 0;
+  assert_int_equal(ptrace(PTRACE_INTERRUPT, process, NULL, NULL), 0);
+  assert_int_equal(waitpid(process, &status, __WALL), process);
+  assert_true(WIFSTOPPED(status));
+  return 1;
+}
+
+static int n_files_of_dead(void) {
+  int n_files = 0;
+  for (char name[64] = "dead/dead_0000.vtu"; scratch_exists(name); ++n_files)
+    snprintf(name, sizeof name, "dead/dead_%04d.vtu", n_files + 1);
+  return n_files;
+}
+
+/* While the main thread is stopped, the program must still list all files in the .pvd. Then the process is killed. The list may
+ * lack one file, if the thread was stopped after it wrote a file and before it listed the file. In the microseconds in which
+ * the thread adds a file to the list, it holds the list's lock, and nobody else can write the list. A thread stopped there goes
+ * on, and is stopped once more elsewhere. */
 static void test_killed(void **state) {
   (void)state;
   write_cycle("0,0\n1,1\n");
@@ -232,21 +251,21 @@ static void test_killed(void **state) {
                                       "--cycle", scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
                                       scratch_path("dead.pvd"), "--quiet", NULL);
   for (int n_tries = 0; !scratch_exists("dead/dead_0011.vtu") && n_tries < 100000; ++n_tries) usleep(500);
-  const int is_stopped = ptrace(PTRACE_SEIZE, process, NULL, NULL) == 0;
-  if (is_stopped) {
-    int status = 0;
-    assert_int_equal(ptrace(PTRACE_INTERRUPT, process, NULL, NULL), 0);
-    assert_int_equal(waitpid(process, &status, __WALL), process);
-    assert_true(WIFSTOPPED(status));
+  int is_stopped = 0, n_files = 0, n = -2;
+  for (int n_stops = 0; n_stops < 3 && n < n_files - 1; ++n_stops) {
+    if (is_stopped) {
+      assert_int_equal(ptrace(PTRACE_CONT, process, NULL, NULL), 0);
+      usleep(3000);
+    }
+    is_stopped = stop_main_thread(process, is_stopped);
+    if (!is_stopped) break;
+    n_files = n_files_of_dead();
+    n = n_listed("dead.pvd");
+    for (int n_tries = 0; n < n_files - 1 && n_tries < 10000; ++n_tries, n = n_listed("dead.pvd")) usleep(500);
   }
-  int n_files = 0;
-  for (char name[64] = "dead/dead_0000.vtu"; scratch_exists(name); ++n_files)
-    snprintf(name, sizeof name, "dead/dead_%04d.vtu", n_files + 1);
-  for (int n_tries = 0; is_stopped && n_listed("dead.pvd") < n_files - 1 && n_tries < 20000; ++n_tries) usleep(500);
-  const int n = n_listed("dead.pvd");
   kill(process, SIGKILL);
   finish_program(process);
-  if (!is_stopped) skip(); /* skipped if the system does not let a process stop the threads of another */
+  if (!is_stopped) skip();
   assert_int_equal(program_exit_code, 128 + SIGKILL);
   assert_true(n_files >= 12 && n_files < 2001);
   assert_true(n == n_files || n == n_files - 1);
