@@ -8,9 +8,11 @@
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
@@ -70,9 +72,26 @@ float inflated_radius(double distance, Vec3 q, double rounding) {
 struct TriangleScene::Implementation {
   TriangleGroups groups;
   double rounding = 0;  // TriangleScene::rounding_ in the frame's units
+  int n_threads = 1;    // of the tree
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
   Scene scene;
   Geometry geometry;
+  bool tree_fits = false;  // whether the tree, when it was last built, had the same groups
+  std::mutex building;
+  std::atomic<bool> is_built{false};
+
+  // Builds Embree's tree over the groups, if no query did so since they were made.
+  void build_if_needed() {
+    if (is_built.load(std::memory_order_acquire)) return;
+    const std::lock_guard<std::mutex> lock(building);
+    if (is_built.load(std::memory_order_relaxed)) return;
+    build();
+    tree_fits = true;
+    is_built.store(true, std::memory_order_release);
+  }
+
+ private:
+  void build();
 };
 
 namespace {
@@ -183,6 +202,40 @@ double rounding_of_distances(const Bounds &bounds) {
 
 }  // namespace
 
+void TriangleScene::Implementation::build() {
+  const auto check = [this](const char *what) {
+    const RTCError error = rtcGetDeviceError(device.get());
+    if (error != RTC_ERROR_NONE) fail_embree(error, what);
+  };
+  rtcGetDeviceError(device.get());  // clears an earlier error of this thread
+  if (!scene) {
+    Geometry of_groups(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    check("create a geometry");
+    rtcSetGeometryUserData(of_groups.get(), this);
+    rtcSetGeometryBoundsFunction(of_groups.get(), bounds_of_group, nullptr);
+    Scene of_geometry(rtcNewScene(device.get()));
+    check("create a scene");
+    rtcAttachGeometry(of_geometry.get(), of_groups.get());
+    check("attach the geometry");
+    scene = std::move(of_geometry);
+    geometry = std::move(of_groups);
+  } else {
+    // A scene that moves is built more often and is queried less often after each build. If the groups are the same, their tree
+    // is kept with new boxes.
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);
+    rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
+  }
+  tree_fits = false;  // until the tree is complete
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(groups.groups.size()));
+  rtcCommitGeometry(geometry.get());
+  check("take the triangles");
+  // Embree builds with TBB. Outside of an arena, TBB would call as many threads as there are processors.
+  constexpr std::size_t few = 1024;  // with fewer groups, Embree itself builds on one thread
+  Arena(groups.groups.size() < few ? 1 : n_threads).run([this] { rtcCommitScene(scene.get()); });
+  check("build the scene");
+}
+
 TriangleScene::TriangleScene() : implementation_(std::make_unique<Implementation>()) {}
 
 void TriangleScene::make(const TriangleSet &set, int n_threads) {
@@ -194,35 +247,9 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   in.groups.make(set, frame, n_threads);
   in.rounding = rounding_ * frame.scale;
 
-  const RTCDevice device = in.device.get();
-  const auto check = [device](const char *what) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error != RTC_ERROR_NONE) fail_embree(error, what);
-  };
-  rtcGetDeviceError(device);  // clears an earlier error of this thread
-  if (!in.scene) {
-    in.scene.reset(rtcNewScene(device));
-    check("create a scene");
-    in.geometry.reset(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
-    check("create a geometry");
-    rtcSetGeometryUserData(in.geometry.get(), &in);
-    rtcSetGeometryBoundsFunction(in.geometry.get(), bounds_of_group, nullptr);
-    rtcAttachGeometry(in.scene.get(), in.geometry.get());
-  } else {
-    // A scene that moves is built more often and is queried less often after each build. If the groups are the same, their tree
-    // is kept with new boxes.
-    rtcSetSceneFlags(in.scene.get(), RTC_SCENE_FLAG_DYNAMIC);
-    rtcSetSceneBuildQuality(in.scene.get(), RTC_BUILD_QUALITY_LOW);
-    rtcSetGeometryBuildQuality(in.geometry.get(),
-                               in.groups.are_as_before ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
-  }
-  rtcSetGeometryUserPrimitiveCount(in.geometry.get(), static_cast<unsigned>(in.groups.groups.size()));
-  rtcCommitGeometry(in.geometry.get());
-  check("take the triangles");
-  // Embree builds with TBB. Outside of an arena, TBB would call as many threads as there are processors.
-  constexpr std::size_t few = 1024;  // with fewer groups, Embree itself builds on one thread
-  Arena(in.groups.groups.size() < few ? 1 : n_threads).run([&] { rtcCommitScene(in.scene.get()); });
-  check("build the scene");
+  in.n_threads = n_threads;
+  in.tree_fits = in.tree_fits && in.groups.are_as_before;
+  in.is_built.store(false, std::memory_order_relaxed);
 }
 
 TriangleScene::~TriangleScene() = default;
@@ -270,6 +297,7 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
     query.largest += reach * frame.scale;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
+    implementation_->build_if_needed();
     rtcPointQuery(in.scene.get(), &sphere, &context, visit_group<keeps_ties>, &query);
     if (keeps_ties && query.is_out_of_memory) throw std::bad_alloc();
   }
@@ -291,6 +319,7 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   Collected collected{found, false};
+  implementation_->build_if_needed();
   rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &collected);
   if (collected.is_out_of_memory) throw std::bad_alloc();
 }

@@ -25,9 +25,10 @@ class TriangleScene {
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
 
-  // Makes the scene from a copy of the corners, so the set need not be kept. Another call, for triangles that moved, reuses the
-  // memory. Fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if Embree reports an error. After a failure the scene can only
-  // be destroyed.
+  // Makes the groups from a copy of the corners, so the set need not be kept. Another call, for triangles that moved, reuses the
+  // memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads, because
+  // a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if Embree
+  // reports an error, and the next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Returns the closest triangle to p, or a triangle -1 if none is within the limit (>= 0, may be infinite). p must be finite,
