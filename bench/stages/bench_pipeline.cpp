@@ -70,6 +70,7 @@ void pipeline_scene(benchmark::State &state, const char *kind) {
   for (auto _ : state) {
     riis::TriangleScene scene;
     scene.make(riis::content_of(surface.get()).triangles(), 1);
+    scene.build_tree();
   }
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
@@ -79,7 +80,11 @@ void pipeline_scene_again(benchmark::State &state, const char *kind) {
   const Surface surface = surface_of(moved_valve(kind).get());
   riis::TriangleScene scene;
   scene.make(riis::content_of(surface.get()).triangles(), 1);
-  for (auto _ : state) scene.make(riis::content_of(surface.get()).triangles(), 1);
+  scene.build_tree();
+  for (auto _ : state) {
+    scene.make(riis::content_of(surface.get()).triangles(), 1);
+    scene.build_tree();
+  }
   state.counters["triangles"] = n_triangles_of(surface.get());
 }
 

@@ -247,8 +247,9 @@ module riis_c
     real(c_double) :: area                   !< of all triangles, mesh units squared
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
     real(c_double) :: seconds_triangles      !< wall time of the last create or update: for checks and triangles
-    real(c_double) :: seconds_scene          !< wall time of the last create or update: for the scene, sampling,
-                                             !! minimisation
+    real(c_double) :: seconds_scene          !< wall time of the last create or update: for groups of triangles,
+                                             !! sampling, minimisation. Embree's tree is built by the first query that
+                                             !! needs it
     real(c_double) :: error_bound            !< the most by which a point's distances to the triangles and to the smooth
                                              !! valve can differ; at most tolerance * half_thickness. 0 for a surface
                                              !! from arrays

@@ -477,7 +477,8 @@ typedef struct riis_surface_info {
   double area;               /* of all triangles, mesh units squared */
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
   double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
-  double seconds_scene;      /* wall time of the last create or update: for the scene, sampling, minimisation */
+  double seconds_scene;      /* wall time of the last create or update: for groups of triangles, sampling,
+                                minimisation. Embree's tree is built by the first query that needs it */
   double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
                                 can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
   double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's

@@ -23,7 +23,7 @@ struct StepTimes {
 struct Seconds {
   double read = 0;     // reading files
   double surface = 0;  // making triangles
-  double scene = 0;    // building Embree's scene
+  double scene = 0;    // grouping the triangles, without Embree's tree
   double mesh = 0;     // checking the nodes
   double adjacency = 0;
   double search = 0;

@@ -33,7 +33,7 @@ double largest_difference(double triangle_error, const PatchDistance &distance) 
 
 SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
   log_message(RIIS_LOG_INFO, "surface: ", surface.triangles().n_triangles(), " triangles in ",
-              rounded(seconds.triangles, 3), " s, Embree scene in ", rounded(seconds.scene, 3), " s");
+              rounded(seconds.triangles, 3), " s, groups of triangles in ", rounded(seconds.scene, 3), " s");
   return seconds;
 }
 

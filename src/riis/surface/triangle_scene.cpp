@@ -252,6 +252,8 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   in.is_built.store(false, std::memory_order_relaxed);
 }
 
+void TriangleScene::build_tree() const { implementation_->build_if_needed(); }
+
 TriangleScene::~TriangleScene() = default;
 
 bool TriangleScene::may_be_within(Vec3 p, double limit) const {
@@ -297,7 +299,7 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
     query.largest += reach * frame.scale;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    implementation_->build_if_needed();
+    build_tree();
     rtcPointQuery(in.scene.get(), &sphere, &context, visit_group<keeps_ties>, &query);
     if (keeps_ties && query.is_out_of_memory) throw std::bad_alloc();
   }
@@ -319,7 +321,7 @@ void TriangleScene::collect_groups(const float *point, float radius, std::vector
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   Collected collected{found, false};
-  implementation_->build_if_needed();
+  build_tree();
   rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &collected);
   if (collected.is_out_of_memory) throw std::bad_alloc();
 }

@@ -31,6 +31,9 @@ class TriangleScene {
   // reports an error, and the next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
+  // Builds Embree's tree, as the first query does. Several threads may call this function at once.
+  void build_tree() const;
+
   // Returns the closest triangle to p, or a triangle -1 if none is within the limit (>= 0, may be infinite). p must be finite,
   // with coordinates up to max_coordinate. Several threads may call this function at once. If `ties` is not null, its candidates
   // are replaced by those of p.
