@@ -156,20 +156,43 @@ class PointsOfSide {
   bool is_reversed_;
 };
 
-// Returns how far the mapped offsets of arcs are from the offsets of the warped curves, in one state.
-std::array<Vec3, n_material> beside_offsets(const PatchSet &set, std::size_t number) {
-  const Patch &patch = set.patches[number];
-  const PointsOfSide base(set, patch.v0), edge(set, patch.v1);
-  std::array<Vec3, n_material> made{};
-  for (std::size_t k = 0; k < n_material; ++k) {
-    const Vec3 offset = k == 0                ? arc_offset(set, patch.u0)
-                        : k == n_material - 1 ? arc_offset(set, patch.u1)
-                        : patch.bulge != 0    ? arc_offset(edge.point(k) - base.point(k), base.tangent(k), patch.bulge)
-                                              : Vec3{0, 0, 0};
-    made[k] = 2 * (set.mapped_inside[number].points[k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
+// How many steps of u and of v a point lies beside another one, by least squares. 0 if the steps are nearly parallel.
+struct StepsBeside {
+  double u = 0, v = 0;
+
+  StepsBeside(Vec3 along_v, Vec3 beside) {
+    const double vv = dot(along_v, along_v);
+    if (vv > 0) v = dot(along_v, beside) / vv;
   }
-  return made;
-}
+  StepsBeside(Vec3 along_u, Vec3 along_v, Vec3 beside) {
+    const double uu = dot(along_u, along_u), uv = dot(along_u, along_v), vv = dot(along_v, along_v);
+    const double determinant = uu * vv - uv * uv, on_u = dot(along_u, beside), on_v = dot(along_v, beside);
+    if (!(determinant > least_sine_sq * uu * vv)) return;
+    u = (vv * on_u - uv * on_v) / determinant;
+    v = (uu * on_v - uv * on_u) / determinant;
+  }
+};
+
+// The arcs of a warped patch of arcs at its material points, in one state.
+struct MaterialArcs {
+  MaterialArcs(const PatchSet &set, std::size_t number) : mapped_middle(set.mapped_inside[number].points) {
+    const Patch &patch = set.patches[number];
+    const PointsOfSide of_base(set, patch.v0), of_edge(set, patch.v1);
+    for (std::size_t k = 0; k < n_material; ++k) {
+      base[k] = of_base.point(k), edge[k] = of_edge.point(k);
+      mapped_base[k] = of_base.mapped(k), mapped_edge[k] = of_edge.mapped(k);
+      offset[k] = k == 0                ? arc_offset(set, patch.u0)
+                  : k == n_material - 1 ? arc_offset(set, patch.u1)
+                  : patch.bulge != 0    ? arc_offset(edge[k] - base[k], of_base.tangent(k), patch.bulge)
+                                        : Vec3{0, 0, 0};
+    }
+  }
+
+  Vec3 middle(std::size_t k) const { return 0.5 * (base[k] + edge[k] + offset[k]); }
+
+  std::array<Vec3, n_material> base, edge, offset;  // of the warped curves
+  std::array<Vec3, n_material> mapped_base, mapped_edge, mapped_middle;
+};
 
 using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0 and u1
 
@@ -209,29 +232,28 @@ class AtShares {
   OfSides at_;
 };
 
-// How many steps of u and of v a point lies beside another one, by least squares. 0 if the steps are nearly parallel.
-struct StepsBeside {
-  double u = 0, v = 0;
-
-  StepsBeside(Vec3 along_u, Vec3 along_v, Vec3 beside) {
-    const double uu = dot(along_u, along_u), uv = dot(along_u, along_v), vv = dot(along_v, along_v);
-    const double determinant = uu * vv - uv * uv, on_u = dot(along_u, beside), on_v = dot(along_v, beside);
-    if (!(determinant > least_sine_sq * uu * vv)) return;
-    u = (vv * on_u - uv * on_v) / determinant;
-    v = (uu * on_v - uv * on_u) / determinant;
-  }
-};
-
 }  // namespace
 
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
   if (!base.is_warped() || !edge.is_warped() || !has_points_inside(moved)) return {};
+  constexpr std::size_t last = n_material - 1;
+  const MaterialArcs now(moved.now, moved.patch), before(moved.before, moved.patch);
   std::array<double, n_material> nodes{};
-  std::array<Vec3, n_material> rest = beside_offsets(moved.now, moved.patch);
-  const std::array<Vec3, n_material> before = beside_offsets(moved.before, moved.patch);
-  for (std::size_t k = 0; k < n_material; ++k) {
+  std::array<Vec3, n_material> rest{}, moves{};
+  for (std::size_t k = 0; k <= last; ++k) moves[k] = now.mapped_middle[k] - before.mapped_middle[k];
+  for (std::size_t k = 0; k <= last; ++k) {
     nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
-    rest[k] = rest[k] - before[k];
+    const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
+               move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
+    // The mapped middle lies beside the middle of the warped arc. The displacement there follows from the slope of the
+    // displacement. On the arcs that are sides, steps of u are left out, because neighbouring patches have these arcs, too.
+    const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
+    const bool is_side = k == 0 || k == last;
+    const StepsBeside steps =
+        is_side ? StepsBeside(across, beside) : StepsBeside(now.middle(k + 1) - now.middle(k - 1), across, beside);
+    Vec3 move = moves[k] - steps.v * (move_of_edge - move_of_base);
+    if (!is_side) move = move - steps.u * (moves[k + 1] - moves[k - 1]);
+    rest[k] = 2 * (move - 0.5 * (move_of_base + move_of_edge)) - (now.offset[k] - before.offset[k]);
   }
   return {nodes, rest};
 }
