@@ -783,6 +783,40 @@ static void a_restart_repeats_velocities(void **state) {
   }
 }
 
+/* A surface remembers the patches of its last state, which is often the earlier state of the next step. If that valve has been
+ * changed since, they are made again. */
+static void a_changed_earlier_state_is_made_again(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 6; ++trial) {
+    const int owned_before = n_owned();
+    const riis_surface_options options =
+        random_placement(trial / 3 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const double opening = between(0.1, 0.9);
+    const warped_step step = new_step(kinds[trial % 3], opening, opening, &options);
+    riis_surface *one = new_surface(step.now, &options), *two = new_surface(step.now, &options);
+    riis_valve *changed = valve_at(step.rest_now, opening);
+    for (int change = 0; change < 2; ++change) {
+      CHECK_OK(riis_valve_set_warp(changed, step.map_now, NULL));
+      CHECK_OK(riis_surface_update(one, changed, NULL)); /* the same state as `now` */
+      if (change == 0)
+        CHECK_OK(riis_valve_set_warp(changed, step.map_before, NULL));
+      else
+        CHECK_OK(riis_valve_set_scalar(changed, "opening", opening + 0.01));
+      riis_valve *fresh = valve_at(step.rest_now, change == 0 ? opening : opening + 0.01);
+      CHECK_OK(riis_valve_set_warp(fresh, change == 0 ? step.map_before : step.map_now, NULL));
+      CHECK_OK(riis_surface_update_moving(one, step.now, changed, step.seconds, NULL, NULL));
+      CHECK_OK(riis_surface_update_moving(two, step.now, fresh, step.seconds, NULL, NULL));
+      const riis_triangles a = triangles_of(one), b = triangles_of(two);
+      assert_true(is_same_content(one, two));
+      assert_memory_equal(a.velocity, b.velocity, (size_t)a.n_vertices * 3 * sizeof *a.velocity);
+      double largest = 0;
+      for (int64_t i = 0; i < 3 * a.n_vertices; ++i) largest = fmax(largest, fabs(a.velocity[i]));
+      assert_true(largest > 0);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
 /* A table of keys gives the bits of targets that are interpolated by hand, and repeats after a period. */
 static void keys_in_time_give_targets(void **state) {
   (void)state;
@@ -1133,6 +1167,7 @@ int main(void) {
       cmocka_unit_test(a_moving_annulus_has_its_velocities),
       cmocka_unit_test(fixed_vertices_move_with_their_velocities),
       cmocka_unit_test(a_restart_repeats_velocities),
+      cmocka_unit_test(a_changed_earlier_state_is_made_again),
       cmocka_unit_test(keys_in_time_give_targets),
       cmocka_unit_test(folds_are_found_and_named),
       cmocka_unit_test(folds_at_patches_are_named),

@@ -25,43 +25,30 @@ namespace {
 double size_of(double x) { return std::abs(x); }
 double size_of(Vec3 x) { return length(x); }
 
-// The material points of a side in one state, in the direction of the side.
-struct OnSide {
-  std::array<double, n_material> share;  // of the warped curve's length
-  std::array<Vec3, n_material> beside;   // from the warped curve to where the map takes the point
+// The material points of a side in its own direction.
+class PointsOfSide {
+ public:
+  PointsOfSide(const PatchSet &set, const Side &side)
+      : curve_(set.curves[side.curve]), points_(*set.material[side.curve]), is_reversed_(side.reversed) {}
+
+  Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
+  Vec3 point(std::size_t k) const { return points_.point[at(k)]; }
+  double share(std::size_t k) const { return is_reversed_ ? 1 - points_.share[at(k)] : points_.share[at(k)]; }
+  // Returns the unit tangent, or 0 if there is none.
+  Vec3 tangent(std::size_t k) const {
+    const PointOnPiece &where = points_.on_curve[at(k)];
+    const Vec3 along = derivative(curve_.pieces()[where.piece], where.t);
+    const double speed = length(along);
+    return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
+  }
+
+ private:
+  std::size_t at(std::size_t k) const { return is_reversed_ ? n_material - 1 - k : k; }
+
+  const Curve &curve_;
+  const MaterialPoints &points_;
+  bool is_reversed_;
 };
-
-// Estimates the length of a piece between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
-// slide of 0 is exact.
-double length_near(const Bezier &piece, double from, double to) {
-  const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
-  return (to - from) / 18 *
-         (5 * (length(derivative(piece, middle - reach)) + length(derivative(piece, middle + reach))) +
-          8 * length(derivative(piece, middle)));
-}
-
-OnSide on_side(const Curve &curve, const MaterialPoints &points, bool is_reversed) {
-  std::array<double, n_material> behind{};
-  for (std::size_t k = 1; k < n_material; ++k) {
-    const PointOnPiece &from = points.on_curve[k - 1], &to = points.on_curve[k];
-    behind[k] = behind[k - 1];
-    for (std::size_t piece = from.piece; piece <= to.piece; ++piece)
-      behind[k] += length_near(curve.pieces()[piece], piece == from.piece ? from.t : 0, piece == to.piece ? to.t : 1);
-  }
-  OnSide made{};
-  for (std::size_t k = 0; k < n_material; ++k) {
-    const PointOnPiece &at = points.on_curve[k];
-    const double share = curve.length() > 0 ? behind[k] / behind[n_material - 1] : material_share(k);
-    const std::size_t i = is_reversed ? n_material - 1 - k : k;
-    made.share[i] = is_reversed ? 1 - share : share;
-    made.beside[i] = points.mapped[k] - evaluate(curve.pieces()[at.piece], at.t);
-  }
-  return made;
-}
-
-OnSide on_side(const PatchSet &set, const Side &side) {
-  return on_side(set.curves[side.curve], *set.material[side.curve], side.reversed);
-}
 
 bool has_material(const PatchSet &set, const Side &side) {
   return side.curve < set.material.size() && set.material[side.curve];
@@ -102,14 +89,14 @@ SideMaterial::SideMaterial(const MovedPatch &moved, Side Patch::*side) {
   const Side &now = moved.now.patches[moved.patch].*side, &before = moved.before.patches[moved.patch].*side;
   is_warped_ = has_material(moved.now, now) && has_material(moved.before, before);
   if (!is_warped_) return;
-  const OnSide at_now = on_side(moved.now, now), at_before = on_side(moved.before, before);
+  const PointsOfSide at_now(moved.now, now), at_before(moved.before, before);
   std::array<double, n_material> slide{};
   std::array<Vec3, n_material> rest{};
   for (std::size_t k = 0; k < n_material; ++k) {
-    slide[k] = at_before.share[k] - at_now.share[k];
-    rest[k] = at_now.beside[k] - at_before.beside[k];
+    nodes_[k] = at_now.share(k);
+    slide[k] = at_before.share(k) - nodes_[k];
+    rest[k] = (at_now.mapped(k) - at_now.point(k)) - (at_before.mapped(k) - at_before.point(k));
   }
-  nodes_ = at_now.share;
   slide_ = {nodes_, slide};
   rest_ = {nodes_, rest};
 }
@@ -131,30 +118,6 @@ constexpr double least_sine_sq = 0.01;
 bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
-
-// The material points of a side in its own direction.
-class PointsOfSide {
- public:
-  PointsOfSide(const PatchSet &set, const Side &side)
-      : curve_(set.curves[side.curve]), points_(*set.material[side.curve]), is_reversed_(side.reversed) {}
-
-  Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
-  Vec3 point(std::size_t k) const { return evaluate(piece(k), points_.on_curve[at(k)].t); }
-  // Returns the unit tangent, or 0 if there is none.
-  Vec3 tangent(std::size_t k) const {
-    const Vec3 along = derivative(piece(k), points_.on_curve[at(k)].t);
-    const double speed = length(along);
-    return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
-  }
-
- private:
-  std::size_t at(std::size_t k) const { return is_reversed_ ? n_material - 1 - k : k; }
-  const Bezier &piece(std::size_t k) const { return curve_.pieces()[points_.on_curve[at(k)].piece]; }
-
-  const Curve &curve_;
-  const MaterialPoints &points_;
-  bool is_reversed_;
-};
 
 // How many steps of u and of v a point lies beside another one, by least squares. 0 if the steps are nearly parallel.
 struct StepsBeside {
