@@ -196,16 +196,13 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
+// Every point has a variable of its own. In an array, the compiler would store points and load them again at once.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
-  const std::size_t n = degree_of(curve);
-  Bezier left = curve, right = curve;
-  std::array<Vec3, 4> q = curve.control;
-  for (std::size_t level = 1; level <= n; ++level) {
-    for (std::size_t i = 0; i + level <= n; ++i) q[i] = mix(q[i], q[i + 1], t);
-    left.control[level] = q[0];
-    right.control[n - level] = q[n - level];
-  }
-  return {left, right};
+  const auto &q = curve.control;
+  const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
+  if (curve.degree == 2) return {Bezier::quadratic(q[0], a, ab), Bezier::quadratic(ab, b, q[2])};
+  const Vec3 c = mix(q[2], q[3], t), bc = mix(b, c, t), abc = mix(ab, bc, t);
+  return {Bezier::cubic(q[0], a, ab, abc), Bezier::cubic(abc, bc, c, q[3])};
 }
 
 double flatness(const Bezier &curve) {
@@ -222,7 +219,7 @@ static double rough_curvature(const Bezier &curve) {
   const std::size_t n = degree_of(curve);
   const Vec3 chord = curve.last() - curve.first();
   std::array<Vec3, 3> first{};
-  double least_along = std::numeric_limits<double>::infinity(), largest_product = 0;
+  double least_along = std::numeric_limits<double>::infinity(), largest_sq = 0;
   for (std::size_t i = 0; i < n; ++i) {
     first[i] = static_cast<double>(n) * (curve.control[i + 1] - curve.control[i]);
     least_along = std::min(least_along, dot(first[i], chord));
@@ -230,10 +227,13 @@ static double rough_curvature(const Bezier &curve) {
   if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j + 1 < n; ++j) {
     const Vec3 second = static_cast<double>(n - 1) * (first[j + 1] - first[j]);
-    for (std::size_t i = 0; i < n; ++i) largest_product = std::max(largest_product, length(cross(first[i], second)));
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec3 product = cross(first[i], second);
+      largest_sq = std::max(largest_sq, dot(product, product));
+    }
   }
   const double least_speed = least_along / length(chord);
-  return largest_product / (least_speed * least_speed * least_speed);
+  return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
 }
 
 double rough_curvature(const Bezier &curve, double t0, double t1) {

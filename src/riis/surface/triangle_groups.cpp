@@ -86,7 +86,7 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
 void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
   const std::int64_t n = set.n_triangles();
   resize(corners, 9 * n);
-  constexpr std::int64_t triangles_per_block = 4096;
+  constexpr std::int64_t triangles_per_block = 1024;
   Vector<Bounds> blocks;
   resize(blocks, (n + triangles_per_block - 1) / triangles_per_block);
   const Kernels &simd = kernels(best_instruction_set());
