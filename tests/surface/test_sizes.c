@@ -718,11 +718,28 @@ static int attachment_turns_back(const riis_valve *valve) {
   return turns_back;
 }
 
-/* Returns whether a cusp folds near its root at an opening, in tenths. */
+/* Returns whether the attachments of two neighbours pass each other below their commissure, in the closed state. At every height
+ * both are at the same t. A cusp's distance beyond the plane through the axis and the commissure is (1 - t) (c0 + c1 t). This is
+ * -R sin(a) at t = 0, and -b sin(a - a_b) at s. The sum of both distances is above 0 somewhere if the sum of both (c0 + c1) is.
+ * Opening moves the attachments apart. */
+static int attachments_pass(const riis_valve *valve) {
+  const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;
+  double beyond[3];
+  for (int k = 0; k < 3; ++k) {
+    const double a = degree * value_of(valve, of_cusp(k, "leaflet_angle"));
+    beyond[k] = (1 - s) * (1 - s) * value_of(valve, "root_radius") * sin(a) -
+                value_of(valve, of_cusp(k, "bending_radius_out")) *
+                    sin(a - degree * value_of(valve, of_cusp(k, "bending_angle")));
+  }
+  return beyond[0] + beyond[1] > 0 || beyond[1] + beyond[2] > 0 || beyond[2] + beyond[0] > 0;
+}
+
+/* Returns whether a cusp folds near its root at an opening, in twentieths. Triangles may cross at the last tenth before the
+ * smooth cusp folds. */
 static int cusp_folds(riis_valve *valve) {
   int folds = 0;
-  for (int tenth = 0; tenth <= 10 && !folds; ++tenth) {
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", tenth / 10.0));
+  for (int i = 0; i <= 20 && !folds; ++i) {
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", i / 20.0));
     folds = a_lower_patch_folds(valve);
   }
   return folds;
@@ -785,15 +802,34 @@ static void an_open_cusp_may_fold(void **state) {
   }
 }
 
-/* Three causes explain every valve that crosses, and a valve whose leaflet_power is not set rarely has one of them. */
+/* With these bending angles, the attachments of the right and of the left cusp pass each other, and nothing else is wrong. */
+static void passing_attachments_cross(void **state) {
+  (void)state;
+  riis_valve *valve = new_valve("aortic");
+  for (int passes = 0; passes < 2; ++passes) {
+    const double angles[2] = {passes ? 62 : 54, passes ? 57 : 53};
+    CHECK_OK(riis_valve_set_scalar(valve, "right.bending_angle", angles[0]));
+    CHECK_OK(riis_valve_set_scalar(valve, "left.bending_angle", angles[1]));
+    assert_int_equal(attachments_pass(valve), passes);
+    assert_false(attachment_turns_back(valve) || free_edges_meet(valve) || cusp_folds(valve));
+    const crossing found = worst_crossing(valve, NULL);
+    assert_int_equal(found.n_pairs > 0, passes);
+    if (!passes) continue;
+    CHECK_SAME(found.opening, 0);
+    for (int k = 0; k < 2; ++k)
+      assert_true(found.patches[k] == 1 || found.patches[k] == 7); /* upper patches of both cusps */
+  }
+}
+
+/* Four causes explain every valve that crosses, and a valve whose leaflet_power is not set rarely has one of them. */
 static void aortic_cusps_rarely_cross(void **state) {
   (void)state;
   const int n = is_long_test() ? 300 : 6;
   for (int power = follows; power <= any_power; ++power)
     for (int percent = 10; percent <= (is_long_test() ? 20 : 10); percent += 10) {
-      enum { above, meet, back, folds, n_causes };
+      enum { above, meet, back, folds, pass, n_causes };
       static const char *const causes[] = {"leaflet_power above the bound", "free edges meet", "attachment turns back",
-                                           "cusp folds"};
+                                           "cusp folds", "attachments pass each other"};
       int n_valves = 0, n_crossing = 0, n_unexplained = 0, n_with[n_causes] = {0}, n_crossing_with[n_causes] = {0};
       for (int trial = 0; trial < n; ++trial) {
         const int owned_before = n_owned();
@@ -808,19 +844,20 @@ static void aortic_cusps_rarely_cross(void **state) {
         ++n_valves;
         const int crosses = worst_crossing(valve, NULL).n_pairs > 0;
         const int has[n_causes] = {power_is_above(valve), free_edges_meet(valve), attachment_turns_back(valve),
-                                   cusp_folds(valve)};
+                                   cusp_folds(valve), attachments_pass(valve)};
         for (int cause = 0; cause < n_causes; ++cause)
           n_with[cause] += has[cause], n_crossing_with[cause] += crosses && has[cause];
         assert_true(!has[meet] || has[above]); /* edges within their sectors do not meet */
         n_crossing += crosses;
-        n_unexplained += crosses && !has[meet] && !has[back] && !has[folds];
+        n_unexplained += crosses && !has[meet] && !has[back] && !has[folds] && !has[pass];
         free_owned_after(owned_before);
       }
       printf("aortic, +-%d %%, leaflet_power %s: %d of %d valves cross at 11 openings, %d without a cause\n", percent,
              power_names[power], n_crossing, n_valves, n_unexplained);
       for (int cause = 0; cause < n_causes; ++cause)
         printf("  %s: %d valves, of which %d cross\n", causes[cause], n_with[cause], n_crossing_with[cause]);
-      if (percent == 10) assert_int_equal(n_unexplained, 0);
+      assert_true(n_unexplained <=
+                  (percent == 10 ? 0 : n / 100)); /* none was found; a fold may hide between openings */
       if (is_long_test() && power != any_power && percent == 10) assert_true(20 * n_crossing <= n);
     }
 }
@@ -840,6 +877,7 @@ int main(void) {
       cmocka_unit_test(trileaflet_cusps_do_not_cross),
       cmocka_unit_test(sizes_that_do_not_follow_cross),
       cmocka_unit_test(an_open_cusp_may_fold),
+      cmocka_unit_test(passing_attachments_cross),
       cmocka_unit_test(aortic_cusps_rarely_cross),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -212,18 +212,26 @@ static void the_bound_holds_for_any_motion(void **state) {
 }
 
 /* The bound is useful: for an opening motion it is a small fraction of the speed. If few triangles bend much, the bound is
- * close to the true error. */
+ * close to the true error. docs/theory.md has the printed shares. */
 static void the_bound_is_near(void **state) {
   (void)state;
+  static const double most[n_kinds] = {0.35, 0.06, 0.08, 0.04, 0.06};
+  const int n = is_sanitized() ? 10 : 100;
   for (int kind = 0; kind < n_kinds; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]), *before = new_valve(kinds[kind]);
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.999));
-    CHECK_OK(riis_valve_set_scalar(before, "opening", 0.998));
-    riis_surface *surface = new_surface(valve, NULL);
-    CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));
-    const double bound = info_of(surface).velocity_error_bound, speed = largest_speed(surface);
-    printf("%s: the bound is %.3g of the largest speed\n", kinds[kind], bound / speed);
-    CHECK_AT_MOST(bound, 0.06 * speed);
+    double least = INFINITY, largest = 0;
+    for (int i = 1; i <= n; ++i) {
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", (double)i / n));
+      CHECK_OK(riis_valve_set_scalar(before, "opening", (double)i / n - 0.001));
+      riis_surface *surface = new_surface(valve, NULL);
+      CHECK_OK(riis_surface_update_moving(surface, valve, before, 0.001, NULL, NULL));
+      const double share = info_of(surface).velocity_error_bound / largest_speed(surface);
+      least = fmin(least, share), largest = fmax(largest, share);
+      free_one_owned(surface);
+      if (i == n) CHECK_AT_MOST(share, 0.06);
+    }
+    printf("%s, %d openings: the bound is %.3g to %.3g of the largest speed\n", kinds[kind], n, least, largest);
+    CHECK_AT_MOST(largest, most[kind]);
   }
   /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The piece behind it is short there, and its length
    * changes many times over. Such a piece once took the bound to 3.8 times the largest speed. */

@@ -663,25 +663,41 @@ static double material_error(const riis_surface *surface, const warped_step *ste
   return worst;
 }
 
-/* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. */
+/* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. The limits
+ * of errors, as shares of the largest speed, have held for 300 seeds. Without RestInside and rest_of_offsets taking displacements
+ * where the labels are, the first two steps exceed them. */
 static void a_moving_annulus_has_its_velocities(void **state) {
   (void)state;
-  static const char *const with_warp[4] = {"trileaflet", "coapting", "aortic", "mitral"};
-  for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {
-    const int owned_before = n_owned(), is_fixed = trial / 4;
+  static const struct {
+    const char *name;
+    double largest, rms;
+  } with_warp[4] = {
+      {"trileaflet", 0.006, 0.0008}, {"coapting", 0.009, 0.002}, {"aortic", 0.008, 0.0015}, {"mitral", 0.006, 0.0025}};
+  static const struct {
+    int kind;
+    uint64_t state;
+  } hard[] = {{1, 55}, {3, 4}};
+  enum { n_hard = sizeof hard / sizeof *hard };
+  for (int trial = 0; trial < n_hard + fewer_if_sanitized(8); ++trial) {
+    const random_source kept = rng;
+    const int owned_before = n_owned(), is_hard = trial < n_hard, is_fixed = !is_hard && (trial - n_hard) / 4;
+    const int kind = is_hard ? hard[trial].kind : (trial - n_hard) % 4;
+    const char *name = with_warp[kind].name;
+    if (is_hard) rng.state = hard[trial].state;
     const riis_surface_options options =
         random_placement(is_fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
     const double opening = between(0.3, 0.9), rate = between(-2, 2);
     double largest = 0, rms, still = 0, moving = 0;
-    for (int opens = 0; opens < 2; ++opens) {
-      const warped_step step = new_step(with_warp[trial % 4], opening, opening - opens * rate * 0.01, &options);
+    for (int opens = is_hard; opens < 2; ++opens) {
+      const warped_step step = new_step(name, opening, opening - opens * rate * 0.01, &options);
       riis_surface *surface = new_surface(step.now, &options);
       CHECK_OK(riis_surface_update_moving(surface, step.now, step.before, step.seconds, NULL, NULL));
       *(opens ? &moving : &still) = material_error(surface, &step, &options, &largest, &rms);
-      printf("%s, %s, %s: velocities differ by %.2g %% of the largest, rms %.2g %%\n", with_warp[trial % 4],
+      printf("%s, %s, %s: velocities differ by %.2g %% of the largest, rms %.2g %%\n", name,
              is_fixed ? "fixed" : "adapted", opens ? "opening" : "still", 100 * (opens ? moving : still) / largest,
              100 * rms / largest);
-      CHECK_AT_MOST(opens ? moving : still, 0.01 * largest);
+      CHECK_AT_MOST(opens ? moving : still, with_warp[kind].largest * largest);
+      CHECK_AT_MOST(rms, with_warp[kind].rms * largest);
       if (is_fixed) continue;
       const double bound = info_of(surface).velocity_error_bound;
       riis_surface_options fine = options;
@@ -701,6 +717,7 @@ static void a_moving_annulus_has_its_velocities(void **state) {
       CHECK_AT_MOST(bound, largest);
     }
     free_owned_after(owned_before);
+    if (is_hard) rng = kept;
   }
 }
 
@@ -762,6 +779,40 @@ static void a_restart_repeats_velocities(void **state) {
     const riis_triangles a = triangles_of(one), b = triangles_of(two);
     assert_true(is_same_content(one, two));
     assert_memory_equal(a.velocity, b.velocity, (size_t)a.n_vertices * 3 * sizeof *a.velocity);
+    free_owned_after(owned_before);
+  }
+}
+
+/* A surface remembers the patches of its last state, which is often the earlier state of the next step. If that valve has been
+ * changed since, they are made again. */
+static void a_changed_earlier_state_is_made_again(void **state) {
+  (void)state;
+  for (int trial = 0; trial < 6; ++trial) {
+    const int owned_before = n_owned();
+    const riis_surface_options options =
+        random_placement(trial / 3 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    const double opening = between(0.1, 0.9);
+    const warped_step step = new_step(kinds[trial % 3], opening, opening, &options);
+    riis_surface *one = new_surface(step.now, &options), *two = new_surface(step.now, &options);
+    riis_valve *changed = valve_at(step.rest_now, opening);
+    for (int change = 0; change < 2; ++change) {
+      CHECK_OK(riis_valve_set_warp(changed, step.map_now, NULL));
+      CHECK_OK(riis_surface_update(one, changed, NULL)); /* the same state as `now` */
+      if (change == 0)
+        CHECK_OK(riis_valve_set_warp(changed, step.map_before, NULL));
+      else
+        CHECK_OK(riis_valve_set_scalar(changed, "opening", opening + 0.01));
+      riis_valve *fresh = valve_at(step.rest_now, change == 0 ? opening : opening + 0.01);
+      CHECK_OK(riis_valve_set_warp(fresh, change == 0 ? step.map_before : step.map_now, NULL));
+      CHECK_OK(riis_surface_update_moving(one, step.now, changed, step.seconds, NULL, NULL));
+      CHECK_OK(riis_surface_update_moving(two, step.now, fresh, step.seconds, NULL, NULL));
+      const riis_triangles a = triangles_of(one), b = triangles_of(two);
+      assert_true(is_same_content(one, two));
+      assert_memory_equal(a.velocity, b.velocity, (size_t)a.n_vertices * 3 * sizeof *a.velocity);
+      double largest = 0;
+      for (int64_t i = 0; i < 3 * a.n_vertices; ++i) largest = fmax(largest, fabs(a.velocity[i]));
+      assert_true(largest > 0);
+    }
     free_owned_after(owned_before);
   }
 }
@@ -1116,6 +1167,7 @@ int main(void) {
       cmocka_unit_test(a_moving_annulus_has_its_velocities),
       cmocka_unit_test(fixed_vertices_move_with_their_velocities),
       cmocka_unit_test(a_restart_repeats_velocities),
+      cmocka_unit_test(a_changed_earlier_state_is_made_again),
       cmocka_unit_test(keys_in_time_give_targets),
       cmocka_unit_test(folds_are_found_and_named),
       cmocka_unit_test(folds_at_patches_are_named),

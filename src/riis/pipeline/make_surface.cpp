@@ -50,7 +50,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   std::optional<PatchSet> patches_before;
   std::optional<Motion> motion;
   if (moved) {
-    patches_before = valve.make_patches_before(moved->before);
+    patches_before = valve.make_patches_before(moved->before, moved->patches_before);
     motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
   }
   // Turns curves into polylines, patches into quads, and quads into triangles.

@@ -36,7 +36,8 @@ struct ValveAccuracy {
 struct ValveMotion {
   const Valve &before;
   Placement placement_before;
-  double seconds;  // the time from that state to the present one, not 0
+  double seconds;                            // the time from that state to the present one, not 0
+  const PatchSet *patches_before = nullptr;  // the patches of that state if they are known
 };
 
 // A direction in which a valve changes, by two near states (surface/vertex_rates.hpp).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/updatable_surface.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -42,9 +43,14 @@ void UpdatableSurface::update_from_valve(const Valve &valve, const ValveMotion *
     newly_fixed =
         std::make_unique<FixedTriangulation>(valve, accuracy.triangle_error / request.placement.scale, whole.n_threads);
   const FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : fixed_.get();
+  // In a time loop, the earlier state is often the state of the last update. Its patches are then known.
+  std::optional<ValveMotion> moved;
+  if (motion) moved.emplace(*motion);
+  if (moved && moved->before.revision() == revision_) moved->patches_before = surface_->patches();
   replace([&](Surface &made) {
-    return make_surface(valve, motion, whole, accuracy, accuracy.is_fixed ? fixed : nullptr, made);
+    return make_surface(valve, moved ? &*moved : nullptr, whole, accuracy, accuracy.is_fixed ? fixed : nullptr, made);
   });
+  revision_ = valve.revision();
   faces_.leaflet_id.clear();
   if (!accuracy.is_fixed) fixed_.reset();
   if (newly_fixed) fixed_ = std::move(newly_fixed);
@@ -55,6 +61,7 @@ void UpdatableSurface::replace_by_faces(const UserFaces &faces, const riis_surfa
                                         const SurfaceRequest &request) {
   const SurfaceRequest whole = with_threads(request);
   replace([&](Surface &made) { return make_surface(faces, arrays, skip_zero_area, whole, made); });
+  revision_ = 0;
   fixed_.reset();
 }
 

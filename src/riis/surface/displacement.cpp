@@ -25,43 +25,30 @@ namespace {
 double size_of(double x) { return std::abs(x); }
 double size_of(Vec3 x) { return length(x); }
 
-// The material points of a side in one state, in the direction of the side.
-struct OnSide {
-  std::array<double, n_material> share;  // of the warped curve's length
-  std::array<Vec3, n_material> beside;   // from the warped curve to where the map takes the point
+// The material points of a side in its own direction.
+class PointsOfSide {
+ public:
+  PointsOfSide(const PatchSet &set, const Side &side)
+      : curve_(set.curves[side.curve]), points_(*set.material[side.curve]), is_reversed_(side.reversed) {}
+
+  Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
+  Vec3 point(std::size_t k) const { return points_.point[at(k)]; }
+  double share(std::size_t k) const { return is_reversed_ ? 1 - points_.share[at(k)] : points_.share[at(k)]; }
+  // Returns the unit tangent, or 0 if there is none.
+  Vec3 tangent(std::size_t k) const {
+    const PointOnPiece &where = points_.on_curve[at(k)];
+    const Vec3 along = derivative(curve_.pieces()[where.piece], where.t);
+    const double speed = length(along);
+    return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
+  }
+
+ private:
+  std::size_t at(std::size_t k) const { return is_reversed_ ? n_material - 1 - k : k; }
+
+  const Curve &curve_;
+  const MaterialPoints &points_;
+  bool is_reversed_;
 };
-
-// Estimates the length of a piece between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
-// slide of 0 is exact.
-double length_near(const Bezier &piece, double from, double to) {
-  const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
-  return (to - from) / 18 *
-         (5 * (length(derivative(piece, middle - reach)) + length(derivative(piece, middle + reach))) +
-          8 * length(derivative(piece, middle)));
-}
-
-OnSide on_side(const Curve &curve, const MaterialPoints &points, bool is_reversed) {
-  std::array<double, n_material> behind{};
-  for (std::size_t k = 1; k < n_material; ++k) {
-    const PointOnPiece &from = points.on_curve[k - 1], &to = points.on_curve[k];
-    behind[k] = behind[k - 1];
-    for (std::size_t piece = from.piece; piece <= to.piece; ++piece)
-      behind[k] += length_near(curve.pieces()[piece], piece == from.piece ? from.t : 0, piece == to.piece ? to.t : 1);
-  }
-  OnSide made{};
-  for (std::size_t k = 0; k < n_material; ++k) {
-    const PointOnPiece &at = points.on_curve[k];
-    const double share = curve.length() > 0 ? behind[k] / behind[n_material - 1] : material_share(k);
-    const std::size_t i = is_reversed ? n_material - 1 - k : k;
-    made.share[i] = is_reversed ? 1 - share : share;
-    made.beside[i] = points.mapped[k] - evaluate(curve.pieces()[at.piece], at.t);
-  }
-  return made;
-}
-
-OnSide on_side(const PatchSet &set, const Side &side) {
-  return on_side(set.curves[side.curve], *set.material[side.curve], side.reversed);
-}
 
 bool has_material(const PatchSet &set, const Side &side) {
   return side.curve < set.material.size() && set.material[side.curve];
@@ -102,14 +89,14 @@ SideMaterial::SideMaterial(const MovedPatch &moved, Side Patch::*side) {
   const Side &now = moved.now.patches[moved.patch].*side, &before = moved.before.patches[moved.patch].*side;
   is_warped_ = has_material(moved.now, now) && has_material(moved.before, before);
   if (!is_warped_) return;
-  const OnSide at_now = on_side(moved.now, now), at_before = on_side(moved.before, before);
+  const PointsOfSide at_now(moved.now, now), at_before(moved.before, before);
   std::array<double, n_material> slide{};
   std::array<Vec3, n_material> rest{};
   for (std::size_t k = 0; k < n_material; ++k) {
-    slide[k] = at_before.share[k] - at_now.share[k];
-    rest[k] = at_now.beside[k] - at_before.beside[k];
+    nodes_[k] = at_now.share(k);
+    slide[k] = at_before.share(k) - nodes_[k];
+    rest[k] = (at_now.mapped(k) - at_now.point(k)) - (at_before.mapped(k) - at_before.point(k));
   }
-  nodes_ = at_now.share;
   slide_ = {nodes_, slide};
   rest_ = {nodes_, rest};
 }
@@ -125,86 +112,142 @@ Vector<double> SideMaterial::shares_before(const Vector<double> &shares) const {
 
 namespace {
 
+// Steps of u and v are nearly parallel if the square of the sine of their angle is at most this.
+constexpr double least_sine_sq = 0.01;
+
 bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// The material points of a side in its own direction.
-class PointsOfSide {
- public:
-  PointsOfSide(const PatchSet &set, const Side &side)
-      : curve_(set.curves[side.curve]), points_(*set.material[side.curve]), is_reversed_(side.reversed) {}
+// How many steps of u and of v a point lies beside another one, by least squares. 0 if the steps are nearly parallel.
+struct StepsBeside {
+  double u = 0, v = 0;
 
-  Vec3 mapped(std::size_t k) const { return points_.mapped[at(k)]; }
-  Vec3 point(std::size_t k) const { return evaluate(piece(k), points_.on_curve[at(k)].t); }
-  // Returns the unit tangent, or 0 if there is none.
-  Vec3 tangent(std::size_t k) const {
-    const Vec3 along = derivative(piece(k), points_.on_curve[at(k)].t);
-    const double speed = length(along);
-    return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
+  StepsBeside(Vec3 along_v, Vec3 beside) {
+    const double vv = dot(along_v, along_v);
+    if (vv > 0) v = dot(along_v, beside) / vv;
+  }
+  StepsBeside(Vec3 along_u, Vec3 along_v, Vec3 beside) {
+    const double uu = dot(along_u, along_u), uv = dot(along_u, along_v), vv = dot(along_v, along_v);
+    const double determinant = uu * vv - uv * uv, on_u = dot(along_u, beside), on_v = dot(along_v, beside);
+    if (!(determinant > least_sine_sq * uu * vv)) return;
+    u = (vv * on_u - uv * on_v) / determinant;
+    v = (uu * on_v - uv * on_u) / determinant;
+  }
+};
+
+// The arcs of a warped patch of arcs at its material points, in one state.
+struct MaterialArcs {
+  MaterialArcs(const PatchSet &set, std::size_t number) : mapped_middle(set.mapped_inside[number].points) {
+    const Patch &patch = set.patches[number];
+    const PointsOfSide of_base(set, patch.v0), of_edge(set, patch.v1);
+    for (std::size_t k = 0; k < n_material; ++k) {
+      base[k] = of_base.point(k), edge[k] = of_edge.point(k);
+      mapped_base[k] = of_base.mapped(k), mapped_edge[k] = of_edge.mapped(k);
+      offset[k] = k == 0                ? arc_offset(set, patch.u0)
+                  : k == n_material - 1 ? arc_offset(set, patch.u1)
+                  : patch.bulge != 0    ? arc_offset(edge[k] - base[k], of_base.tangent(k), patch.bulge)
+                                        : Vec3{0, 0, 0};
+    }
+  }
+
+  Vec3 middle(std::size_t k) const { return 0.5 * (base[k] + edge[k] + offset[k]); }
+
+  std::array<Vec3, n_material> base, edge, offset;  // of the warped curves
+  std::array<Vec3, n_material> mapped_base, mapped_edge, mapped_middle;
+};
+
+using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0 and u1
+
+// Vectors at the even shares of a patch's warped sides. They lie on the polynomials through the vectors at the shares `nodes`.
+class AtShares {
+ public:
+  AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
+    for (std::size_t side = 0; side < at_.size(); ++side) {
+      const Through<Vec3> through(nodes[side], values[side]);
+      at_[side] = values[side];  // right at the ends
+      for (std::size_t k = 1; k < last; ++k) at_[side][k] = through.at(material_share(k));
+    }
+  }
+
+  // Returns the Coons combination at two shares.
+  Vec3 combined(std::size_t at_u, std::size_t at_v) const {
+    const auto &[v0, v1, u0, u1] = at_;
+    const double u = material_share(at_u), v = material_share(at_v);
+    return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
+           mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
+  }
+  // Return the change of the combination from one even share before to one behind.
+  Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
+    const auto &[v0, v1, u0, u1] = at_;
+    return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +
+           material_share(2) * (u1[at_v] - u0[at_v] - mix(v0[last] - v0[0], v1[last] - v1[0], material_share(at_v)));
+  }
+  Vec3 along_v(std::size_t at_u, std::size_t at_v) const {
+    const auto &[v0, v1, u0, u1] = at_;
+    return mix(u0[at_v + 1] - u0[at_v - 1], u1[at_v + 1] - u1[at_v - 1], material_share(at_u)) +
+           material_share(2) * (v1[at_u] - v0[at_u] - mix(v1[0] - v0[0], v1[last] - v0[last], material_share(at_u)));
   }
 
  private:
-  std::size_t at(std::size_t k) const { return is_reversed_ ? n_material - 1 - k : k; }
-  const Bezier &piece(std::size_t k) const { return curve_.pieces()[points_.on_curve[at(k)].piece]; }
+  static constexpr std::size_t last = n_material - 1;
 
-  const Curve &curve_;
-  const MaterialPoints &points_;
-  bool is_reversed_;
+  OfSides at_;
 };
-
-// Returns how far the mapped offsets of arcs are from the offsets of the warped curves, in one state.
-std::array<Vec3, n_material> beside_offsets(const PatchSet &set, std::size_t number) {
-  const Patch &patch = set.patches[number];
-  const PointsOfSide base(set, patch.v0), edge(set, patch.v1);
-  std::array<Vec3, n_material> made{};
-  for (std::size_t k = 0; k < n_material; ++k) {
-    const Vec3 offset = k == 0                ? arc_offset(set, patch.u0)
-                        : k == n_material - 1 ? arc_offset(set, patch.u1)
-                        : patch.bulge != 0    ? arc_offset(edge.point(k) - base.point(k), base.tangent(k), patch.bulge)
-                                              : Vec3{0, 0, 0};
-    made[k] = 2 * (set.mapped_inside[number].points[k] - 0.5 * (base.mapped(k) + edge.mapped(k))) - offset;
-  }
-  return made;
-}
-
-// Returns how far the mapped inner points are from the Coons combination of the mapped sides, in one state.
-std::array<Vec3, 4> beside_combination(const PatchSet &set, std::size_t number) {
-  constexpr std::size_t last = n_material - 1;
-  const Patch &patch = set.patches[number];
-  const PointsOfSide v0(set, patch.v0), v1(set, patch.v1), u0(set, patch.u0), u1(set, patch.u1);
-  std::array<Vec3, 4> made{};
-  for (std::size_t i = 0; i < made.size(); ++i) {
-    const std::size_t at_u = (1 + i % 2) * last / 3, at_v = (1 + i / 2) * last / 3;
-    const double u = material_share(at_u), v = material_share(at_v);
-    made[i] = set.mapped_inside[number].points[i] - mix(v0.mapped(at_u), v1.mapped(at_u), v) -
-              mix(u0.mapped(at_v), u1.mapped(at_v), u) +
-              mix(mix(v0.mapped(0), v0.mapped(last), u), mix(v1.mapped(0), v1.mapped(last), u), v);
-  }
-  return made;
-}
 
 }  // namespace
 
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge) {
   if (!base.is_warped() || !edge.is_warped() || !has_points_inside(moved)) return {};
+  constexpr std::size_t last = n_material - 1;
+  const MaterialArcs now(moved.now, moved.patch), before(moved.before, moved.patch);
   std::array<double, n_material> nodes{};
-  std::array<Vec3, n_material> rest = beside_offsets(moved.now, moved.patch);
-  const std::array<Vec3, n_material> before = beside_offsets(moved.before, moved.patch);
-  for (std::size_t k = 0; k < n_material; ++k) {
+  std::array<Vec3, n_material> rest{}, moves{};
+  for (std::size_t k = 0; k <= last; ++k) moves[k] = now.mapped_middle[k] - before.mapped_middle[k];
+  for (std::size_t k = 0; k <= last; ++k) {
     nodes[k] = 0.5 * (base.nodes()[k] + edge.nodes()[k]);
-    rest[k] = rest[k] - before[k];
+    const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
+               move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
+    // The mapped middle lies beside the middle of the warped arc. The displacement there follows from the slope of the
+    // displacement. On the arcs that are sides, steps of u are left out, because neighbouring patches have these arcs, too.
+    const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
+    const bool is_side = k == 0 || k == last;
+    const StepsBeside steps =
+        is_side ? StepsBeside(across, beside) : StepsBeside(now.middle(k + 1) - now.middle(k - 1), across, beside);
+    Vec3 move = moves[k] - steps.v * (move_of_edge - move_of_base);
+    if (!is_side) move = move - steps.u * (moves[k + 1] - moves[k - 1]);
+    rest[k] = 2 * (move - 0.5 * (move_of_base + move_of_edge)) - (now.offset[k] - before.offset[k]);
   }
   return {nodes, rest};
 }
 
-RestInside::RestInside(const MovedPatch &moved) {
-  const bool has_arcs = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
-  if (has_arcs || !has_points_inside(moved) || moved.now.mapped_inside[moved.patch].of_arcs) return;
+RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
+  if (material.has_arcs || !has_points_inside(moved) || moved.now.mapped_inside[moved.patch].of_arcs) return;
   is_warped_ = true;
-  rest_ = beside_combination(moved.now, moved.patch);
-  const std::array<Vec3, 4> before = beside_combination(moved.before, moved.patch);
-  for (std::size_t i = 0; i < rest_.size(); ++i) rest_[i] = rest_[i] - before[i];
+  const Patch &patch = moved.now.patches[moved.patch], &patch_before = moved.before.patches[moved.patch];
+  std::array<std::array<double, n_material>, 4> nodes{};
+  OfSides points{}, moves{};
+  const auto add = [&](std::size_t number, Side Patch::*side, const SideMaterial &of_side) {
+    nodes[number] = of_side.nodes();
+    const PointsOfSide now(moved.now, patch.*side), before(moved.before, patch_before.*side);
+    for (std::size_t k = 0; k < n_material; ++k)
+      points[number][k] = now.point(k), moves[number][k] = now.mapped(k) - before.mapped(k);
+  };
+  add(0, &Patch::v0, material.v0), add(1, &Patch::v1, material.v1);
+  add(2, &Patch::u0, material.u0), add(3, &Patch::u1, material.u1);
+  const AtShares point(nodes, points), move(nodes, moves);
+  const auto &mapped = moved.now.mapped_inside[moved.patch].points;
+  const auto &mapped_before = moved.before.mapped_inside[moved.patch].points;
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    constexpr std::size_t third = (n_material - 1) / 3;
+    const std::size_t at_u = (1 + i % 2) * third, at_v = (1 + i / 2) * third;
+    // The mapped point lies beside the point of the warped patch with the labels u and v. The displacement at that point follows
+    // from the slope of the displacement.
+    const StepsBeside steps(point.along_u(at_u, at_v), point.along_v(at_u, at_v),
+                            mapped[i] - point.combined(at_u, at_v));
+    rest_[i] = mapped[i] - mapped_before[i] - steps.u * move.along_u(at_u, at_v) - steps.v * move.along_v(at_u, at_v) -
+               move.combined(at_u, at_v);
+  }
 }
 
 double RestInside::size() const {
@@ -213,17 +256,26 @@ double RestInside::size() const {
   return largest;
 }
 
+PatchMaterial::PatchMaterial(const MovedPatch &moved)
+    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). So only a patch
+    // with a bulge is treated as one of arcs.
+    : has_arcs(moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0),
+      v0(moved, &Patch::v0),
+      v1(moved, &Patch::v1) {
+  if (!has_arcs) u0 = {moved, &Patch::u0}, u1 = {moved, &Patch::u1};
+}
+
 namespace {
 
 // A side of a patch in both states.
 class MovedSide {
  public:
-  MovedSide(const MovedPatch &moved, Side Patch::*side)
+  MovedSide(const MovedPatch &moved, Side Patch::*side, const SideMaterial &material)
       : now_(moved.now.patches[moved.patch].*side),
         before_(moved.before.patches[moved.patch].*side),
         curve_now_(moved.now.curves[now_.curve]),
         curve_before_(moved.before.curves[before_.curve]),
-        material_(moved, side),
+        material_(material),
         is_at_rest_(now_.reversed == before_.reversed && are_equal(curve_now_, curve_before_)) {}
 
   bool is_at_rest() const { return is_at_rest_; }
@@ -256,7 +308,7 @@ class MovedSide {
  private:
   Side now_, before_;
   const Curve &curve_now_, &curve_before_;
-  SideMaterial material_;
+  const SideMaterial &material_;
   bool is_at_rest_;
 };
 
@@ -302,6 +354,7 @@ class HalvedLines {
 // A side of a patch, and where its points are in the grid.
 struct SideOnGrid {
   Side Patch::*side;
+  const SideMaterial &material;
   double GridLine::*t;
   bool GridLine::*is_vertex;
   const Vec3 *first;  // the first point in the grid; the others follow at distances of `stride`
@@ -309,7 +362,7 @@ struct SideOnGrid {
 };
 
 Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, const HalvedLines &lines) {
-  const MovedSide side(moved, on.side);
+  const MovedSide side(moved, on.side, on.material);
   Vector<Vec3> points(lines.size(), Vec3{0, 0, 0});
   if (side.is_at_rest()) return points;
   // The vertices of polylines are points of the curve, so they are known.
@@ -328,9 +381,9 @@ Vector<Vec3> displacements_of(const MovedPatch &moved, const SideOnGrid &on, con
   return side.displacements(lines.shares(on.t), std::move(points), unknown);
 }
 
-Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> &u) {
+Vector<Vec3> offset_displacements(const MovedPatch &moved, const PatchMaterial &material, const Vector<double> &u) {
   const Patch &patch_now = moved.now.patches[moved.patch], &patch_before = moved.before.patches[moved.patch];
-  const MovedSide base(moved, &Patch::v0), edge(moved, &Patch::v1);
+  const MovedSide base(moved, &Patch::v0, material.v0), edge(moved, &Patch::v1, material.v1);
   if (base.is_at_rest() && edge.is_at_rest() && patch_now.bulge == patch_before.bulge)
     return Vector<Vec3>(u.size(), Vec3{0, 0, 0});
   Vector<Vec3> made = arc_offsets(moved.now, patch_now, base.points_now(u), edge.points_now(u));
@@ -349,30 +402,30 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const Vector<double> 
 }  // namespace
 
 PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
-    : column_levels_(levelled.grid.u.size() - 1, 0),
-      row_levels_(levelled.grid.v.size() - 1, 0),
-      levelled_(levelled),
-      rest_(moved) {
+    : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0), levelled_(levelled) {
   auto level = levelled.levels.begin();
   for_each_quad(levelled.grid, [&](std::size_t i, std::size_t j) {
     column_levels_[i] = std::max(column_levels_[i], *level);
     row_levels_[j] = std::max(row_levels_[j], *level++);
   });
+  const PatchMaterial material(moved);
   const QuadGrid &grid = levelled.grid;
   HalvedLines u_lines(grid.lines.u, column_levels_), v_lines(grid.lines.v, row_levels_);
   const std::size_t n_u = grid.u.size();
   const Vec3 *const first = grid.points.data(), *const last = first + grid.points.size();
-  sides_.v0 = displacements_of(moved, {&Patch::v0, &GridLine::t0, &GridLine::is_vertex0, first, 1}, u_lines);
-  sides_.v1 = displacements_of(moved, {&Patch::v1, &GridLine::t1, &GridLine::is_vertex1, last - n_u, 1}, u_lines);
-  // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). So only a patch with
-  // a bulge is treated as one of arcs.
-  has_arcs_ = moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0;
+  sides_.v0 =
+      displacements_of(moved, {&Patch::v0, material.v0, &GridLine::t0, &GridLine::is_vertex0, first, 1}, u_lines);
+  sides_.v1 =
+      displacements_of(moved, {&Patch::v1, material.v1, &GridLine::t1, &GridLine::is_vertex1, last - n_u, 1}, u_lines);
+  has_arcs_ = material.has_arcs;
   if (has_arcs_) {
-    offsets_ = offset_displacements(moved, u_lines.middle());
+    offsets_ = offset_displacements(moved, material, u_lines.middle());
   } else {
-    sides_.u0 = displacements_of(moved, {&Patch::u0, &GridLine::t0, &GridLine::is_vertex0, first, n_u}, v_lines);
-    sides_.u1 =
-        displacements_of(moved, {&Patch::u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
+    rest_ = RestInside(moved, material);
+    sides_.u0 =
+        displacements_of(moved, {&Patch::u0, material.u0, &GridLine::t0, &GridLine::is_vertex0, first, n_u}, v_lines);
+    sides_.u1 = displacements_of(
+        moved, {&Patch::u1, material.u1, &GridLine::t1, &GridLine::is_vertex1, first + n_u - 1, n_u}, v_lines);
   }
   column_ = u_lines.places(), row_ = v_lines.places();
   u_ = u_lines.middle(), v_ = v_lines.middle();

@@ -63,6 +63,7 @@ class Through {
 // from the curve along which the map takes the points. `rest` makes up for the change of this difference.
 class SideMaterial {
  public:
+  SideMaterial() = default;  // of a side that is not warped
   SideMaterial(const MovedPatch &moved, Side Patch::*side);
 
   bool is_warped() const { return is_warped_; }
@@ -82,16 +83,26 @@ class SideMaterial {
   Through<Vec3> rest_;
 };
 
+// The material of the sides of a patch. The sides u0 and u1 of a patch of arcs are left out, because the arcs follow from v0
+// and v1.
+struct PatchMaterial {
+  explicit PatchMaterial(const MovedPatch &moved);
+
+  bool has_arcs;  // in one of the states
+  SideMaterial v0, v1, u0, u1;
+};
+
 // The same for the offsets of a patch of arcs: how far the map moves them, beyond the offsets of the warped curves. The
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
-// (MappedInside) it is the difference between the displacement of the mapped point and the Coons combination of the mapped sides.
-// Between them lies the polynomial of degree 3 in u and in v.
+// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At four inner points, whose
+// u and v are 1/3 or 2/3, the displacement is that of the material that the map takes there. It follows from the mapped points
+// beside them (MappedInside). What it has beyond the Coons combination of the sides is a polynomial of degree 3 in u and in v.
 class RestInside {
  public:
-  explicit RestInside(const MovedPatch &moved);
+  RestInside() = default;
+  RestInside(const MovedPatch &moved, const PatchMaterial &material);
 
   bool is_warped() const { return is_warped_; }
   double size() const;

@@ -533,7 +533,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
     at_u1 = off_linear(curves_of(states, patch, &Patch::u1), {moved, &Patch::u1}, grid.lines.v, &GridLine::t1);
   }
-  const RestInside rest(moved);
+  const RestInside rest(moved, PatchMaterial(moved));
   PatchErrors made;
   auto next_level = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {

@@ -101,6 +101,8 @@ constexpr double material_share(std::size_t k) { return static_cast<double>(k) /
 struct MaterialPoints {
   std::array<Vec3, n_material> mapped;
   std::array<PointOnPiece, n_material> on_curve;
+  std::array<Vec3, n_material> point;    // of the warped curve
+  std::array<double, n_material> share;  // of the warped curve's length up to that point
 
   // Returns the points in the order of the reversed curve, which has this many pieces.
   MaterialPoints reversed(std::size_t n_pieces) const {
@@ -109,6 +111,8 @@ struct MaterialPoints {
       const PointOnPiece &at = view(on_curve)[n_material - 1 - k];
       view(made.mapped)[k] = view(mapped)[n_material - 1 - k];
       view(made.on_curve)[k] = {n_pieces - 1 - at.piece, 1 - at.t};
+      view(made.point)[k] = view(point)[n_material - 1 - k];
+      view(made.share)[k] = 1 - view(share)[n_material - 1 - k];
     }
     return made;
   }

@@ -10,6 +10,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "valve/warped_patches.hpp"
 
 namespace riis {
 namespace {
@@ -205,9 +206,10 @@ class SkirtMaker {
       }
       const double part = std::min(std::floor(share * n_parts), n_parts - 1);
       view(made.on_curve)[k] = {static_cast<std::size_t>(part), share * n_parts - part};
-      const auto on = [&](const Curve &curve, const PointOnPiece &p) { return evaluate(curve.pieces()[p.piece], p.t); };
-      view(made.mapped)[k] = on(outer, view(made.on_curve)[k]) + (view(points.mapped)[k] - on(inner, at));
     }
+    locate_on_curve(outer, made);
+    for (std::size_t k = 0; k < n_material; ++k)
+      view(made.mapped)[k] = view(made.point)[k] + (view(points.mapped)[k] - view(points.point)[k]);
     return made;
   }
 

@@ -2,6 +2,7 @@
 #include "valve/valve.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -113,7 +114,13 @@ Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{},
   state_.is_set.assign(kind.parameters.size(), 0);
 }
 
+std::uint64_t Valve::next_revision() {
+  static std::atomic<std::uint64_t> last{0};
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 void Valve::set(std::string_view name, std::int64_t n_values, const double *new_values) {
+  revision_ = next_revision();
   const auto &specs = kind_->parameters;
   bool names_any = false;
   for (const ParameterSpec &spec : specs) {
@@ -135,6 +142,7 @@ void Valve::set(std::string_view name, std::int64_t n_values, const double *new_
 }
 
 void Valve::unset(std::string_view name) {
+  revision_ = next_revision();
   const auto &specs = kind_->parameters;
   bool names_any = false;
   for (std::size_t i = 0; i < specs.size(); ++i) {
@@ -169,6 +177,7 @@ std::size_t Valve::position_of(std::string_view name) const {
 }
 
 void Valve::set_skirt_lengths(SkirtLengths lengths) {
+  revision_ = next_revision();
   double largest = 0;
   for (const Vector<double> &of_side : lengths)
     for (const double length : of_side) largest = std::max(largest, length);
@@ -188,6 +197,7 @@ void Valve::get(std::string_view name, std::int64_t n_values, double *out) const
 bool Valve::is_set(std::string_view name) const { return state_.is_set[position_of(name)] != 0; }
 
 void Valve::set_open_state(const Valve &open) {
+  revision_ = next_revision();
   if (open.kind_ != kind_)
     fail(RIIS_INVALID_PARAMETER, "the open state is of the kind ", open.kind_->name, ", the valve of the kind ",
          kind_->name, ": both must be of one kind");
@@ -196,6 +206,7 @@ void Valve::set_open_state(const Valve &open) {
 }
 
 void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
+  revision_ = next_revision();
   if (kind_->is_rigid && closed)
     fail(RIIS_INVALID_PARAMETER, "the ", kind_->name,
          " valve cannot be warped, because its leaflets and its ring are rigid: place it by scale, rotation and "
@@ -361,9 +372,10 @@ PatchSet Valve::make_patches(FoldCheck check) const {
   return made;
 }
 
-PatchSet Valve::make_patches_before(const Valve &before) const {
+PatchSet Valve::make_patches_before(const Valve &before, const PatchSet *known) const {
   before.check_is_state_of(*kind_, warp_.has_value(), {"valve_before", "valve"});
   if (kind_->check_states) kind_->check_states(state_, before.state_, "valve_before");
+  if (known) return *known;
   // The earlier state was once the valve's present state, and was searched for folds then. So the search is not repeated.
   return before.make_patches_unsearched("valve_before");
 }

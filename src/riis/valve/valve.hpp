@@ -152,8 +152,12 @@ class Valve {
 
   // Makes the patches at the current opening.
   PatchSet make_patches() const;
-  // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build.
-  PatchSet make_patches_before(const Valve &before) const;
+  // Makes the patches of `before`, an earlier state of this valve. `before` must be of the same kind and build. `known` has the
+  // patches of that state if they have been made already, or is null.
+  PatchSet make_patches_before(const Valve &before, const PatchSet *known) const;
+  // Returns a number that every change of the valve changes, and that copies take over. Valves with the same number have the same
+  // patches, to the last bit. It is not 0.
+  std::uint64_t revision() const { return revision_; }
   // Fails unless the valve may be a state of a valve of this kind, with or without a warp.
   void check_is_state_of(const ValveKind &kind, bool is_warped, const StateNames &names) const;
   // Makes the patches without a search for folds. A message of failure begins with the state's name.
@@ -165,6 +169,7 @@ class Valve {
   void derive();
   PatchSet make_patches(FoldCheck check) const;
   void check_open_values() const;
+  static std::uint64_t next_revision();
 
   struct Warp {
     WarpMap closed;
@@ -176,6 +181,7 @@ class Valve {
   std::optional<ValveState> open_;
   std::optional<Warp> warp_;
   SkirtLengths skirt_lengths_;  // empty for a skirt of one length
+  std::uint64_t revision_ = next_revision();
 };
 
 // Blends one number. The result is exact for openings of 0 and 1.

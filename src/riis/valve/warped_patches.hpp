@@ -19,4 +19,7 @@ PatchSet without_images(const PatchSet &set);
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check = FoldCheck::yes);
 
+// Writes the points of the warped curve and the shares of its length, where `points` says which points they are.
+void locate_on_curve(const Curve &curve, MaterialPoints &points);
+
 }  // namespace riis
