@@ -41,6 +41,8 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
+    // A failure must come before anything is written. Later, the queries may need the tree in place of memory.
+    scene_.build_tree();
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
       write_one_by_one({0, wanted_.n}, [](Vec3) { return true; });
       return;
