@@ -26,9 +26,9 @@ class TriangleScene {
   TriangleScene &operator=(const TriangleScene &) = delete;
 
   // Makes the groups from a copy of the corners, so the set need not be kept. Another call, for triangles that moved, reuses the
-  // memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads, because
-  // a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if Embree
-  // reports an error, and the next query tries once more.
+  // memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
+  // because a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if
+  // Embree reports an error, and the next query tries once more.
   void make(const TriangleSet &set, int n_threads);
 
   // Builds Embree's tree, as the first query does. Several threads may call this function at once.
