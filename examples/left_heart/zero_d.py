@@ -24,9 +24,9 @@ import foam_files as foam  # noqa: E402
 
 MMHG, ML, RHO = 133.322, 1e-6, 1060.0  # Pa, m3, kg/m3
 PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
-SYSTOLE, RELAXATION, STEEP = 0.32, 0.13, 0.75  # s, s, -: of the ventricle's activation
+SYSTOLE, RELAXATION, STEEP = 0.31, 0.1, 0.5  # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
-E_MIN, E_MAX, V_0 = 0.055, 2.3, 6.0         # mmHg/ml, mmHg/ml, ml
+E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
 ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
@@ -216,7 +216,11 @@ def write_tables(case, rows, n_beats):
     lagged = keys - STEP_IN_SPACE / 2
     write_table(constant / "amplitude", "amplitude", times, amplitude_of(Mesh(case), change))
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
-        write_table(constant / file, "p0", times, at(rows, name, start + times) * MMHG / RHO)
+        pressures = at(rows, name, start + times) * MMHG / RHO
+        # The blood begins with the pressure 0, also at both ends. decomposePar puts the first row there, which would push the
+        # blood in the first step on several ranks only. The solver itself takes the rows from the end of the first step on.
+        pressures[0] = 0
+        write_table(constant / file, "p0", times, pressures)
     for name in ("mitral", "aortic"):
         openings = table(keys, at(rows, f"{name}_opening", start + lagged))
         (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys{openings};\n", encoding="ascii")
