@@ -216,7 +216,11 @@ def write_tables(case, rows, n_beats):
     lagged = keys - STEP_IN_SPACE / 2
     write_table(constant / "amplitude", "amplitude", times, amplitude_of(Mesh(case), change))
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
-        write_table(constant / file, "p0", times, at(rows, name, start + times) * MMHG / RHO)
+        pressures = at(rows, name, start + times) * MMHG / RHO
+        # The blood begins with the pressure 0, also at both ends. decomposePar puts the first row there, which would push the
+        # blood in the first step on several ranks only. The solver itself takes the rows from the end of the first step on.
+        pressures[0] = 0
+        write_table(constant / file, "p0", times, pressures)
     for name in ("mitral", "aortic"):
         openings = table(keys, at(rows, f"{name}_opening", start + lagged))
         (constant / f"{name}Keys").write_text(f"period {PERIOD}; keys{openings};\n", encoding="ascii")

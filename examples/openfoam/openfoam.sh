@@ -242,13 +242,13 @@ of_set() {
 # of_no_valve NAME: takes the valve and its table out of the case.
 of_no_valve() { rm "$of_cases/$1"/system/{fvOptions,valveTable}; }
 
-# of_run NAME RANKS: runs the case, with its output in log.pimpleFoam.
+# of_run NAME RANKS [PARTS]: runs the case, with its output in log.pimpleFoam. PARTS are the ranks along x, y and z.
 of_run() {
   local parts=([1]='1 1 1' [2]='2 1 1' [4]='2 2 1')
   if (($2 == 1)); then
     of_logged "$1" pimpleFoam timeout 3600 "${of_with[@]}" pimpleFoam -case "$of_cases/$1"
   else
-    of_set "$1" system/decomposeParDict numberOfSubdomains "$2" simpleCoeffs/n "(${parts[$2]})" &&
+    of_set "$1" system/decomposeParDict numberOfSubdomains "$2" simpleCoeffs/n "(${3:-${parts[$2]}})" &&
       of_logged "$1" decomposePar "${of_with[@]}" decomposePar -case "$of_cases/$1" &&
       of_logged "$1" pimpleFoam timeout 3600 mpirun -n "$2" "${of_with[@]}" pimpleFoam -case "$of_cases/$1" -parallel
   fi

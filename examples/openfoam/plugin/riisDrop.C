@@ -213,6 +213,13 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       const labelUList &cells = mesh_.boundary()[patch].faceCells();
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
+    // A fixed cell has lost its coefficients to other ranks. If it has no neighbour on its own rank, nothing is left.
+    forAll(fixed, i) {
+      const label cell = fixed[i];
+      if (diagonal[cell] != 0) continue;
+      diagonal[cell] = -rAU[cell] * cbrt(mesh_.V()[cell]);
+      equation.source()[cell] = diagonal[cell] * pressures[i];
+    }
     lduMatrix::solver::New(pName_, equation, equation.boundaryCoeffs(), equation.internalCoeffs(),
                            p.boundaryField().scalarInterfaces(), controls)
         ->solve(p.primitiveFieldRef(), equation.source());
