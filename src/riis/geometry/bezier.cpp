@@ -213,27 +213,33 @@ double flatness(const Bezier &curve) {
 }
 
 // Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the curve may turn on the spot. B' and B'' are Bézier
-// curves whose control points are differences of the curve's control points. Products of these differences bound the numerator.
-// The least component of B' along the chord, taken over its control points, bounds the denominator from below.
-static double rough_curvature(const Bezier &curve) {
-  const std::size_t n = degree_of(curve);
-  const Vec3 chord = curve.last() - curve.first();
-  std::array<Vec3, 3> first{};
+// curves with these control points. Products of these points bound the numerator. The least component of B' along the chord, taken
+// over its control points, bounds the denominator from below.
+template <std::size_t n, std::size_t m>
+static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], Vec3 chord) {
   double least_along = std::numeric_limits<double>::infinity(), largest_sq = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    first[i] = static_cast<double>(n) * (curve.control[i + 1] - curve.control[i]);
-    least_along = std::min(least_along, dot(first[i], chord));
-  }
+  for (const Vec3 &a : first) least_along = std::min(least_along, dot(a, chord));
   if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
-  for (std::size_t j = 0; j + 1 < n; ++j) {
-    const Vec3 second = static_cast<double>(n - 1) * (first[j + 1] - first[j]);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec3 product = cross(first[i], second);
+  for (const Vec3 &b : second)
+    for (const Vec3 &a : first) {
+      const Vec3 product = cross(a, b);
       largest_sq = std::max(largest_sq, dot(product, product));
     }
-  }
   const double least_speed = least_along / length(chord);
   return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
+}
+
+// Differences of a curve's control points give those of its derivatives.
+static double rough_curvature(const Bezier &curve) {
+  const auto &q = curve.control;
+  const Vec3 chord = curve.last() - curve.first();
+  if (curve.degree == 2) {
+    const Vec3 first[2] = {2.0 * (q[1] - q[0]), 2.0 * (q[2] - q[1])}, second[1] = {first[1] - first[0]};
+    return rough_curvature(first, second, chord);
+  }
+  const Vec3 first[3] = {3.0 * (q[1] - q[0]), 3.0 * (q[2] - q[1]), 3.0 * (q[3] - q[2])};
+  const Vec3 second[2] = {2.0 * (first[1] - first[0]), 2.0 * (first[2] - first[1])};
+  return rough_curvature(first, second, chord);
 }
 
 double rough_curvature(const Bezier &curve, double t0, double t1) {
@@ -244,17 +250,7 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
                          along.constant + (0.5 * (t0 + t1)) * along.linear + (t0 * t1) * along.quadratic,
                          along.constant + t1 * (along.linear + t1 * along.quadratic)};
   const Vec3 second[2] = {along.linear + (2 * t0) * along.quadratic, along.linear + (2 * t1) * along.quadratic};
-  const Vec3 chord = first[0] + first[1] + first[2];
-  const double least_along = std::min({dot(first[0], chord), dot(first[1], chord), dot(first[2], chord)});
-  if (!(least_along > 0)) return std::numeric_limits<double>::infinity();
-  double largest_sq = 0;
-  for (const Vec3 &b : second)
-    for (const Vec3 &a : first) {
-      const Vec3 product = cross(a, b);
-      largest_sq = std::max(largest_sq, dot(product, product));
-    }
-  const double least_speed = least_along / length(chord);
-  return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
+  return rough_curvature(first, second, first[0] + first[1] + first[2]);
 }
 
 double largest_curvature(const Bezier &curve) {
