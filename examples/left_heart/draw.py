@@ -128,8 +128,9 @@ def pictures(case, beat, out):
         return
     with tempfile.TemporaryDirectory() as folder:
         for i, time in enumerate(times):
-            figure, axes = plt.subplots(2, 1, figsize=(4.4, 8.2), height_ratios=(2.9, 1), layout="constrained")
+            figure, axes = plt.subplots(2, 1, figsize=(5.6, 8.2), height_ratios=(2.9, 1), layout="constrained")
             figure.colorbar(slice_at(axes[0], case, time, largest), ax=axes[0], label="speed, m/s", shrink=0.8, extend="max")
+            axes[0].set(xlabel="y, mm", ylabel="z, mm")
             valves_from_below(axes[1], case, time)
             figure.savefig(f"{folder}/{i:04}.png", dpi=100)
             plt.close(figure)

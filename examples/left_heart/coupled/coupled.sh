@@ -39,7 +39,7 @@ heart_naive() {
     cp "$heart_here/case/system/fvSolution" "$naive/system" &&
     foamDictionary "$naive/system/fvOptions" -entry wall -remove -disableFunctionEntries >/dev/null 2>&1 &&
     sed -i '/elastanceTable/d; s/"libelastanceMotion.so"//' "$naive/system/controlDict" &&
-    of_set naive system/fvOptions mitral/velocity no && of_set naive system/controlDict endTime 0.12 && of_run naive 1
+    of_set naive system/controlDict endTime 0.12 && of_run naive 1
 }
 
 # The coupled run at 0.08 s goes on for 20 steps, in which the aortic valve opens: on 2 ranks, and on one.
