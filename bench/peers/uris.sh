@@ -42,13 +42,13 @@ END
   gmsh -3 -format msh2 -setnumber h "$2" -o "$3.msh" "$3.geo" >"$3.log" || { cat "$3.log" >&2; return 1; }
 }
 
-# export_in_duct PATH HALF_THICKNESS SHIFT [TIME_STEP VALVE]: exports a valve, moved along the duct of PATH.msh, to PATH and
-# PATH.xml. The valve is the flat one unless another one is given.
+# export_in_duct PATH HALF_THICKNESS SHIFT [TIME_STEP VALVE EDGE]: exports a valve with triangles up to EDGE, moved along the duct
+# of PATH.msh, to PATH and PATH.xml. The valve is the flat one unless another one is given.
 export_in_duct() {
   local time_step=${4-0.002}
   rm -rf "$1"
   "$build/bin/riis" export "$1" "$1.msh" --valve "${5-$build/uris/flat.json}" --resistance 1e4 --time-step "$time_step" \
-    --opening-seconds "$time_step" --closing-seconds "$time_step" --half-thickness "$2" --largest-edge 0.03 \
+    --opening-seconds "$time_step" --closing-seconds "$time_step" --half-thickness "$2" --largest-edge "${6-0.03}" \
     --translate "0,0,$3" >"$1.xml" 2>/dev/null
 }
 
@@ -106,40 +106,41 @@ uris_drop() {
 
 # ---- ./run uris solver PROGRAM ----
 
-# The valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, and the time step in s.
+# The valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step in s, and the
+# largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each node to each triangle.
 uris_solver_cases=(
-  "flat hex 1.1 0.3 0.001" "flat hex 1.1 0.3 0.004" "flat hex 1.5 0.3 0.001" "flat hex 1.5 0.3 0.004"
-  "flat hex 2 0.3 0.001" "flat hex 2 0.3 0.004" "flat hex 3 0.3 0.001" "flat hex 3 0.3 0.004"
-  "flat tet 1.1 0.3 0.001" "flat tet 1.1 0.3 0.004" "flat tet 1.5 0.3 0.001" "flat tet 1.5 0.3 0.004"
-  "flat tet 2 0.3 0.001" "flat tet 2 0.3 0.004" "flat tet 3 0.3 0.001" "flat tet 3 0.3 0.004"
-  "leaning hex 1.5 0 0.001" "leaning hex 2 0 0.004" "leaning tet 1.5 0 0.004" "leaning tet 2 0 0.001"
-  "trileaflet tube 1.2 0 0.001" "trileaflet tube 1.5 0 0.004" "trileaflet tube 2 0 0.001" "trileaflet tube 2 0 0.004"
+  "flat hex 1.1 0.3 0.001 0.03" "flat hex 1.1 0.3 0.004 0.03" "flat hex 1.5 0.3 0.001 0.03" "flat hex 1.5 0.3 0.004 0.03"
+  "flat hex 2 0.3 0.001 0.06" "flat hex 2 0.3 0.004 0.06" "flat hex 3 0.3 0.001 0.06"
+  "flat tet 1.1 0.3 0.001 0.03" "flat tet 1.1 0.3 0.004 0.03" "flat tet 1.5 0.3 0.001 0.03" "flat tet 1.5 0.3 0.004 0.03"
+  "flat tet 2 0.3 0.001 0.03" "flat tet 2 0.3 0.004 0.06" "flat tet 3 0.3 0.004 0.06"
+  "leaning hex 1.5 0 0.001 0.03" "leaning hex 2 0 0.004 0.06" "leaning tet 1.5 0 0.004 0.06" "leaning tet 2 0 0.001 0.06"
+  "trileaflet tube 1.2 0 0.001 0.06" "trileaflet tube 1.5 0 0.004 0.06"
 )
 
 # uris_solver PROGRAM: runs svMultiPhysics with closed valves, and prints its drop beside the forecast.
 uris_solver() {
-  local program python row valve file elements ratio shift time_step edge path case expected measured
+  local program python row valve file elements ratio shift time_step size edge path case expected measured
   program=$(realpath -- "$1") python=$(python_of_packages)
   flat_valve flat
   flat_valve leaning 0.36397 # by 20 degrees
-  printf '\n| valve | elements | eps / h | shift / h | time step | forecast | in the solver | forecast too large by |\n'
-  printf '|---|---|---|---|---|---|---|---|\n'
+  printf '\n| valve | elements | eps / h | shift / h | time step | edge of triangles / eps | forecast | in the solver | forecast too large by |\n'
+  printf '|---|---|---|---|---|---|---|---|---|\n'
   for row in "${uris_solver_cases[@]}"; do
-    read -r valve elements ratio shift time_step <<<"$row"
+    read -r valve elements ratio shift time_step size <<<"$row"
     edge=$(awk "BEGIN { print 0.2 / $ratio }")
     path=$build/uris/duct_${elements}_$ratio
     case=$build/uris/case_${row// /_}
     file=$build/uris/$valve.json
     [[ -e $file ]] || file=$valve
     duct_of_edge "$elements" "$edge" "$path" || return
-    export_in_duct "$path" 0.2 "$(awk "BEGIN { print $edge * $shift }")" "$time_step" "$file" || return
+    export_in_duct "$path" 0.2 "$(awk "BEGIN { print $edge * $shift }")" "$time_step" "$file" "$size" || return
     rm -rf "$case"
     "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$case" "$time_step" || return
     (cd "$case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$case/log.txt" >&2; return 1; }
     expected=$(expected_drop "$path")
     measured=$("$python" -B bench/peers/uris_case.py drop "$case" "$(leaflets_area "$path")") || return
-    printf '| %s | %s | %s | %s | %s ms | %s | %s | %s %% |\n' "$valve" "$elements" "$ratio" "$shift" \
-      "$(awk "BEGIN { print 1000 * $time_step }")" "$expected" "$measured" \
+    printf '| %s | %s | %s | %s | %s ms | %s | %s | %s | %s %% |\n' "$valve" "$elements" "$ratio" "$shift" \
+      "$(awk "BEGIN { print 1000 * $time_step }")" "$(awk "BEGIN { print $size / 0.2 }")" "$expected" "$measured" \
       "$(awk "BEGIN { printf \"%.2f\", 100 * ($expected / $measured - 1) }")"
   done
 }

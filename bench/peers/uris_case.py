@@ -133,13 +133,13 @@ def write(msh, block, folder, time_step):
   <Coupled> true </Coupled>
   <Min_iterations> 2 </Min_iterations>
   <Max_iterations> 8 </Max_iterations>
-  <Tolerance> 1e-8 </Tolerance>
+  <Tolerance> 1e-7 </Tolerance>
   <Density> 1.06 </Density>
   <Viscosity model="Constant"> <Value> 0.04 </Value> </Viscosity>
   <Output type="Boundary_integral"> <Pressure> true </Pressure> <Velocity> true </Velocity> </Output>
   <LS type="GMRES">
     <Linear_algebra type="fsils"> <Preconditioner> fsils </Preconditioner> </Linear_algebra>
-    <Tolerance> 1e-9 </Tolerance>
+    <Tolerance> 1e-4 </Tolerance>
     <Krylov_space_dimension> 250 </Krylov_space_dimension>
     <Max_iterations> 20 </Max_iterations>
   </LS>
