@@ -123,8 +123,9 @@ uris_solver() {
   program=$(realpath -- "$1") python=$(python_of_packages)
   flat_valve flat
   flat_valve leaning 0.36397 # by 20 degrees
-  printf '\n| valve | elements | eps / h | shift / h | time step | edge of triangles / eps | forecast | in the solver | forecast too large by |\n'
-  printf '|---|---|---|---|---|---|---|---|---|\n'
+  printf '\n|'
+  printf ' %s |' valve elements 'eps / h' 'shift / h' 'time step' 'triangles / eps' forecast 'in the solver' 'too large by'
+  printf '\n|---|---|---|---|---|---|---|---|---|\n'
   for row in "${uris_solver_cases[@]}"; do
     read -r valve elements ratio shift time_step size <<<"$row"
     edge=$(awk "BEGIN { print 0.2 / $ratio }")
