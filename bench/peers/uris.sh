@@ -106,42 +106,43 @@ uris_drop() {
 
 # ---- ./run uris solver PROGRAM ----
 
-# The valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step in s, and the
-# largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each node to each triangle.
+# The valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step in s, eps in cm,
+# and the largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each node to each
+# triangle.
 uris_solver_cases=(
-  "flat hex 1.1 0.3 0.001 0.03" "flat hex 1.1 0.3 0.004 0.03" "flat hex 1.5 0.3 0.001 0.03" "flat hex 1.5 0.3 0.004 0.03"
-  "flat hex 2 0.3 0.001 0.06" "flat hex 2 0.3 0.004 0.06" "flat hex 3 0.3 0.001 0.06"
-  "flat tet 1.1 0.3 0.001 0.03" "flat tet 1.1 0.3 0.004 0.03" "flat tet 1.5 0.3 0.001 0.03" "flat tet 1.5 0.3 0.004 0.03"
-  "flat tet 2 0.3 0.001 0.03" "flat tet 2 0.3 0.004 0.06" "flat tet 3 0.3 0.004 0.06"
-  "leaning hex 1.5 0 0.001 0.03" "leaning hex 2 0 0.004 0.06" "leaning tet 1.5 0 0.004 0.06" "leaning tet 2 0 0.001 0.06"
-  "trileaflet tube 1.2 0 0.001 0.06" "trileaflet tube 1.5 0 0.004 0.06"
+  "flat hex 1.1 0.3 0.001 0.2 0.03" "flat hex 1.1 0.3 0.004 0.2 0.03" "flat hex 1.5 0.3 0.001 0.2 0.03"
+  "flat hex 1.5 0.3 0.004 0.2 0.03" "flat hex 2 0.3 0.001 0.2 0.06" "flat hex 3 0.3 0.001 0.4 0.06"
+  "leaning hex 1.5 0 0.001 0.2 0.03" "flat tet 1.1 0.3 0.001 0.2 0.03" "flat tet 1.1 0.3 0.004 0.2 0.03"
+  "flat tet 1.5 0.3 0.001 0.2 0.03" "flat tet 1.5 0.3 0.004 0.2 0.03" "flat tet 2 0.3 0.001 0.2 0.03"
+  "flat tet 2 0.3 0.004 0.2 0.06" "flat tet 3 0.3 0.004 0.4 0.06" "leaning tet 1.5 0 0.004 0.2 0.06"
+  "trileaflet tube 1.2 0 0.001 0.2 0.06"
 )
 
 # uris_solver PROGRAM: runs svMultiPhysics with closed valves, and prints its drop beside the forecast.
 uris_solver() {
-  local program python row valve file elements ratio shift time_step size edge path case expected measured
+  local program python row valve file elements ratio shift time_step eps size edge path case expected measured
   program=$(realpath -- "$1") python=$(python_of_packages)
   flat_valve flat
   flat_valve leaning 0.36397 # by 20 degrees
   printf '\n|'
-  printf ' %s |' valve elements 'eps / h' 'shift / h' 'time step' 'triangles / eps' forecast 'in the solver' 'too large by'
-  printf '\n|---|---|---|---|---|---|---|---|---|\n'
+  printf ' %s |' valve elements eps 'eps / h' 'shift / h' 'time step' 'triangles / eps' forecast 'in the solver' 'too large by'
+  printf '\n|---|---|---|---|---|---|---|---|---|---|\n'
   for row in "${uris_solver_cases[@]}"; do
-    read -r valve elements ratio shift time_step size <<<"$row"
-    edge=$(awk "BEGIN { print 0.2 / $ratio }")
-    path=$build/uris/duct_${elements}_$ratio
+    read -r valve elements ratio shift time_step eps size <<<"$row"
+    edge=$(awk "BEGIN { print $eps / $ratio }")
+    path=$build/uris/duct_${elements}_${ratio}_$eps
     case=$build/uris/case_${row// /_}
     file=$build/uris/$valve.json
     [[ -e $file ]] || file=$valve
     duct_of_edge "$elements" "$edge" "$path" || return
-    export_in_duct "$path" 0.2 "$(awk "BEGIN { print $edge * $shift }")" "$time_step" "$file" "$size" || return
+    export_in_duct "$path" "$eps" "$(awk "BEGIN { print $edge * $shift }")" "$time_step" "$file" "$size" || return
     rm -rf "$case"
     "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$case" "$time_step" || return
     (cd "$case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$case/log.txt" >&2; return 1; }
     expected=$(expected_drop "$path")
     measured=$("$python" -B bench/peers/uris_case.py drop "$case" "$(leaflets_area "$path")") || return
-    printf '| %s | %s | %s | %s | %s ms | %s | %s | %s | %s %% |\n' "$valve" "$elements" "$ratio" "$shift" \
-      "$(awk "BEGIN { print 1000 * $time_step }")" "$(awk "BEGIN { print $size / 0.2 }")" "$expected" "$measured" \
+    printf '| %s | %s | %s cm | %s | %s | %s ms | %s | %s | %s | %s %% |\n' "$valve" "$elements" "$eps" "$ratio" "$shift" \
+      "$(awk "BEGIN { print 1000 * $time_step }")" "$(awk "BEGIN { print $size / $eps }")" "$expected" "$measured" \
       "$(awk "BEGIN { printf \"%.2f\", 100 * ($expected / $measured - 1) }")"
   done
 }
