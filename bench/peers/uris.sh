@@ -17,8 +17,9 @@ export_of_size() {
 
 # ---- ./run uris drop ----
 
-# Writes a duct of 2 cm x 2 cm, from z = -1.3 to 1.3, with edges of about $2 cm, as $3.msh.
-duct_of_edge() { # arguments: hex|tet, edge, path without ending
+# Writes a duct of 2 cm x 2 cm, from z = -1.3 to 1.3, with edges of about $2 cm, as $3.msh. A tube has tetrahedra, and fits the
+# trileaflet valve.
+duct_of_edge() { # arguments: hex|tet|tube, edge, path without ending
   if [[ $1 == hex ]]; then
     cat >"$3.geo" <<'END'
 Point(1) = {-1, -1, -1.3};
@@ -27,9 +28,10 @@ Extrude {0, 2, 0} { Curve{1}; Layers{Round(2 / h)}; Recombine; }
 Extrude {0, 0, 2.6} { Surface{5}; Layers{Round(2.6 / h)}; Recombine; }
 END
   else
-    cat >"$3.geo" <<'END'
+    local -A shapes=([tet]="Box(1) = {-1, -1, -1.3, 2, 2, 2.6};" [tube]="Cylinder(1) = {0, 0, -1.6, 0, 0, 3.6, 1.25};")
+    cat >"$3.geo" <<END
 SetFactory("OpenCASCADE");
-Box(1) = {-1, -1, -1.3, 2, 2, 2.6};
+${shapes[$1]}
 Mesh.MeshSizeMin = h;
 Mesh.MeshSizeMax = h;
 END
@@ -40,16 +42,21 @@ END
   gmsh -3 -format msh2 -setnumber h "$2" -o "$3.msh" "$3.geo" >"$3.log" || { cat "$3.log" >&2; return 1; }
 }
 
-# export_in_duct PATH HALF_THICKNESS SHIFT: exports the flat valve, moved along the duct of PATH.msh, to PATH and PATH.xml.
+# export_in_duct PATH HALF_THICKNESS SHIFT [TIME_STEP VALVE EDGE]: exports a valve with triangles up to EDGE, moved along the duct
+# of PATH.msh, to PATH and PATH.xml. The valve is the flat one unless another one is given.
 export_in_duct() {
+  local time_step=${4-0.002}
   rm -rf "$1"
-  "$build/bin/riis" export "$1" "$1.msh" --valve "$build/uris/flat.json" --resistance 1e4 --time-step 0.002 \
-    --opening-seconds 0.002 --closing-seconds 0.002 --half-thickness "$2" --largest-edge 0.03 --translate "0,0,$3" \
-    >"$1.xml" 2>/dev/null
+  "$build/bin/riis" export "$1" "$1.msh" --valve "${5-$build/uris/flat.json}" --resistance 1e4 --time-step "$time_step" \
+    --opening-seconds "$time_step" --closing-seconds "$time_step" --half-thickness "$2" --largest-edge "${6-0.03}" \
+    --translate "0,0,$3" >"$1.xml" 2>/dev/null
 }
 
 # expected_drop PATH: prints the drop over (R/eps) u that the export forecasts.
 expected_drop() { sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p' "$1.xml"; }
+
+# leaflets_area PATH: prints the area of the closed leaflets in the mesh, cm2, that the export found.
+leaflets_area() { sed -n 's/.*leaflets in the mesh, \([0-9.e+-]*\);.*/\1/p' "$1.xml"; }
 
 # Prints the expected drop and the share of the sum of delta for a flat valve that is moved along the duct.
 drop_in_duct() { # arguments: path without ending, half thickness, shift along the duct
@@ -57,21 +64,22 @@ drop_in_duct() { # arguments: path without ending, half thickness, shift along t
     printf '%s %s' "$(expected_drop "$1")" "$(sed -n 's/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' "$1.xml")"
 }
 
-# Writes the flat valve of ./run uris drop and ./run uris solver.
-flat_valve() {
-  cat >"$build/uris/flat.json" <<'END'
-{"curves": {"a": [[-1, -1, 0], [1, -1, 0]], "b": [[-1, 1, 0], [1, 1, 0]],
-            "c": [[-1, -1, 0], [-1, 1, 0]], "d": [[1, -1, 0], [1, 1, 0]]},
+# Writes a flat valve for the duct. It leans by a rise of $2 over half of the duct, or lies across the duct without $2.
+flat_valve() { # arguments: name of the file, rise
+  local low=-${2-0} high=${2-0}
+  cat >"$build/uris/$1.json" <<END
+{"curves": {"a": [[-1, -1, $low], [1, -1, $low]], "b": [[-1, 1, $high], [1, 1, $high]],
+            "c": [[-1, -1, $low], [-1, 1, $high]], "d": [[1, -1, $low], [1, 1, $high]]},
  "patches": [{"v0": "a", "v1": "b", "u0": "c", "u1": "d"}],
- "open": {"curves": {"a": [[-1, -1, 0], [1, -1, 0]], "b": [[-1, -0.9, 0.9], [1, -0.9, 0.9]],
-                     "c": [[-1, -1, 0], [-1, -0.9, 0.9]], "d": [[1, -1, 0], [1, -0.9, 0.9]]}}}
+ "open": {"curves": {"a": [[-1, -1, $low], [1, -1, $low]], "b": [[-1, -0.9, 0.9], [1, -0.9, 0.9]],
+                     "c": [[-1, -1, $low], [-1, -0.9, 0.9]], "d": [[1, -1, $low], [1, -0.9, 0.9]]}}}
 END
 }
 
 # A flat valve in a duct: the drop that the solver will have, beside its sum of delta.
 uris_drop() {
   local elements ratio edge shift path
-  flat_valve
+  flat_valve flat
   printf '\n| elements | eps / h | drop over (R/eps) u | sum of delta over the exact sum |\n|---|---|---|---|\n'
   for elements in hex tet; do
     for ratio in 1 1.2 1.5 2; do
@@ -96,26 +104,46 @@ uris_drop() {
   done
 }
 
-# uris_solver PROGRAM: runs svMultiPhysics in the same ducts, and prints its drop beside the expected one.
+# ---- ./run uris solver PROGRAM ----
+
+# The valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step in s, eps in cm,
+# and the largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each node to each
+# triangle.
+uris_solver_cases=(
+  "flat hex 1.1 0.3 0.001 0.2 0.03" "flat hex 1.1 0.3 0.004 0.2 0.03" "flat hex 1.5 0.3 0.001 0.2 0.03"
+  "flat hex 1.5 0.3 0.004 0.2 0.03" "flat hex 2 0.3 0.001 0.2 0.06" "flat hex 3 0.3 0.001 0.4 0.06"
+  "leaning hex 1.5 0 0.001 0.2 0.03" "flat tet 1.1 0.3 0.001 0.2 0.03" "flat tet 1.1 0.3 0.004 0.2 0.03"
+  "flat tet 1.5 0.3 0.001 0.2 0.03" "flat tet 1.5 0.3 0.004 0.2 0.03" "flat tet 2 0.3 0.001 0.2 0.03"
+  "flat tet 2 0.3 0.004 0.2 0.06" "flat tet 3 0.3 0.004 0.4 0.06" "leaning tet 1.5 0 0.004 0.2 0.06"
+  "trileaflet tube 1.2 0 0.001 0.2 0.06"
+)
+
+# uris_solver PROGRAM: runs svMultiPhysics with closed valves, and prints its drop beside the forecast.
 uris_solver() {
-  local program python elements ratio shift edge path
+  local program python row valve file elements ratio shift time_step eps size edge path case expected measured
   program=$(realpath -- "$1") python=$(python_of_packages)
-  flat_valve
-  printf '\n| elements | eps / h | shift / h | expected drop over (R/eps) u | in the solver |\n|---|---|---|---|---|\n'
-  for elements in hex tet; do
-    for ratio in 1.2 2; do
-      edge=$(awk "BEGIN { print 0.2 / $ratio }")
-      path=$build/uris/duct_${elements}_$ratio
-      duct_of_edge $elements "$edge" "$path" || return
-      for shift in 0 0.5; do
-        rm -rf "$path.case"
-        export_in_duct "$path" 0.2 "$(awk "BEGIN { print $edge * $shift }")" &&
-          "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$path.case" 0.002 || return
-        (cd "$path.case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$path.case/log.txt" >&2; return 1; }
-        printf '| %s | %s | %s | %s | %s |\n' $elements $ratio $shift "$(expected_drop "$path")" \
-          "$("$python" -B bench/peers/uris_case.py drop "$path.case")"
-      done
-    done
+  flat_valve flat
+  flat_valve leaning 0.36397 # by 20 degrees
+  printf '\n|'
+  printf ' %s |' valve elements eps 'eps / h' 'shift / h' 'time step' 'triangles / eps' forecast 'in the solver' 'too large by'
+  printf '\n|---|---|---|---|---|---|---|---|---|---|\n'
+  for row in "${uris_solver_cases[@]}"; do
+    read -r valve elements ratio shift time_step eps size <<<"$row"
+    edge=$(awk "BEGIN { print $eps / $ratio }")
+    path=$build/uris/duct_${elements}_${ratio}_$eps
+    case=$build/uris/case_${row// /_}
+    file=$build/uris/$valve.json
+    [[ -e $file ]] || file=$valve
+    duct_of_edge "$elements" "$edge" "$path" || return
+    export_in_duct "$path" "$eps" "$(awk "BEGIN { print $edge * $shift }")" "$time_step" "$file" "$size" || return
+    rm -rf "$case"
+    "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$case" "$time_step" || return
+    (cd "$case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$case/log.txt" >&2; return 1; }
+    expected=$(expected_drop "$path")
+    measured=$("$python" -B bench/peers/uris_case.py drop "$case" "$(leaflets_area "$path")") || return
+    printf '| %s | %s | %s cm | %s | %s | %s ms | %s | %s | %s | %s %% |\n' "$valve" "$elements" "$eps" "$ratio" "$shift" \
+      "$(awk "BEGIN { print 1000 * $time_step }")" "$(awk "BEGIN { print $size / $eps }")" "$expected" "$measured" \
+      "$(awk "BEGIN { printf \"%.2f\", 100 * ($expected / $measured - 1) }")"
   done
 }
 

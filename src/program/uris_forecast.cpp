@@ -84,9 +84,9 @@ class Forecaster {
     throw Refusal{exit_bad_data, options_.mesh + ": svMultiPhysics would never " + verb + " the valve: " + reason};
   }
 
-  static std::string with_four_decimals(double number) {
+  static std::string printed(const char *format, double number) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.4f", number);
+    std::snprintf(text, sizeof text, format, number);
     return text;
   }
 
@@ -162,9 +162,9 @@ class Forecaster {
       warn("the drop across the closed valve was not found, because the equations were not solved");
       return;
     }
-    say("expected drop of the closed valve: " + with_four_decimals(expected.drop) + " of (R/eps) u, with eps = " +
+    say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +
         shown(half_thickness_) + ", " + shown(half_thickness_ / median_edge_) + " edges");
-    say("  u is the flow over the area of the leaflets in the mesh, " + shown(expected.area) +
+    say("  u is the flow over the area of the leaflets in the mesh, " + printed("%.5g", expected.area) +
         "; the solver's sum of delta is " + shown(solver_area(mesh_, distances, half_thickness_) / expected.area) +
         " of the exact sum");
     if (expected.drop > 1 / enough) {

@@ -213,8 +213,8 @@ double flatness(const Bezier &curve) {
 }
 
 // Bounds the curvature |B' x B''| / |B'|^3. The bound is infinite if the curve may turn on the spot. B' and B'' are Bézier
-// curves with these control points. Products of these points bound the numerator. The least component of B' along the chord, taken
-// over its control points, bounds the denominator from below.
+// curves with these control points. Products of these points bound the numerator. The least component of B' along the chord,
+// taken over its control points, bounds the denominator from below.
 template <std::size_t n, std::size_t m>
 static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], Vec3 chord) {
   double least_along = std::numeric_limits<double>::infinity(), largest_sq = 0;
