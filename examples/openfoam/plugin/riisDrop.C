@@ -213,7 +213,8 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       const labelUList &cells = mesh_.boundary()[patch].faceCells();
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
-    // A fixed cell has lost its coefficients to other ranks. If it has no neighbour on its own rank, nothing is left.
+    // setValues clears the coefficients between a fixed cell and other ranks. Without a neighbour on its own rank, the cell then
+    // has no diagonal.
     forAll(fixed, i) {
       const label cell = fixed[i];
       if (diagonal[cell] != 0) continue;
