@@ -254,7 +254,8 @@ RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t p
 
 /* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
-/* Triangles with their Embree scene and a half thickness. It borrows nothing from the caller. */
+/* Triangles with a half thickness. The first query that needs it builds their Embree scene, also if several threads
+ * query at once. A surface borrows nothing from the caller. */
 typedef struct riis_surface riis_surface;
 
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
@@ -326,8 +327,8 @@ typedef struct riis_surface_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
-/* Makes the surface of a valve by curves, polylines, Coons patches, quads, triangles and an Embree scene (paper, 3
- * and 4.1 "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
+/* Makes the surface of a valve by curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1
+ * "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
  * of the cusps, from the atrial to the ventricular face of the mitral valve, and to +z on closed bileaflet
  * leaflets. On the bileaflet ring they point outwards. Triangles of zero area, at the root of each cusp, at the
  * mitral commissures and at the ends of bileaflet middle edges, are skipped.
