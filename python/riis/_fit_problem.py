@@ -175,6 +175,15 @@ class Problem:
         """Returns the parameters."""
         return self.bounds[:, 0] + x[: len(self.names)] * (self.bounds[:, 1] - self.bounds[:, 0])
 
+    def at_random(self, random: numpy.random.Generator) -> Reals:
+        """Returns random parameters as fractions of their bounds. Lengths are evenly distributed by their logarithms, because
+        bounds of half and twice a value are equally far from it."""
+        shares = random.uniform(0.05, 0.95, len(self.names))
+        for i, (name, (low, high)) in enumerate(zip(self.names, self.bounds.tolist())):
+            if self.valve.parameters[name].unit == "length" and low > 0.0:
+                shares[i] = ((high / low) ** shares[i] - 1.0) / (high / low - 1.0)
+        return shares
+
     def motion(self, x: Reals) -> tuple[Reals, Reals, float]:
         """Returns the rotation vector, the translation and the factor that x adds to the base."""
         parts: dict[str, Reals] = {"rotation": numpy.zeros(3), "translation": numpy.zeros(3), "scale": numpy.zeros(1)}
@@ -385,9 +394,9 @@ class Problem:
         return x, found
 
     def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None,
-                  random: numpy.random.Generator | None) -> Pose | None:
-        """Turns the base by each rotation, and returns the pose with which the points are closest, or None if the values do not
-        fit together.
+                  random: numpy.random.Generator | None) -> tuple[float, Pose] | None:
+        """Turns the base by each rotation, and returns the pose with which the points are closest, and their mean loss there.
+        Returns None if the values do not fit together.
 
         middle  a position for the middle of the surface; None keeps the translation
         random  if given and the points are not those of the whole valve, the middle is a position for random points of the
@@ -413,8 +422,10 @@ class Problem:
                                        n_threads=1)
         assert found.distance is not None
         squares = (found.distance.reshape(len(poses), -1) * self.base.scale / (0.05 * self.size)) ** 2
-        closest = numpy.argsort(numpy.log1p(squares).mean(axis=1))[:3]
-        return poses[closest[0] if anywhere is None else anywhere.choice(closest)]
+        losses = numpy.log1p(squares).mean(axis=1)
+        closest = numpy.argsort(losses)[:3]
+        chosen = closest[0] if anywhere is None else anywhere.choice(closest)
+        return float(losses[chosen]), poses[chosen]
 
 
 def start_pose(given: dict[str, Any]) -> Pose:

@@ -14,6 +14,8 @@ from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_r
 
 # Each start chooses a good one of this many rotations.
 _N_ROTATIONS = 150
+# A start for a whole valve chooses a good one of this many valves with random sizes.
+_N_VALVES = 3
 # Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas
 # differ by at most this fraction.
 _SAME = 0.02
@@ -29,10 +31,15 @@ RIVAL = 9.0
 UNDETERMINED = 0.1
 # To find correlated residuals, the valve is divided into this many parts.
 _N_PARTS = 40
+# The scatter of all parts counts for an unknown as much as the scatter of this number of parts that determine it.
+_N_USUAL = 6.0
 # Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
 # A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
+# The area's term pulls edges by an amount that is right up to about this share. It is too large where another leaflet is near an
+# edge, as beside the straight edges of a closed bileaflet valve.
+_EDGE_SPREAD = 0.5
 # A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 
@@ -141,19 +148,33 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
             return one.n_starts
         return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
+    def begin() -> tuple[Pose, Reals] | None:
+        """Returns a random start. For a whole valve it is the one with the closest points among a few, because a start with
+        sizes far from the valve's ends at a wrong fit."""
+        best = None
+        for _ in range(_N_VALVES if problem.whole else 1):
+            x, rotations = given.copy(), numpy.eye(3)[None]
+            x[:n_names] = problem.at_random(random)
+            if any_rotation:
+                rotations = random_rotations(random, _N_ROTATIONS)
+            elif middle is not None and not problem.whole:
+                rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each one with several translations
+            problem.begin(pose)
+            found = problem.best_pose(x, rotations, middle, random)
+            if found is not None and (best is None or found[0] < best[0]):
+                best = found[0], found[1], x
+        return None if best is None else best[1:]
+
     for number in range(n_most):
-        x, rotations = given.copy(), numpy.eye(3)[None]
-        if number > 0:
-            x[:n_names] = random.uniform(0.05, 0.95, n_names)
-        if number > 0 and any_rotation:
-            rotations = random_rotations(random, _N_ROTATIONS)
-        elif number > 0 and middle is not None and not problem.whole:
-            rotations = numpy.repeat(rotations, _N_ROTATIONS // 5, axis=0)  # each rotation is repeated with several translations
-        problem.begin(pose)
-        base = problem.best_pose(x, rotations, middle, random if number > 0 else None)
+        if number == 0:
+            problem.begin(pose)
+            found = problem.best_pose(given, numpy.eye(3)[None], middle, None)
+            start = None if found is None else (found[1], given.copy())
+        else:
+            start = begin()
         n_done += 1
-        if base is not None:  # None if the values do not fit together
-            go_down(base, x)
+        if start is not None:  # None if the values do not fit together
+            go_down(*start)
         if n_done >= n_least and ends:
             if any_rotation and n_most > 1 and ends[0].orbit not in turned:
                 turn()
@@ -221,8 +242,13 @@ class Judge:
             alone = numpy.bincount(part, inlier**2, n_parts)
             most_misfit = max(2.0, 1.0 + 5.0 * (2.0 / (n_parts - problem.n)) ** 0.5)
             misfit = float((mean**2).sum() / (alone.sum() * mixture.noise**2)) * n_parts / (n_parts - problem.n)
-            robust = covariance @ (forces.T @ forces) @ covariance * n_parts / (n_parts - problem.n)
-            variances = numpy.maximum(variances, numpy.diag(robust))
+            robust = numpy.diag(covariance @ (forces.T @ forces) @ covariance) * n_parts / (n_parts - problem.n)
+            # If few parts determine an unknown, its scatter by chance is large. Then the scatter of all parts counts as well.
+            pieces = numpy.zeros((n_parts, problem.n))
+            numpy.add.at(pieces, part, inlier[:, None] * (jacobian @ covariance) ** 2)
+            n_pieces = pieces.sum(axis=0) ** 2 / (pieces**2).sum(axis=0).clip(1e-300)
+            usual = variances * max(misfit, 1.0)
+            variances = numpy.maximum(variances, (_N_USUAL * usual + n_pieces * robust) / (_N_USUAL + n_pieces))
         variances = variances + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2)
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
@@ -249,20 +275,35 @@ class Judge:
         # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
         left = -jacobian.T @ (weights * seen.residual) - n_area * free_area
         pull -= full[n:, :n] @ numpy.linalg.solve(precision, left)
-        # Takes the likeliest spread of the sizes, if it is much likelier than no spread.
+        edges = _EDGE_SPREAD * n_area * (area - full[n:, :n] @ numpy.linalg.solve(precision, free_area))
         values, vectors = numpy.linalg.eigh(alone)
-        values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
+        values, pull, edges = values.clip(0.0), vectors.T @ pull, vectors.T @ edges
         if problem.whole:  # a pull for far larger differences is from edges, where the area's term is right only on average
-            possible = squares <= 9.0 * values * (1.0 + values)
-            values, vectors, squares = values[possible], vectors[:, possible], squares[possible]
+            possible = pull**2 <= 9.0 * values * (1.0 + values) + edges**2
+            values, vectors, pull, edges = values[possible], vectors[:, possible], pull[possible], edges[possible]
+        seen = values > 1e-9 * values.max(initial=0.0)
+        known, pulled, edge = values[seen], pull[seen], edges[seen]
+
+        def unlikely(spread: Reals) -> Reals:
+            """Returns twice the negative logarithm of the density of the pull. Its covariance is the noise's, that of sizes with
+            this spread, and that of the edges."""
+            width = known + spread * known**2
+            of_edges = 1.0 + (edge**2 / width).sum(axis=1)
+            return numpy.asarray((pulled**2 / width).sum(axis=1) - (pulled * edge / width).sum(axis=1) ** 2 / of_edges
+                                 + numpy.log(width).sum(axis=1) + numpy.log(of_edges))
+
+        # Takes the likeliest spread of the sizes, if it is much likelier than no spread.
         spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
-        evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
-        if evidence.max() < _LEAST_EVIDENCE:
+        evidence = 0.5 * (unlikely(numpy.zeros((1, 1))) - unlikely(spreads))
+        if not seen.any() or evidence.max() < _LEAST_EVIDENCE:
             return numpy.zeros(n)
         spread = float(spreads[numpy.argmax(evidence), 0])
-        inverse = (vectors * (spread / (1.0 + spread * values))) @ vectors.T
-        shares = numpy.linalg.solve(precision, full[:n, n:])
-        return numpy.asarray((shares @ inverse @ pull) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
+        edges = numpy.where(seen, edges, 0.0)
+        of_edges = 1.0 + float((edge**2 / known).sum())
+        inverse = numpy.linalg.inv(numpy.diag(1.0 / spread + values) - numpy.outer(edges, edges) / of_edges)
+        shift = inverse @ (pull - edges * float((pulled * edge / known).sum()) / of_edges)
+        shares = numpy.linalg.solve(precision, full[:n, n:]) @ vectors
+        return numpy.asarray((shares @ shift) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
         """Holds each parameter two standard errors away, and minimizes over the others. Widens the standard error if the cost
