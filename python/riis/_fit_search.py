@@ -32,14 +32,14 @@ UNDETERMINED = 0.1
 # To find correlated residuals, the valve is divided into this many parts.
 _N_PARTS = 40
 # The scatter of all parts counts for an unknown as much as the scatter of this number of parts that determine it.
-_N_USUAL = 6.0
+_N_USUAL = 10.0
 # Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
 # A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
 # The area's term pulls edges by an amount that is right up to about this share. It is too large where another leaflet is near an
-# edge, as beside the straight edges of a closed bileaflet valve.
-_EDGE_SPREAD = 0.5
+# edge, such as between the straight edges of a closed bileaflet valve.
+_EDGE_SPREAD = 0.2
 # A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 

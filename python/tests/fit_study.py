@@ -214,6 +214,13 @@ def sizes(patients):
     return lines
 
 
+def undetermined(patients):
+    """Returns a line for each size of the whole valves that the fit leaves undetermined."""
+    return [f"seed {one.seed}, {one.kind}, {one.case}: {name} {one.found.parameters[name]:.4f} +- "
+            f"{one.found.standard_errors[name]:.4f}, true {one.true[name]:.4f}"
+            for one in patients if one.case in WHOLE for name in one.true if name in one.found.undetermined]
+
+
 def examined(seed):
     return examine(patient(seed))
 
@@ -226,7 +233,7 @@ def main(n_patients=300, first=7000):
             if one.wrong():
                 tell(one)
     print(f"seeds {first} to {first + n_patients - 1}")
-    print("\n".join([*table(patients), "", *sizes(patients)]))
+    print("\n".join([*table(patients), "", *sizes(patients), "", "undetermined sizes of whole valves:", *undetermined(patients)]))
 
 
 if __name__ == "__main__":
