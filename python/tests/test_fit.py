@@ -498,7 +498,8 @@ def test_landmarks_may_start_a_fit():
     turns = numpy.radians([0.0, 120.0, 240.0, 60.0, 180.0, 300.0])
     top = numpy.repeat([0.0, TRILEAFLET["leaflet_height"]], 3)
     radius = numpy.repeat([TRILEAFLET["root_radius"], riis.Valve("trileaflet")["leaflet_radius_out"]], 3)
-    places = numpy.stack([radius * numpy.cos(turns), radius * numpy.sin(turns), top], 1) + riis.Valve("trileaflet")["translation"]
+    places = numpy.stack([radius * numpy.cos(turns), radius * numpy.sin(turns), top], 1)
+    places += riis.Valve("trileaflet")["translation"]
     names = ("nadir_right", "nadir_left", "nadir_non_coronary", "commissure_right_left", "commissure_left_non",
              "commissure_right_non")
     marks = dict(zip(names, 10.0 * places @ rotation.T + shift + random.normal(0.0, 0.5, (6, 3)), strict=True))

@@ -212,8 +212,9 @@ static void a_steady_moving_step_allocates_nothing(void **state) {
 #endif
 }
 
-/* An annulus that moves: new targets for 200 landmarks in each step, for two valves in turn. Each valve has its memory after two
- * steps. The adapted triangulation needs more triangles at some time of the beat, so its surface has its memory after one beat. */
+/* An annulus that moves: new targets for 200 landmarks in each step, for two valves in turn. Each valve has its memory after
+ * two steps. The adapted triangulation needs more triangles at some time of the beat, so its surface has its memory after one
+ * beat. */
 static void a_steady_warped_step_allocates_nothing(void **state) {
   (void)state;
 #if defined(COUNTS_ALLOCATIONS)
