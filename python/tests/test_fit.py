@@ -488,8 +488,8 @@ def test_a_start_may_be_a_valve_with_a_placement():
 
 
 def test_landmarks_may_start_a_fit():
-    """Two of three leaflets that stand on their head, in millimetres. One start from six landmarks with errors of 0.5 mm finds the
-    sizes. Without the landmarks one start is wrong and doubted."""
+    """Two of three leaflets that stand on their head, in millimetres. One start from six landmarks with errors of 0.5 mm finds
+    the sizes. Without the landmarks one start is wrong and doubted."""
     random = numpy.random.default_rng(14)
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(random, surface, 500, lambda middle, leaflet_id: leaflet_id < 2)
