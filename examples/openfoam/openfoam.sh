@@ -62,7 +62,7 @@ openfoam() {
   of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/flow" "$of_cases/flow-restart" | tee "$of_out/restart.txt"
   of_check tables "$of_cases/beat" "$of_cases/beat-restart" | tee "$of_out/tables.txt"
   if [[ ${1:-} != --short ]]; then
-    step "two heartbeats at 90 mmHg" openfoam_physiological
+    step "four heartbeats at 90 mmHg (the longest step)" openfoam_physiological
     of_check physiological "$of_cases/physiological" | tee "$of_out/physiological.txt"
   fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
