@@ -21,11 +21,11 @@ def physiological(case):
     size, _, factor = estimate(case)
     n = round(1e3 * n_beats * period)
     require(len(time) == n and len(courant) >= n, f"{case} has {n} steps, not {len(time)}")
+    stored, numbers = arteries(case, rows["flow"]), []
     print(f"{n_beats} heartbeats at 90 mmHg. K is multiplied by {factor:.3f}. Volumes in ml, pressures in mmHg, speeds in m/s:")
     print(f"  {'beat':>4} {'opens at':>9} {'closes at':>9} {'largest flow':>13} {'forward':>8} {'back':>6} {'aorta':>11}"
           f" {'against':>7} {'leak at':>8} {'leak':>9} {'ideal':>6} {'largest Courant':>15} {'speed at band':>13} {'closed':>7}")
     aorta = RHO * foam.table(case, "downstream")[:, 1] / MMHG
-    stored, numbers = arteries(case, rows["flow"]), []
     for beat in range(n_beats):
         now = (time > period * beat + 1e-3) & (time < period * (beat + 1) + 1e-3)
         moves = time[now][numpy.diff(opening[now], prepend=0) != 0] - period * beat

@@ -93,6 +93,7 @@ class Files(unittest.TestCase):
 
 class Marks(Files):
     TIMES = ("0.001", "0.002", "0.003", "0.004")
+    speed = staticmethod(lambda name, ids: numpy.ones(len(ids)))
 
     def setUp(self):
         super().setUp()
@@ -108,7 +109,7 @@ class Marks(Files):
                 k = self.k[i][ids].copy()
                 change(ids, k, centres, i)
                 self.write(folder / time / check.K_NAME, text_of(k, binary))
-                self.write(folder / time / check.KU_NAME, text_of(numpy.stack([k, k, k], axis=1), binary))
+                self.write(folder / time / check.KU_NAME, text_of(numpy.stack(3 * [k * self.speed(name, ids)], axis=1), binary))
             self.write(folder / "0/C", text_of(centres, binary))
         self.log(case, self.TIMES, [0.5] * 4, [150] * 4)
         return case
@@ -147,7 +148,13 @@ class Marks(Files):
         def change(ids, k, centres, i):
             k[ids == 7] *= 1.001
             centres[ids == 7] = numpy.nextafter(self.centres[7], 9)
-        self.refused(change, "K differs by at most 1e-9 of its largest value, not ")
+        self.refused(change, f"{check.K_NAME} differs by at most 1e-9 of its largest value, not ")
+
+    def test_a_large_difference_of_the_velocity(self):
+        def change(ids, k, centres, i):
+            centres[ids == 7] = numpy.nextafter(self.centres[7], 9)
+        self.speed = lambda name, ids: numpy.where((ids == 7) & (name == "two"), 1.001, 1)
+        self.refused(change, f"{check.KU_NAME} differs by at most 1e-9 of its largest value, not ")
 
     def test_nan_in_a_cell_without_k(self):
         def change(ids, k, centres, i):
