@@ -169,15 +169,15 @@ python_manylinux() {
   say "the wheels: $(echo out/wheels/*.whl)"
 }
 
-# fit_study [N]: fits N random patients, each on one thread.
+# fit_study [N [FIRST]]: fits N random patients, from the seed FIRST on, each on one thread.
 fit_study() {
-  local n=${1:-300}
-  [[ $n =~ ^[1-9][0-9]*$ && $# -le 1 ]] || {
-    echo "./run fit-study: '$*' is not a number of patients" >&2
+  local n=${1:-300} first=${2:-7000}
+  [[ $n =~ ^[1-9][0-9]*$ && $first =~ ^[0-9]+$ && $# -le 2 ]] || {
+    echo "./run fit-study: '$*' is not a number of patients, or that and the first seed" >&2
     exit 2
   }
   python_needs_environment fit-study
-  OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python_folder/fresh/bin/python" -B python/tests/fit_study.py "$n"
+  OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 "$python_folder/fresh/bin/python" -B python/tests/fit_study.py "$n" "$first"
 }
 
 # python_start: installs the packages and the build tools.
