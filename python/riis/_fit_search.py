@@ -37,9 +37,6 @@ _N_USUAL = 10.0
 _FIXED_SPREAD = 0.1
 # A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
-# The area's term pulls edges by an amount that is right up to about this share. It is too large where another leaflet is near an
-# edge, such as between the straight edges of a closed bileaflet valve.
-_EDGE_SPREAD = 0.2
 # A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 
@@ -275,35 +272,20 @@ class Judge:
         # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
         left = -jacobian.T @ (weights * seen.residual) - n_area * free_area
         pull -= full[n:, :n] @ numpy.linalg.solve(precision, left)
-        edges = _EDGE_SPREAD * n_area * (area - full[n:, :n] @ numpy.linalg.solve(precision, free_area))
-        values, vectors = numpy.linalg.eigh(alone)
-        values, pull, edges = values.clip(0.0), vectors.T @ pull, vectors.T @ edges
-        if problem.whole:  # a pull for far larger differences is from edges, where the area's term is right only on average
-            possible = pull**2 <= 9.0 * values * (1.0 + values) + edges**2
-            values, vectors, pull, edges = values[possible], vectors[:, possible], pull[possible], edges[possible]
-        seen = values > 1e-9 * values.max(initial=0.0)
-        known, pulled, edge = values[seen], pull[seen], edges[seen]
-
-        def unlikely(spread: Reals) -> Reals:
-            """Returns twice the negative logarithm of the density of the pull. Its covariance is the noise's, that of sizes with
-            this spread, and that of the edges."""
-            width = known + spread * known**2
-            of_edges = 1.0 + (edge**2 / width).sum(axis=1)
-            return numpy.asarray((pulled**2 / width).sum(axis=1) - (pulled * edge / width).sum(axis=1) ** 2 / of_edges
-                                 + numpy.log(width).sum(axis=1) + numpy.log(of_edges))
-
         # Takes the likeliest spread of the sizes, if it is much likelier than no spread.
+        values, vectors = numpy.linalg.eigh(alone)
+        values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
+        if problem.whole:  # a pull for far larger differences is from edges, where the area's term is right only on average
+            possible = squares <= 9.0 * values * (1.0 + values)
+            values, vectors, squares = values[possible], vectors[:, possible], squares[possible]
         spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
-        evidence = 0.5 * (unlikely(numpy.zeros((1, 1))) - unlikely(spreads))
-        if not seen.any() or evidence.max() < _LEAST_EVIDENCE:
+        evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
+        if evidence.max() < _LEAST_EVIDENCE:
             return numpy.zeros(n)
         spread = float(spreads[numpy.argmax(evidence), 0])
-        edges = numpy.where(seen, edges, 0.0)
-        of_edges = 1.0 + float((edge**2 / known).sum())
-        inverse = numpy.linalg.inv(numpy.diag(1.0 / spread + values) - numpy.outer(edges, edges) / of_edges)
-        shift = inverse @ (pull - edges * float((pulled * edge / known).sum()) / of_edges)
-        shares = numpy.linalg.solve(precision, full[:n, n:]) @ vectors
-        return numpy.asarray((shares @ shift) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
+        inverse = (vectors * (spread / (1.0 + spread * values))) @ vectors.T
+        shares = numpy.linalg.solve(precision, full[:n, n:])
+        return numpy.asarray((shares @ inverse @ pull) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
         """Holds each parameter two standard errors away, and minimizes over the others. Widens the standard error if the cost
