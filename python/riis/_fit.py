@@ -57,6 +57,7 @@ class FitResult:
     standard_errors: dict[str, float]  #: of the free parameters, with misfit and rivals; infinite if the data say nothing about
                                        #: a parameter
     undetermined: tuple[str, ...]  #: free parameters and parts of the placement that the data do not determine
+    without_influence: tuple[str, ...]  #: undetermined parameters whose whole range moves the surface by less than the noise
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
     doubts: tuple[str, ...]  #: reasons to distrust the whole result, each a sentence; empty if there is none
     n_starts: int  #: number of starts
@@ -78,7 +79,8 @@ class FitResult:
         table = self.valve.parameters
         lines = [f"{'parameter':32} {'value':>10} {'std. error':>10}  unit"]
         for name, value in self.parameters.items():
-            notes = ["undetermined"] * (name in self.undetermined) + ["at a bound"] * (name in self.at_bounds)
+            notes = ["undetermined"] * (name in self.undetermined) + ["has no influence"] * (name in self.without_influence)
+            notes += ["at a bound"] * (name in self.at_bounds)
             lines.append(
                 f"{name:32} {value:10.4f} {self.standard_errors[name]:10.4f}  {table[name].unit:7} {', '.join(notes)}".rstrip()
             )
@@ -485,6 +487,8 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
     share = covered(problem, x, inlier * (problem.weights > 0.0), random)
     problem.set_valve(x)
     undetermined = tuple(dict.fromkeys(name for i, name in enumerate(problem.unknowns) if errors[i] > UNDETERMINED))
+    without_influence = tuple(name for name, moved in zip(names, judged.influence)
+                              if name in undetermined and moved < max(mixture.noise, stated))
     at_bounds = tuple(name for name, at in zip(names, x[:n_names]) if not 1e-3 < at < 1.0 - 1e-3)
     doubts = []
     if best.n_starts < 2:
@@ -513,6 +517,7 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
         parameters=dict(zip(names, values.tolist())),
         standard_errors={name: float(errors[i] * span[i]) for i, name in enumerate(names)},
         undetermined=undetermined,
+        without_influence=without_influence,
         at_bounds=at_bounds,
         doubts=tuple(doubts),
         n_starts=n_done,

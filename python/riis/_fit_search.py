@@ -58,6 +58,7 @@ class Judged(NamedTuple):
     """The standard errors of the best end."""
 
     errors: Reals  # standard errors of the unknowns
+    influence: Reals  # by how much a change of an unknown by its whole range moves the points' distances (root mean square)
     singular_values: Reals
     misfit: float  # the scatter of parts of the valve, divided by the scatter that independent points would have
     most_misfit: float  # a misfit above this cannot be chance
@@ -250,7 +251,8 @@ class Judge:
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
         errors, better = self._profile(errors, covariance, ratio)
-        return Judged(errors, s / problem.size, misfit, most_misfit, better)
+        influence = numpy.sqrt((rows**2).sum(axis=0) / inlier.sum())
+        return Judged(errors, influence, s / problem.size, misfit, most_misfit, better)
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float) -> Reals:
         """Returns the share of the squared errors that comes from sizes that are not free. It is 0 unless other values of these
