@@ -218,6 +218,7 @@ def undetermined(patients):
     """Returns a line for each size of the whole valves that the fit leaves undetermined."""
     return [f"seed {one.seed}, {one.kind}, {one.case}: {name} {one.found.parameters[name]:.4f} +- "
             f"{one.found.standard_errors[name]:.4f}, true {one.true[name]:.4f}"
+            f"{', has no influence' * (name in one.found.without_influence)}"
             for one in patients if one.case in WHOLE for name in one.true if name in one.found.undetermined]
 
 
