@@ -412,7 +412,7 @@ def test_sizes_without_influence_are_named(seed):
         other = riis.Surface(riis.Valve("mitral", **{**one.true, name: one.true[name] + change * span}), half_thickness=0.05,
                              tolerance=0.01)
         moved = numpy.sqrt((other.closest_points(points, n_threads=1).distance ** 2).mean())
-        print(f"seed {seed}: {change} of the range moves the surface by {10.0 * moved:.4f} mm, the noise is {10.0 * noise:.2f} mm")
+        print(f"seed {seed}: {change} of the range moves the surface by {moved:.5f}, the noise is {noise:.4f}")
         assert moved < 0.125 * noise
 
 
@@ -420,7 +420,8 @@ def test_sizes_that_trade_with_the_placement_have_an_influence():
     """A turn of the valve moves a single disk as the opening does. So neither is determined, although each of them moves the
     disk."""
     valve = riis.Valve("bileaflet", opening=0.4)
-    points, _ = fit_study.points_on(numpy.random.default_rng(16), riis.Surface(valve), 400, lambda middle, leaflet_id: leaflet_id == 0)
+    random, disk = numpy.random.default_rng(16), lambda middle, leaflet_id: leaflet_id == 0
+    points, _ = fit_study.points_on(random, riis.Surface(valve), 400, disk)
     start = {"rotation_angle": 0.0, "translation": (0.0, 0.0, 0.0)}
     found = riis.fit(points, valve, free=["opening"], start=start, n_starts=1, whole=False)
     assert "opening" in found.undetermined and "rotation" in found.undetermined, found.report()
