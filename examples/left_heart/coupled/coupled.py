@@ -28,9 +28,10 @@ TABLE = ("time", "volume", "flow", "pressure", "wall", "residual", "slope", "tri
 # ---- The files of the case ----
 
 
-def isovolumetric(rows):
+def isovolumetric(rows, valves):
     """Returns the row after which both valves of the heart without space are closed, in its contraction."""
-    closed = np.flatnonzero((rows[:, 0] < zero_d.SYSTOLE) & (rows[:, 5] == 0) & (rows[:, 6] == 0))
+    mitral, aortic = (rows[:, 5 + i] == valve.orifice.rest for i, valve in enumerate(valves))
+    closed = np.flatnonzero((rows[:, 0] < zero_d.SYSTOLE) & mitral & aortic)
     if not len(closed):
         sys.exit("coupled.py: the heart without space never closes both valves in its contraction")
     return rows[closed[0]]
@@ -38,9 +39,9 @@ def isovolumetric(rows):
 
 def tables(case, mitral, aortic, beats=3):
     valves = zero_d.Valve("mitral", zero_d.read_orifice(mitral)), zero_d.Valve("aortic", zero_d.read_orifice(aortic))
-    leaks = [valve.leak for valve in valves]
+    leaks = [valve.orifice.leak for valve in valves]
     rows = zero_d.beats(valves)
-    row = dict(zip(zero_d.COLUMNS, isovolumetric(rows)))
+    row = dict(zip(zero_d.COLUMNS, isovolumetric(rows, valves)))
     phase = row["time"]
     constant = pathlib.Path(case) / "constant"
 
@@ -121,8 +122,8 @@ def check(case, mitral, aortic):
     balance = np.abs(run["flow"] - run["mitral_flow"] + run["aortic_flow"]).max()
     prescribed.demand(balance <= 1e-5 * peak,
            f"|dV/dt - (Qm - Qa)| is at most {balance:.2g} ml/s, {balance / peak:.1e} of the peak flow {peak:.0f} ml/s")
-    sealed = [zero_d.Valve("", zero_d.read_orifice(path)).sealed for path in (mitral, aortic)]
-    both = (run["mitral_opening"] > sealed[0]) & (run["aortic_opening"] > sealed[1])
+    orifices = {"mitral": zero_d.read_orifice(mitral), "aortic": zero_d.read_orifice(aortic)}
+    both = np.logical_and(*(orifice.is_open(run[f"{name}_opening"]) for name, orifice in orifices.items()))
     prescribed.demand(not both.any(), f"both valves are above their dead bands in {both.sum()} steps")
     volume, pressure = run["volume"], run["pressure"]
     work = np.trapz(pressure, volume) * MMHG * ML
@@ -134,7 +135,7 @@ def check(case, mitral, aortic):
     step = np.diff(run["time"]).mean()
     for name in ("mitral", "aortic"):
         flow, opening = run[name + "_flow"], run[name + "_opening"]
-        moves = run["time"][1:][(opening[1:] > 0) != (opening[:-1] > 0)]
+        moves = run["time"][1:][np.diff(orifices[name].is_open(opening))]
         print(f"{name}: peak {flow.max():.0f} ml/s, {np.clip(flow, 0, None).sum() * step:.1f} ml forward, "
               f"{np.clip(flow, None, 0).sum() * step:.1f} ml back; leaves or reaches the closed state at "
               f"{', '.join(f'{t:.3f}' for t in moves)} s")
@@ -142,8 +143,7 @@ def check(case, mitral, aortic):
 
 def naive(case):
     """The same valves with volumes of the heart without space."""
-    probes = columns(case, "postProcessing/pressures/*/p", ("time", "ventricle"))
-    pressure = probes["ventricle"] * RHO / MMHG
+    pressure = prescribed.pressure_of(case, "ventricle")[:, 1]
     print(f"prescribed volumes, valves that switch: {pressure.min():.0f} to {pressure.max():.0f} mmHg "
           f"in {len(pressure)} steps")
     prescribed.demand(np.abs(pressure).max() > 300, "the prescribed volumes with valves that switch fail by hundreds of mmHg")
