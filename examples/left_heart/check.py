@@ -109,7 +109,7 @@ def keys(least):
 def orifice(case, valve, least):
     """Prints opening, area, leak and displaced volume. The pressure difference of the valve drives the leak and the jet.
 
-    The leak is the flow over the pressure difference while the valve seals. A valve that does not close, with a least opening
+    The leak is the flow over the pressure difference while there is no jet. A valve that does not close, with a least opening
     above 0, has an orifice there, and no leak.
     """
     openings = held(least)
@@ -124,10 +124,10 @@ def orifice(case, valve, least):
     if not ((flow > 0).all() and (difference > 0).all()):
         sys.exit(f"check.py: the {valve} valve has the flows {flow} ml/s at the differences {difference} mmHg")
     leak = flow / difference * (openings[0] == 0)
-    # Less than a tenth of the leak is no orifice.
-    sealed = leak < 1.1 * leak[0]
-    leak[~sealed] = leak[sealed][-1] if sealed.any() else 0
-    area = np.where(sealed, 0, (flow - leak * difference) * ML * np.sqrt(RHO / (2 * difference * MMHG)))
+    # Bands that begin to part let blood creep through. Ten times the leak of the closed valve are a jet.
+    creeps = leak < 10 * leak[0]
+    leak[~creeps] = leak[creeps][-1] if creeps.any() else 0
+    area = np.where(creeps, 0, (flow - leak * difference) * ML * np.sqrt(RHO / (2 * difference * MMHG)))
     print("opening,area,leak,displaced")
     for one in np.unique(np.round(np.concatenate([openings, swept]), 6)):
         print(f"{one:g},{np.interp(one, openings, area):.6g},{np.interp(one, openings, leak):.8g},"

@@ -56,7 +56,10 @@ def atrial_elastance(t):
 
 
 class Orifice(typing.NamedTuple):
-    """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does."""
+    """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does.
+
+    It seals while it leaks less than 1.1 of what it leaks at opening 0.
+    """
 
     openings: np.ndarray
     areas: np.ndarray      # m2
@@ -113,7 +116,7 @@ class Valve:
         pushed = self.pushed()
         if area > 0:
             loss = 0.5 * RHO * (ML / area) ** 2 / MMHG  # mmHg s2/ml2
-            conductance += 1 / (loss * max(abs(self.flow - pushed), 2.0))
+            conductance += 1 / (loss * max(abs(self.flow - pushed), 0.5))
         inertance = INERTANCE[self.name]
         self.flow = ((self.flow + STEP / inertance * (difference + pushed / conductance)) /
                      (1 + STEP / (inertance * conductance)))
@@ -285,7 +288,7 @@ def read_orifice(path):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
     if not (ascend and areas[0] == 0 and openings[0] == 0):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
-    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(areas > 0)[0] - 1])
+    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.1 * leak)[-1]])
 
 
 def main():

@@ -62,6 +62,8 @@ def tables(case, mitral, aortic, beats=3):
           f"pressure {(row['aorta'] - zero_d.PROXIMAL * row['aortic_flow']) * MMHG:.10g};\n")
     volumes = zero_d.at(rows, "volume", phase + times)
     np.savetxt(constant / "zeroDVolume", np.column_stack([times, volumes]), fmt="%.12g")  # for the naive variant
+    for valve in valves:
+        write(f"{valve.name}Closed", f"closed {valve.orifice.rest:g};\n")
     write("startPressure", f"internalField uniform {row['ventricle'] * MMHG / RHO:.10g};\n")
     print(f"starts at {phase:.4f} s of the beat, {row['volume']:.2f} ml, {row['ventricle']:.1f} mmHg")
 
