@@ -22,8 +22,7 @@ from zero_d import ML, MMHG, PERIOD, RHO, foam
 # what the leaflets displace.
 SWEPT, SWEEP = ((0.0, 0.0), (0.06, 0.3), (0.1, 1.0), (0.14, 0.0)), 0.15
 # The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds.
-HELD = (0.0, 0.1, 0.125, 0.15, 0.1625, 0.175, 0.1875, 0.2, 0.2125, 0.225, 0.2375, 0.25, 0.275, 0.3, 0.35, 0.4, 0.5, 0.6, 0.8, 1.0)
-HOLD = 0.03
+HELD, HOLD = (0.0, 0.1, 0.125, *np.arange(0.15, 0.36, 0.0125), 0.4, 0.5, 0.6, 0.8, 1.0), 0.03
 
 failures = []
 
@@ -103,7 +102,7 @@ def keys(least):
     openings = held(least)
     swept = (f"({time:g} {openings[0] + (1 - openings[0]) * share:g})" for time, share in SWEPT)
     holds = (f"({SWEEP + (i + share) * HOLD:.6g} {opening:g})" for i, opening in enumerate(openings) for share in (0.1, 1))
-    print(f"period {PERIOD}; keys ({' '.join((*swept, *holds))});")
+    print(f"period {2 * PERIOD}; keys ({' '.join((*swept, *holds))});")
 
 
 def orifice(case, valve, least):

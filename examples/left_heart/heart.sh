@@ -123,7 +123,7 @@ heart_orifice() {
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
     sed -i 's/constant \(.*\);/table ((0 0) (0.144 0) (0.146 \1));/' "$of_cases/$name/constant/inletPressure" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
-    of_set "$name" system/controlDict endTime 0.75 writeInterval 0.75 &&
+    of_set "$name" system/controlDict endTime 0.9 writeInterval 0.9 &&
     of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" "$least" >"$folder/$1.csv"
 }
 
@@ -196,7 +196,7 @@ heart_refusals() {
     heart_refused "a valve outside the heart" "no cell centre lies within the half thickness" system/fvOptions \
       aortic/placement '{ scale 0.008; translation (0 0 1); }' aortic/calibrate no &&
     heart_zero_d_refuses "no table of openings" "has no column opening" "$of_out/zero_d.csv" "$of_out/aortic.csv" &&
-    sed 's/,[^,]*$/,x/; 2,$s/^\([^,]*,[^,]*\),[^,]*/\1,0/' "$of_out/mitral.csv" >"$of_out/no_leak.csv" &&
+    sed '2,$s/^\([^,]*,[^,]*\),[^,]*/\1,0/' "$of_out/mitral.csv" >"$of_out/no_leak.csv" &&
     heart_zero_d_refuses "a leak of 0" "the leak is 0, and must be positive" "$of_out/no_leak.csv" "$of_out/aortic.csv" &&
     sed '$d' "$of_out/mitral.csv" >"$of_out/short.csv" &&
     heart_zero_d_refuses "no row for the open valve" "openings must ascend from 0 to 1" "$of_out/short.csv" \
