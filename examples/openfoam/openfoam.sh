@@ -38,7 +38,8 @@ openfoam() {
   step "bad input of valves that follow the mesh, and of the angle law" openfoam_follow_refusals
   cat "$of_out/refusals.txt"
   step "marks of 1, 2 and 4 ranks" openfoam_marks
-  of_check marks "$of_cases/marks-1" "$of_cases/marks-2" "$of_cases/marks-4" | tee "$of_out/marks.txt"
+  of_check marks "$of_cases"/marks-{1,2,4} | tee "$of_out/marks.txt"
+  of_check marks "$of_cases"/symmetric-{1,2,4} | tee -a "$of_out/marks.txt"
   step "a steady flow: closed valve, OpenFOAM's porosity, open valve, no valve" openfoam_drops
   of_check drops "$of_cases" | tee "$of_out/drops.txt"
   step "moving valves, with riisSource and without it" openfoam_moving
@@ -62,7 +63,7 @@ openfoam() {
   of_check restart "$of_cases/beat" "$of_cases/beat-restart" "$of_cases/flow" "$of_cases/flow-restart" | tee "$of_out/restart.txt"
   of_check tables "$of_cases/beat" "$of_cases/beat-restart" | tee "$of_out/tables.txt"
   if [[ ${1:-} != --short ]]; then
-    step "two heartbeats at 90 mmHg" openfoam_physiological
+    step "four heartbeats at 90 mmHg (the longest step)" openfoam_physiological
     of_check physiological "$of_cases/physiological" | tee "$of_out/physiological.txt"
   fi
   of_check pictures "$of_cases/beat" "$of_cases/beat-still" "$of_out"
@@ -220,12 +221,12 @@ of_mesh_is_fine() {
   checkMesh -case "$1" -constant | tee "$1/checkMesh.log" && grep -q '^Mesh OK' "$1/checkMesh.log"
 }
 
-# of_case NAME [SIZE]: copies the case and a mesh to $of_cases/NAME.
+# of_case NAME [MESH]: copies the case and the mesh of a folder of $of_work to $of_cases/NAME.
 of_case() {
   local folder=$of_cases/$1
   rm -rf "$folder"
   cp -r "$openfoam_here/case" "$folder" &&
-    cp -r "$of_work/mesh-${2:-$of_size}/constant/polyMesh" "$folder/constant" &&
+    cp -r "$of_work/${2:-mesh-$of_size}/constant/polyMesh" "$folder/constant" &&
     of_set "$1" system/fvOptions aorticValve/halfThickness "$of_half_thickness"
 }
 
@@ -264,12 +265,15 @@ of_logged() {
   return 1
 }
 
-# Runs an opening valve, and writes every step. OpenFOAM also writes the cell centres.
+# Runs an opening valve, and writes every step, in the tetrahedra and in cubes. Two leaflets are equally near to many cubes,
+# because 27 cubes across have centres in planes of symmetry. OpenFOAM also writes the cell centres.
 openfoam_marks() {
-  local ranks name
-  for ranks in 1 2 4; do
-    name=marks-$ranks
-    of_case "$name" &&
+  local ranks name mesh
+  openfoam_hexahedra 27 || return
+  for name in {marks,symmetric}-{1,2,4}; do
+    ranks=${name#*-} mesh=mesh-$of_size
+    [[ $name != symmetric* ]] || mesh=hexahedra-27
+    of_case "$name" "$mesh" &&
       of_set "$name" system/controlDict endTime 0.006 deltaT 1e-3 writeInterval 1 &&
       of_set "$name" system/fvOptions aorticValve/opening \
         '{ law times; openingStart -0.01; openingSeconds 0.04; closingStart 0.1; closingSeconds 0.04; }' &&
@@ -285,7 +289,7 @@ openfoam_marks() {
 # of_constant_flow NAME OPENING [SIZE]: makes a case with a given velocity at the inlet, and a valve that does not move.
 of_constant_flow() {
   local free_outlet='outlet { type zeroGradient; }' fixed_outlet='outlet { type fixedValue; value uniform 0; }'
-  of_case "$1" "${3:-}" &&
+  of_case "$1" "${3:+mesh-$3}" &&
     of_set "$1" 0/U boundaryField "{ inlet { type fixedValue; value uniform (0 0 0.1); } $free_outlet wall { type noSlip; } }" &&
     of_set "$1" 0/p boundaryField "{ inlet { type zeroGradient; } $fixed_outlet wall { type zeroGradient; } }" &&
     of_set "$1" system/controlDict endTime 0.01 deltaT 1e-3 writeInterval 10 &&
@@ -565,7 +569,7 @@ openfoam_beat() {
 
 # Runs the heartbeats at 90 mmHg, in the mesh of --short.
 openfoam_physiological() {
-  openfoam_mesh 0.25 && of_case physiological 0.25 &&
+  openfoam_mesh 0.25 && of_case physiological mesh-0.25 &&
     cp -r "$openfoam_here"/physiological/. "$of_cases/physiological" && of_run physiological 1
 }
 

@@ -398,9 +398,10 @@ static void outer_point(const outer_side *on, double share, double *p) {
 static double outer_share(const outer_side *on, double share) {
   enum { n = 2000 };
   double last[3], p[3], whole = 0, before = 0;
-  for (int i = 0; i <= n; ++i) {
+  outer_point(on, 0, last);
+  for (int i = 1; i <= n; ++i) {
     outer_point(on, i / (double)n, p);
-    const double step = i > 0 ? distance(p, last) : 0;
+    const double step = distance(p, last);
     before += step * fmin(1, fmax(0, share * n - (i - 1)));
     whole += step;
     memcpy(last, p, sizeof p);
