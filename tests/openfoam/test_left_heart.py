@@ -4,6 +4,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 try:
     import numpy as np
@@ -16,9 +17,9 @@ import check  # noqa: E402
 import clinic  # noqa: E402
 import zero_d  # noqa: E402
 
-HEAD = "opening,area,leak,flow,difference\n"
-WELL = HEAD + "0,0,0.03,0.3,12\n0.5,1e-4,0.03,100,12\n1,3e-4,0.03,300,12\n"
-OPEN = HEAD + "0.3,2e-5,0,20,12\n0.5,1e-4,0,100,12\n1,3e-4,0,300,12\n"
+HEAD = "opening,area,leak,displaced\n"
+WELL = HEAD + "0,0,0.03,0\n0.2,0,0.032,1\n0.25,0,0.1,1.25\n0.5,1e-4,0.1,2.5\n1,3e-4,0.1,4\n"
+OPEN = HEAD + "0.3,2e-5,0,0\n0.5,1e-4,0,1\n1,3e-4,0,3\n"
 
 
 def square(n, velocity):
@@ -70,18 +71,32 @@ class Tables(unittest.TestCase):
         self.assertIn(words, str(raised.exception))
 
     def test_orifices(self):
-        self.assertEqual(self.read(WELL)[2:], (0.03, 0))
-        self.assertEqual(self.read(OPEN)[2:], (0, -1))
+        for text, sealed, rest, leak in ((WELL, 0.2, 0.2, 0.032), (OPEN, -1, 0.3, 0)):
+            orifice = self.read(text)
+            self.assertEqual((orifice.sealed, orifice.rest, orifice.leak), (sealed, rest, leak))
+            self.assertFalse(orifice.is_open(sealed))
+            self.assertTrue(orifice.is_open(0.31))
+
+    def test_displaced_volume(self):
+        """Without a pressure difference and inertia, leaflets that open push just the blood that they displace."""
+        valve = zero_d.Valve("aortic", self.read(WELL))
+        valve.opens, valve.turned, pushed = True, 0, 0
+        with unittest.mock.patch.dict(zero_d.INERTANCE, aortic=1e-9):
+            for k in range(round(0.05 / zero_d.STEP)):
+                valve.step(k * zero_d.STEP, 0)
+                pushed += valve.flow * zero_d.STEP
+        self.assertEqual(valve.opening(), 1)
+        self.assertAlmostEqual(pushed, 4 - 1, delta=1e-3)
 
     def test_refusals(self):
         self.refused("a,b\n1,2\n", "has no column opening")
-        self.refused(WELL.replace(",0.03,", ",0,"), "the leak is 0, and must be positive")
+        self.refused(WELL.replace("0,0,0.03,", "0,0,0,"), "the leak is 0, and must be positive")
         self.refused(OPEN.replace("2e-5", "0"), "the leak is 0, and must be positive")
-        self.refused(WELL.replace("0.5,", "1.5,"), "openings must ascend from 0 to 1")
+        self.refused(WELL.replace("\n0.5,", "\n1.5,"), "openings must ascend from 0 to 1")
         self.refused(OPEN.replace("0.3,2e-5,0", "0.3,2e-5,0.03"), "openings must ascend from 0 to 1")
 
     def test_least_opening(self):
-        self.assertEqual(check.held("0.3")[::14], [0.3, 1.0])
+        self.assertEqual([check.held("0.3")[i] for i in (0, -1)], [0.3, 1.0])
         for least in ("-0.1", "1"):
             with self.assertRaises(SystemExit) as raised:
                 check.held(least)
