@@ -58,7 +58,7 @@ def atrial_elastance(t):
 class Orifice(typing.NamedTuple):
     """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does.
 
-    It seals while it leaks less than 1.1 of what it leaks at opening 0.
+    It seals while it leaks less than 1.05 of what it leaks at opening 0.
     """
 
     openings: np.ndarray
@@ -289,7 +289,7 @@ def read_orifice(path):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
     if not (ascend and areas[0] == 0 and openings[0] == 0):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
-    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.1 * leak)[-1]])
+    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.05 * leak)[-1]])
 
 
 def main():
