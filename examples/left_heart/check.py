@@ -20,7 +20,7 @@ from zero_d import ML, MMHG, PERIOD, RHO, foam
 
 # The valve first goes to these shares of the way from the least opening to 1, at these times, without a pressure. The flow tells
 # what the leaflets displace.
-SWEPT, SWEEP = ((0.0, 0.0), (0.06, 0.3), (0.1, 1.0), (0.14, 0.0)), 0.15
+SWEPT, SWEEP = ((0.0, 0.0), (0.08, 0.4), (0.12, 1.0), (0.16, 0.0)), 0.17
 # The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds.
 HELD, HOLD = (0.0, 0.1, 0.125, *np.arange(0.15, 0.36, 0.0125), 0.4, 0.5, 0.6, 0.8, 1.0), 0.03
 
@@ -106,9 +106,9 @@ def keys(least):
 
 
 def orifice(case, valve, least):
-    """Prints opening, area, leak and displaced volume. The pressure difference of the valve drives the leak and the jet.
+    """Prints opening, area, leak, and the volume that the leaflets displace for a change of the opening.
 
-    The leak is the flow over the pressure difference while there is no jet. A valve that does not close, with a least opening
+    The pressure difference drives the leak and the jet. The leak is the flow over the pressure difference while there is no jet. A valve that does not close, with a least opening
     above 0, has an orifice there, and no leak.
     """
     openings = held(least)
@@ -116,8 +116,8 @@ def orifice(case, valve, least):
     flow, difference = ((beat.mitral, beat.atrium - beat.ventricle) if valve == "mitral" else
                         (beat.aortic, beat.ventricle - beat.aorta))
     opens = beat.time < SWEPT[2][0] + 1e-6
-    swept, displaced = (np.concatenate([[first], values[opens]]) for first, values in
-                        ((openings[0], beat.openings[valve]), (0.0, np.cumsum(flow) * (beat.time[1] - beat.time[0]))))
+    swept = beat.openings[valve][opens]
+    displaced = flow[opens] * (beat.time[1] - beat.time[0]) / np.diff(swept, prepend=openings[0])
     ends = [np.argmin(np.abs(beat.time - SWEEP - (i + 1) * HOLD)) for i in range(len(HELD))]
     flow, difference = flow[ends], difference[ends]
     if not ((flow > 0).all() and (difference > 0).all()):
