@@ -108,8 +108,8 @@ def keys(least):
 def orifice(case, valve, least):
     """Prints opening, area, leak, and the volume that the leaflets displace for a change of the opening.
 
-    The pressure difference drives the leak and the jet. The leak is the flow over the pressure difference while there is no jet. A valve that does not close, with a least opening
-    above 0, has an orifice there, and no leak.
+    The pressure difference drives the leak and the jet. The leak is the flow over the pressure difference while there is no jet.
+    A valve that does not close, with a least opening above 0, has an orifice there, and no leak.
     """
     openings = held(least)
     beat = Beat(pathlib.Path(case))

@@ -121,9 +121,9 @@ heart_orifice() {
   [[ ${2:-} != regurgitation ]] || least=$heart_least_opening
   heart_case "$name" "${2:-}" && heart_held "$name" 12 0 &&
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
-    sed -i 's/constant \(.*\);/table ((0 0) (0.144 0) (0.146 \1));/' "$of_cases/$name/constant/inletPressure" &&
+    sed -i 's/constant \(.*\);/table ((0 0) (0.164 0) (0.166 \1));/' "$of_cases/$name/constant/inletPressure" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
-    of_set "$name" system/controlDict endTime 0.9 writeInterval 0.9 &&
+    of_set "$name" system/controlDict endTime 0.92 writeInterval 0.92 &&
     of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" "$least" >"$folder/$1.csv"
 }
 

@@ -58,13 +58,13 @@ def atrial_elastance(t):
 class Orifice(typing.NamedTuple):
     """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does.
 
-    It seals while it leaks less than 1.05 of what it leaks at opening 0.
+    It seals while it leaks less than 1.1 of what it leaks at opening 0.
     """
 
     openings: np.ndarray
     areas: np.ndarray      # m2
     leaks: np.ndarray      # ml/s/mmHg
-    displaced: np.ndarray  # ml, by the leaflets since the least opening
+    displaced: np.ndarray  # ml, by the leaflets for a change of the opening by 1
     sealed: float
 
     @property
@@ -89,21 +89,22 @@ class Valve:
     def __init__(self, name, orifice):
         self.name, self.orifice = name, orifice
         self.flow, self.before, self.progress, self.opens, self.turned = 0.0, 0.0, 0.0, False, -1.0
-        # In space the leaflets lag by half a time step (write_tables), so they also displace blood later.
-        self.displaced = collections.deque([self.displaced_now()] * (1 + round(STEP_IN_SPACE / 2 / STEP)))
+        self.lagged = collections.deque([self.opening()] * (1 + round(STEP_IN_SPACE / 2 / STEP)))
 
     def opening(self):
         rest = self.orifice.rest
         # The leaflets begin and end without acceleration, because the blood that they push between closed valves has no way out.
         return rest + (1 - rest) * self.progress**3 * (10 - 15 * self.progress + 6 * self.progress**2)
 
-    def displaced_now(self):
-        return np.interp(self.opening(), self.orifice.openings, self.orifice.displaced)
-
     def pushed(self):
-        """Returns the flow that the leaflets displace in the step."""
-        self.displaced.append(self.displaced_now())
-        return (self.displaced[1] - self.displaced.popleft()) / STEP
+        """Returns the flow that the leaflets displace in the step.
+
+        In space the openings lag by half a time step (write_tables). The leaflets move there at their place of the step's end,
+        which lies half a step after the middle of their motion.
+        """
+        now = self.opening()
+        self.lagged.append(now)
+        return np.interp(now, self.orifice.openings, self.orifice.displaced) * (self.lagged[1] - self.lagged.popleft()) / STEP
 
     def step(self, t, difference):
         falls = self.flow < min(CLOSE_BELOW, self.before)
@@ -289,7 +290,7 @@ def read_orifice(path):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
     if not (ascend and areas[0] == 0 and openings[0] == 0):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
-    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.05 * leak)[-1]])
+    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.1 * leak)[-1]])
 
 
 def main():
