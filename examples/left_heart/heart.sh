@@ -123,7 +123,7 @@ heart_orifice() {
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
     sed -i 's/constant \(.*\);/table ((0 0) (0.164 0) (0.166 \1));/' "$of_cases/$name/constant/inletPressure" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
-    of_set "$name" system/controlDict endTime 0.92 writeInterval 0.92 &&
+    of_set "$name" system/controlDict endTime 1.13 writeInterval 1.13 &&
     of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" "$least" >"$folder/$1.csv"
 }
 
