@@ -179,9 +179,8 @@ def check_beat(case, model_file, mitral, aortic):
     off = beat.ventricle - model["ventricle"]
     isovolumetric = closed["mitral"] & closed["aortic"] & moved
     if isovolumetric.any():
-        bound = 3 if model["ventricle"].max() < 150 else 5  # the pressure of a stenotic heart rises more steeply
-        demand(np.abs(off[isovolumetric]).max() <= bound, f"isovolumetric pressure: within"
-               f" {np.abs(off[isovolumetric]).max():.2f} mmHg of the heart without space ({bound})")
+        demand(np.abs(off[isovolumetric]).max() <= 3, f"isovolumetric pressure: within"
+               f" {np.abs(off[isovolumetric]).max():.2f} mmHg of the heart without space (3)")
     demand(np.abs(off[moved]).max() <= 30,
            f"pressure in the ventricle: within {np.abs(off[moved]).max():.1f}"
            f" mmHg (30), root mean square {np.sqrt((off[moved]**2).mean()):.1f}")
