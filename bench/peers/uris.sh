@@ -140,7 +140,7 @@ uris_solver() {
     "$python" -B bench/peers/uris_case.py write "$path.msh" "$path.xml" "$case" "$time_step" || return
     (cd "$case" && "$program" solver.xml >log.txt 2>&1) || { tail -n 5 "$case/log.txt" >&2; return 1; }
     expected=$(expected_drop "$path")
-    measured=$("$python" -B bench/peers/uris_case.py drop "$case" "$(leaflets_area "$path")") || return
+    measured=$("$python" -B bench/peers/uris_case.py drop "$case" "$(leaflets_area "$path")" "$expected") || return
     printf '| %s | %s | %s cm | %s | %s | %s ms | %s | %s | %s | %s %% |\n' "$valve" "$elements" "$eps" "$ratio" "$shift" \
       "$(awk "BEGIN { print 1000 * $time_step }")" "$(awk "BEGIN { print $size / $eps }")" "$expected" "$measured" \
       "$(awk "BEGIN { printf \"%.2f\", 100 * ($expected / $measured - 1) }")"

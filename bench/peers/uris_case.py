@@ -2,10 +2,10 @@
 """Writes a case of svMultiPhysics for ./run uris solver, and reads its drop.
 
     uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # makes FOLDER; the working folder is that of `riis export`
-    uris_case.py drop FOLDER AREA                            # prints the drop over (R/eps) u; AREA is that of the leaflets
+    uris_case.py drop FOLDER AREA FORECAST                   # prints the drop over (R/eps) u; AREA is that of the leaflets
 
 duct_of_edge of uris.sh makes the duct. Blood enters at the top and flows down, so the valve stays closed. Units are CGS.
-The drop is refused if it changed by more than a thousandth in the last step.
+The drop is refused if it changed by more than a thousandth in the last step, or differs by more than 3 % from the forecast.
 """
 import collections
 import pathlib
@@ -161,7 +161,7 @@ def last_rows(path):
     return [dict(zip(names, map(float, line[2:]))) for line in lines[-2:]]
 
 
-def drop(folder, area):
+def drop(folder, area, forecast):
     """Prints the difference of the mean pressures at both ends, over (R/eps) u with u of the outlet's flow."""
     folder = pathlib.Path(folder)
     case = (folder / "solver.xml").read_text(encoding="utf-8")
@@ -173,13 +173,15 @@ def drop(folder, area):
     )
     if not abs(last - before) <= 1e-3 * last:
         sys.exit(f"uris_case.py: {results} is not steady: the drop was {before:.4f}, and then {last:.4f}")
+    if not abs(float(forecast) / last - 1) <= 0.03:
+        sys.exit(f"uris_case.py: the forecast is {forecast}, and differs by more than 3 % from the drop in {results}, {last:.4f}")
     print(f"{last:.4f}")
 
 
 if __name__ == "__main__":
     if len(sys.argv) == 6 and sys.argv[1] == "write":
         write(*sys.argv[2:])
-    elif len(sys.argv) == 4 and sys.argv[1] == "drop":
+    elif len(sys.argv) == 5 and sys.argv[1] == "drop":
         drop(*sys.argv[2:])
     else:
         sys.exit(__doc__)

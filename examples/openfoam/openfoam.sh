@@ -265,8 +265,8 @@ of_logged() {
   return 1
 }
 
-# Runs an opening valve, and writes every step, in the tetrahedra and in cubes. Two leaflets are equally near to many cubes,
-# because 27 cubes across have centres in planes of symmetry. OpenFOAM also writes the cell centres.
+# Runs an opening valve in the tetrahedra and in cubes, and writes every step. With 27 cubes across, some centres lie in planes of
+# symmetry, where two leaflets are equally near. OpenFOAM also writes the cell centres.
 openfoam_marks() {
   local ranks name mesh
   openfoam_hexahedra 27 || return

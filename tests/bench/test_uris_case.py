@@ -69,9 +69,9 @@ class UrisCase(unittest.TestCase):
             text = HEAD + "".join(row.format(*each) for each in rows)
             (case / "2-procs" / f"B_NS_{name}.txt").write_text(text, encoding="ascii")
 
-    def drop(self, case, area="8"):
+    def drop(self, case, area="8", forecast="0.75"):
         with contextlib.redirect_stdout(io.StringIO()) as out:
-            uris_case.drop(case, area)
+            uris_case.drop(case, area, forecast)
         return out.getvalue()
 
     def refused(self, text, function, *arguments, **named):
@@ -97,7 +97,14 @@ class UrisCase(unittest.TestCase):
         case = self.write_case()
         self.write_results(case, [90000, 1511, 1510])
         self.assertEqual(self.drop(case), "0.7500\n")
-        self.assertEqual(self.drop(case, "4"), "0.3750\n")
+        self.assertEqual(self.drop(case, "4", "0.37"), "0.3750\n")
+
+    def test_wrong_forecast(self):
+        case = self.write_case()
+        self.write_results(case, [1510, 1510])
+        self.drop(case, forecast="0.772")
+        for forecast in ("0.773", "0.727", "nan"):
+            self.refused(f"the forecast is {forecast}, and differs by more than 3 %", self.drop, case, forecast=forecast)
 
     def test_refusals(self):
         self.refused("has no tetrahedra and no hexahedra", self.write_case, duct=DUCT.replace(" 5 2 1 1", " 3 2 1 1"))
