@@ -32,7 +32,7 @@ E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
 ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
-MOVE = {"mitral": 0.07, "aortic": 0.06}     # s, to open and to close
+MOVE = {"mitral": 0.07, "aortic": 0.05}     # s, to open and to close
 # A valve begins to close when its flow falls below CLOSE_BELOW. Closing at full backflow would stop blood abruptly.
 OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, 60.0, 0.06  # mmHg, ml/s, s
 INERTANCE = {"mitral": 5e-4, "aortic": 9e-4}      # mmHg s2/ml, of the tube and the blood before it
