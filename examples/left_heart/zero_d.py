@@ -26,7 +26,7 @@ import foam_files as foam  # noqa: E402
 
 MMHG, ML, RHO = 133.322, 1e-6, 1060.0  # Pa, m3, kg/m3
 PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
-SYSTOLE, RELAXATION, STEEP = 0.31, 0.12, 0.55  # s, s, -: of the ventricle's activation
+SYSTOLE, RELAXATION, STEEP = 0.31, 0.14, 0.65  # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
 E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
 ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
