@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM."""
+"""Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM.
+
+RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C.
+"""
+import ctypes
+import os
 import pathlib
 import sys
 import tempfile
@@ -126,6 +131,49 @@ class Tables(unittest.TestCase):
             folder.mkdir(parents=True)
             (folder / "surfaceFieldValue.dat").write_text("# Time sum(phi)\n" + rows, encoding="ascii")
         self.assertEqual(check.foam.table(self.folder, "inflow").tolist(), [[1, 10], [2, 20], [3, 31], [4, 41]])
+
+
+class Search(unittest.TestCase):
+    """The search for a volume in blood whose pressure echoes: p = (1 - c) (A - Z q) + c p_before, from trial to trial."""
+
+    INERTANCE, TIME_STEP, ELASTANCE = 7e7, 2e-3, 1.5e8  # Z in Pa s/m3, s, Pa/m3
+
+    def steps(self, echo):
+        """Returns the residual in Pa and the number of trials of each step, and the Z and c that were found."""
+        search = ctypes.CDLL(os.environ["RIIS_VOLUME_SEARCH"])
+        for name in ("begin", "next", "residual", "miss", "slope", "echo"):
+            getattr(search, "search_" + name).restype = ctypes.c_double
+        search.search_new.restype = ctypes.c_void_p
+        number = ctypes.c_double
+        volume, pressure, flow = 120e-6, 1.5e4, 0.0
+        state = ctypes.c_void_p(search.search_new(number(1e7), number(3e9), number(2000), number(volume), number(pressure), 1))
+        rows = []
+        for step in range(100):
+            rest = volume - pressure / self.ELASTANCE if not rows else rest
+            level = pressure + self.INERTANCE * flow - 300 * np.sin(step / 5)
+            before, last = volume, False
+            volume = search.search_begin(state, number(self.TIME_STEP), number(self.ELASTANCE), number(rest))
+            for trial in range(1, 30):
+                flow = (volume - before) / self.TIME_STEP
+                pressure = (1 - echo) * (level - self.INERTANCE * flow) + echo * pressure
+                search.search_measured(state, number(pressure))
+                if last:
+                    break
+                last = search.search_miss(state) < 30
+                volume = search.search_next(state)
+            rows.append((abs(search.search_residual(state)), trial))
+        found = search.search_slope(state), search.search_echo(state)
+        search.search_delete(state)
+        return np.array(rows).T, found
+
+    def test_echo(self):
+        for echo in (0.0, -0.3, -0.64):
+            (residuals, trials), (slope, found) = self.steps(echo)
+            self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
+            self.assertLessEqual(trials[10:].max(), 9, f"echo {echo}")
+            self.assertAlmostEqual(found, echo, delta=0.02)
+            # The second trial of a step does not know the change before, so Z is too large, which is safe.
+            self.assertTrue(0.99 <= slope / self.INERTANCE <= 2, f"echo {echo}: {slope}")
 
 
 if __name__ == "__main__":
