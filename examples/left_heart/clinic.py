@@ -24,9 +24,13 @@ def written(case):
 
 
 def plane(case, time):
-    """Returns y and z of the points in the plane x = 0, the triangles, and the velocities there: (n, 2), (m, 3), (n, 2)."""
+    """Returns y and z of the points in the plane x = 0, the triangles, and the velocities there: (n, 2), (m, 3), (n, 2).
+
+    z is 0 at the base, which descends.
+    """
     points, corners, vectors = foam.triangles(case / "postProcessing/slice" / time / "middle.vtk")
-    return points[:, 1:], corners, vectors[:, 1:]
+    descent = zero_d.Mesh(case).base * check.amplitude(case, float(time))
+    return points[:, 1:] + (0, descent), corners, vectors[:, 1:]
 
 
 def vortex(points, corners, velocity):
@@ -72,7 +76,7 @@ def numbers(case, tables):
     time, mitral, aortic = beat.time[last] - beat.time[first], beat.mitral[last], beat.aortic[last]
     volume = (beat.volume - beat.volume[0] + model["volume"][0])[last]
     ventricle, aorta, atrium = beat.ventricle[last], beat.aorta[last], beat.atrium[last]
-    open_ = {name: beat.openings[name][last] > orifices[name][3] for name in orifices}
+    open_ = {name: orifices[name].is_open(beat.openings[name][last]) for name in orifices}
     ejects = np.flatnonzero(open_["aortic"])
 
     # The run begins at the end of the A wave, so the A wave is what enters after the time KICK_START of the run.
@@ -111,7 +115,7 @@ def numbers(case, tables):
         if at > time[ejects[-1]]:
             swirls.append((*vortex(points, corners, velocity), float(name)))
     swirl = max(swirls, key=lambda row: abs(row[0]))
-    area = orifices["mitral"][1][-1]
+    area = orifices["mitral"].areas[-1]
     return {
         "end-diastolic volume, ml": volume.max(),
         "end-systolic volume, ml": volume.min(),

@@ -90,7 +90,7 @@ heart_mesh() {
       "$heart_here/heart.geo" &&
     heart_held mesh 0 0 &&
     sed -i 's/writeFormat binary/writeFormat ascii/' "$folder/system/controlDict" &&
-    of_from_gmsh "$folder" "$folder/heart.msh" && of_mesh_is_fine "$folder"
+    of_from_gmsh "$folder" "$folder/heart.msh" && of_mesh_is_fine "$folder" && topoSet -case "$folder"
 }
 
 # heart_case NAME [DISEASE]: copies the case and its mesh to $of_cases/NAME. With stenosis the cusps of the aortic valve are
@@ -112,16 +112,18 @@ heart_held() {
   for valve in mitral aortic; do echo 'period 0.8; keys ((0 0) (0.4 0));' >"$constant/${valve}Keys"; done
 }
 
-# heart_orifice VALVE [DISEASE]: the heart stands still between 12 and 0 mmHg, with the other valve open. The valve takes one
-# opening after the other. The flow and the pressures give the area that each opening leaves, and the leak of the closed valve.
+# heart_orifice VALVE [DISEASE]: the heart stands still, with the other valve open. The valve first opens without a pressure, and
+# the flow is what its leaflets displace. Then it takes one opening after the other between 12 and 0 mmHg. The flow and the
+# pressures give the area that each opening leaves, and the leak of the closed valve.
 heart_orifice() {
   local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic
   [[ ${2:-} != regurgitation ]] || least=$heart_least_opening
   heart_case "$name" "${2:-}" && heart_held "$name" 12 0 &&
     heart_python check.py keys "$least" >"$of_cases/$name/constant/$1Keys" &&
+    sed -i 's/constant \(.*\);/table ((0 0) (0.164 0) (0.166 \1));/' "$of_cases/$name/constant/inletPressure" &&
     echo 'period 0.8; keys ((0 1) (0.4 1));' >"$of_cases/$name/constant/${other}Keys" &&
-    of_set "$name" system/controlDict endTime 0.45 writeInterval 0.45 &&
+    of_set "$name" system/controlDict endTime 1.13 writeInterval 1.13 &&
     of_run "$name" 1 && heart_python check.py orifice "$of_cases/$name" "$1" "$least" >"$folder/$1.csv"
 }
 
@@ -194,7 +196,7 @@ heart_refusals() {
     heart_refused "a valve outside the heart" "no cell centre lies within the half thickness" system/fvOptions \
       aortic/placement '{ scale 0.008; translation (0 0 1); }' aortic/calibrate no &&
     heart_zero_d_refuses "no table of openings" "has no column opening" "$of_out/zero_d.csv" "$of_out/aortic.csv" &&
-    sed 's/,[^,]*$/,x/; 2,$s/^\([^,]*,[^,]*\),[^,]*/\1,0/' "$of_out/mitral.csv" >"$of_out/no_leak.csv" &&
+    sed '2,$s/^\([^,]*,[^,]*\),[^,]*/\1,0/' "$of_out/mitral.csv" >"$of_out/no_leak.csv" &&
     heart_zero_d_refuses "a leak of 0" "the leak is 0, and must be positive" "$of_out/no_leak.csv" "$of_out/aortic.csv" &&
     sed '$d' "$of_out/mitral.csv" >"$of_out/short.csv" &&
     heart_zero_d_refuses "no row for the open valve" "openings must ascend from 0 to 1" "$of_out/short.csv" \

@@ -4,18 +4,20 @@
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
 
 The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before it, and a windkessel lies
-behind it. The tables have the leak of each closed valve, and the area that each opening leaves to the flow. check.py orifice
-measures both in the mesh, so the isovolumetric phases have the same lengths as in space. A few milliseconds more or less would
-cost hundreds of mmHg there, because blood is incompressible.
+behind it. The tables have the leak of each closed valve, the area that each opening leaves to the flow, and the volume that
+the leaflets displace on their way. check.py orifice measures them in the mesh, so the isovolumetric phases have the same lengths
+as in space. A few milliseconds more or less would cost hundreds of mmHg there, because blood is incompressible.
 
 The model runs until its beats repeat. The case's tables begin after the A wave, when the blood in the closing mitral valve is
 at rest, as is the blood of the case.
 """
 import argparse
+import collections
 import csv
 import math
 import pathlib
 import sys
+import typing
 
 import numpy as np
 
@@ -24,13 +26,13 @@ import foam_files as foam  # noqa: E402
 
 MMHG, ML, RHO = 133.322, 1e-6, 1060.0  # Pa, m3, kg/m3
 PERIOD, STEP, STEP_IN_SPACE = 0.8, 5e-5, 2e-3  # s
-SYSTOLE, RELAXATION, STEEP = 0.31, 0.12, 0.55  # s, s, -: of the ventricle's activation
+SYSTOLE, RELAXATION, STEEP = 0.31, 0.14, 0.65  # s, s, -: of the ventricle's activation
 KICK_START, KICK = 0.60, 0.17               # s, of the atrium's activation
 E_MIN, E_MAX, V_0 = 0.055, 2.2, 6.0         # mmHg/ml, mmHg/ml, ml
 ATRIUM_MIN, ATRIUM_KICK, ATRIUM_V_0 = 0.17, 0.13, 5.0  # mmHg/ml, mmHg/ml, ml
 VEIN_PRESSURE, VEIN_RESISTANCE = 12.0, 0.045           # mmHg, mmHg s/ml
 PROXIMAL, DISTAL, COMPLIANCE = 0.05, 1.05, 1.4         # mmHg s/ml, ml/mmHg
-MOVE = {"mitral": 0.06, "aortic": 0.04}     # s, to open and to close
+MOVE = {"mitral": 0.07, "aortic": 0.05}     # s, to open and to close
 # A valve begins to close when its flow falls below CLOSE_BELOW. Closing at full backflow would stop blood abruptly.
 OPEN_ABOVE, CLOSE_BELOW, DWELL = 2.0, 60.0, 0.06  # mmHg, ml/s, s
 INERTANCE = {"mitral": 5e-4, "aortic": 9e-4}      # mmHg s2/ml, of the tube and the blood before it
@@ -53,17 +55,56 @@ def atrial_elastance(t):
     return ATRIUM_MIN + (ATRIUM_KICK * math.sin(math.pi * phase) ** 2 if phase < 1 else 0)
 
 
+class Orifice(typing.NamedTuple):
+    """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does.
+
+    It seals while it leaks less than 1.1 of what it leaks at opening 0.
+    """
+
+    openings: np.ndarray
+    areas: np.ndarray      # m2
+    leaks: np.ndarray      # ml/s/mmHg
+    displaced: np.ndarray  # ml, by the leaflets for a change of the opening by 1
+    sealed: float
+
+    @property
+    def rest(self):
+        """The opening of the closed valve. The bands just touch, so leaflets that open hardly push blood before they part."""
+        return max(self.sealed, self.openings[0])
+
+    @property
+    def leak(self):
+        return np.interp(self.rest, self.openings, self.leaks)
+
+    def is_open(self, opening):
+        return opening > self.sealed + 1e-6
+
+
 class Valve:
-    """Flow L dQ/dt = dp - Q |Q| rho / (2 A^2) beside the leak, with the effective area A of the opening."""
+    """Flow Q with L dQ/dt = dp - q |q| rho / (2 A^2) beside the leak, with the effective area A of the opening.
+
+    q is the flow past the leaflets. Q also has the volume that the leaflets displace.
+    """
 
     def __init__(self, name, orifice):
-        self.name = name
-        self.openings, self.areas, self.leak, self.sealed = orifice
+        self.name, self.orifice = name, orifice
         self.flow, self.before, self.progress, self.opens, self.turned = 0.0, 0.0, 0.0, False, -1.0
+        self.lagged = collections.deque([self.opening()] * (1 + round(STEP_IN_SPACE / 2 / STEP)))
 
     def opening(self):
-        least = self.openings[0]
-        return least + (1 - least) * self.progress**2 * (3 - 2 * self.progress)
+        rest = self.orifice.rest
+        # The leaflets begin and end without acceleration, because the blood that they push between closed valves has no way out.
+        return rest + (1 - rest) * self.progress**3 * (10 - 15 * self.progress + 6 * self.progress**2)
+
+    def pushed(self):
+        """Returns the flow that the leaflets displace in the step.
+
+        In space the openings lag by half a time step (write_tables). The leaflets move there at their place of the step's end,
+        which lies half a step after the middle of their motion.
+        """
+        now = self.opening()
+        self.lagged.append(now)
+        return np.interp(now, self.orifice.openings, self.orifice.displaced) * (self.lagged[1] - self.lagged.popleft()) / STEP
 
     def step(self, t, difference):
         falls = self.flow < min(CLOSE_BELOW, self.before)
@@ -72,13 +113,15 @@ class Valve:
             self.opens, self.turned = not self.opens, t
         change = STEP / MOVE[self.name]
         self.progress = min(1.0, max(0.0, self.progress + (change if self.opens else -change)))
-        area = np.interp(self.opening(), self.openings, self.areas)
-        conductance = self.leak
+        area, conductance = (np.interp(self.opening(), self.orifice.openings, values)
+                             for values in (self.orifice.areas, self.orifice.leaks))
+        pushed = self.pushed()
         if area > 0:
             loss = 0.5 * RHO * (ML / area) ** 2 / MMHG  # mmHg s2/ml2
-            conductance += 1 / (loss * max(abs(self.flow), 2.0))
+            conductance += 1 / (loss * max(abs(self.flow - pushed), 0.5))
         inertance = INERTANCE[self.name]
-        self.flow = (self.flow + STEP / inertance * difference) / (1 + STEP / (inertance * conductance))
+        self.flow = ((self.flow + STEP / inertance * (difference + pushed / conductance)) /
+                     (1 + STEP / (inertance * conductance)))
 
 
 REPEATS = 2e-3  # ml
@@ -124,7 +167,7 @@ def report(rows, valves, out=sys.stdout):
     col = {name: rows[:, i] for i, name in enumerate(COLUMNS)}
     e_wave = col["mitral_flow"][(col["time"] > SYSTOLE) & (col["time"] < KICK_START)].max()
     a_wave = col["mitral_flow"][col["time"] > KICK_START].max()
-    both = (col["mitral_opening"] > valves[0].sealed) & (col["aortic_opening"] > valves[1].sealed)
+    both = valves[0].orifice.is_open(col["mitral_opening"]) & valves[1].orifice.is_open(col["aortic_opening"])
     stroke = col["volume"].max() - col["volume"].min()
     print(f"0D: {col['volume'].max():.1f} to {col['volume'].min():.1f} ml, ejection fraction {stroke / col['volume'].max():.2f}, "
           f"ventricle {col['ventricle'].min():.1f} to {col['ventricle'].max():.1f} mmHg, "
@@ -157,11 +200,11 @@ class Mesh:
         self.outer = triangles(folder / "faces")[len(foam.labels(folder / "neighbour")):]
         text = foam.text(case / "constant" / "dynamicMeshDict")
         words = text.replace(";", " ").split()
-        self.length, self.ramp, self.radial, self.axial = (float(words[words.index(key) + 1])
-                                                           for key in ("length", "ramp", "radial", "axial"))
+        self.length, self.ramp, self.radial, self.axial, self.base = (
+            float(words[words.index(key) + 1]) for key in ("length", "ramp", "radial", "axial", "base"))
 
     def moved(self, amplitude):
-        """Does what beatMotion.C does."""
+        """Does what beatMotion.C does, but the base stays. Its descent changes no volume."""
         x = self.points.copy()
         below = x[:, 2] < 0
         depth = np.minimum(1, -x[below, 2] / (self.length * self.ramp))
@@ -228,26 +271,26 @@ def write_tables(case, rows, n_beats):
 
 
 def read_orifice(path):
-    """Returns openings, areas in m2, the leak in ml/s/mmHg, and the largest opening without an area.
+    """Returns the table of a valve, by check.py orifice.
 
-    The table of a valve that does not close begins with an opening above 0, which leaves an area. Then the leak is 0, and the
-    largest opening without an area is -1.
+    The table of a valve that does not close begins with an opening above 0, which leaves an area. Then the leak is 0.
     """
     with open(path, encoding="ascii") as file:
         rows = list(csv.DictReader(file))
-    for column in ("opening", "area", "leak"):
+    columns = ("opening", "area", "leak", "displaced")
+    for column in columns:
         if not rows or column not in rows[0]:
             sys.exit(f"zero_d.py: {path} has no column {column}; make it by check.py orifice")
-    openings, areas = (np.array([float(row[column]) for row in rows]) for column in ("opening", "area"))
-    leak = float(rows[0]["leak"])
+    openings, areas, leaks, displaced = (np.array([float(row[column]) for row in rows]) for column in columns)
+    leak = leaks[0]
     ascend = np.isfinite(areas).all() and areas[-1] > 0 and openings[-1] == 1 and (np.diff(openings) > 0).all()
     if ascend and openings[0] > 0 and areas[0] > 0 and leak == 0:
-        return openings, areas, leak, -1.0
-    if not (leak > 0 and math.isfinite(leak)):
+        return Orifice(openings, areas, leaks, displaced, -1.0)
+    if not (leak > 0 and np.isfinite(leaks).all()):
         sys.exit(f"zero_d.py: {path}: the leak is {leak:g}, and must be positive")
     if not (ascend and areas[0] == 0 and openings[0] == 0):
         sys.exit(f"zero_d.py: {path}: openings must ascend from 0 to 1, and areas must begin with 0 and end with a positive one")
-    return openings, areas, leak, openings[np.flatnonzero(areas > 0)[0] - 1]
+    return Orifice(openings, areas, leaks, displaced, openings[np.flatnonzero(leaks < 1.1 * leak)[-1]])
 
 
 def main():

@@ -1,9 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM."""
+"""Tests the numbers and the refusals of examples/left_heart on invented flows and tables, without OpenFOAM.
+
+RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C.
+"""
+import ctypes
+import os
 import pathlib
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 try:
     import numpy as np
@@ -16,9 +22,9 @@ import check  # noqa: E402
 import clinic  # noqa: E402
 import zero_d  # noqa: E402
 
-HEAD = "opening,area,leak,flow,difference\n"
-WELL = HEAD + "0,0,0.03,0.3,12\n0.5,1e-4,0.03,100,12\n1,3e-4,0.03,300,12\n"
-OPEN = HEAD + "0.3,2e-5,0,20,12\n0.5,1e-4,0,100,12\n1,3e-4,0,300,12\n"
+HEAD = "opening,area,leak,displaced\n"
+WELL = HEAD + "0,0,0.03,2\n0.2,0,0.032,3\n0.25,0,0.1,3.25\n0.5,1e-4,0.1,4.5\n1,3e-4,0.1,7\n"
+OPEN = HEAD + "0.3,2e-5,0,5\n0.5,1e-4,0,5\n1,3e-4,0,5\n"
 
 
 def square(n, velocity):
@@ -70,18 +76,40 @@ class Tables(unittest.TestCase):
         self.assertIn(words, str(raised.exception))
 
     def test_orifices(self):
-        self.assertEqual(self.read(WELL)[2:], (0.03, 0))
-        self.assertEqual(self.read(OPEN)[2:], (0, -1))
+        for text, sealed, rest, leak in ((WELL, 0.2, 0.2, 0.032), (OPEN, -1, 0.3, 0)):
+            orifice = self.read(text)
+            self.assertEqual((orifice.sealed, orifice.rest, orifice.leak), (sealed, rest, leak))
+            self.assertFalse(orifice.is_open(sealed))
+            self.assertTrue(orifice.is_open(0.31))
+
+    def test_displaced_volume(self):
+        """Without a pressure difference and inertia, leaflets that open push the blood that they displace in the steps in space.
+
+        In each step they move at the place of the step's end, and half a step later than in the heart without space.
+        """
+        orifice = self.read(WELL)
+        valve = zero_d.Valve("aortic", orifice)
+        valve.opens, valve.turned, pushed, openings = True, 0, 0, [valve.opening()]
+        with unittest.mock.patch.dict(zero_d.INERTANCE, aortic=1e-9):
+            for k in range(round(0.05 / zero_d.STEP)):
+                valve.step(k * zero_d.STEP, 0)
+                pushed += valve.flow * zero_d.STEP
+                openings.append(valve.opening())
+        self.assertEqual(openings[-1], 1)
+        in_space = np.interp(np.arange(26) * zero_d.STEP_IN_SPACE - zero_d.STEP_IN_SPACE / 2,
+                             np.arange(len(openings)) * zero_d.STEP, openings)
+        displaced = np.interp(in_space[1:], orifice.openings, orifice.displaced) @ np.diff(in_space)
+        self.assertAlmostEqual(pushed, displaced, delta=1e-2)  # 4.0 without the place of the end
 
     def test_refusals(self):
         self.refused("a,b\n1,2\n", "has no column opening")
-        self.refused(WELL.replace(",0.03,", ",0,"), "the leak is 0, and must be positive")
+        self.refused(WELL.replace("0,0,0.03,", "0,0,0,"), "the leak is 0, and must be positive")
         self.refused(OPEN.replace("2e-5", "0"), "the leak is 0, and must be positive")
-        self.refused(WELL.replace("0.5,", "1.5,"), "openings must ascend from 0 to 1")
+        self.refused(WELL.replace("\n0.5,", "\n1.5,"), "openings must ascend from 0 to 1")
         self.refused(OPEN.replace("0.3,2e-5,0", "0.3,2e-5,0.03"), "openings must ascend from 0 to 1")
 
     def test_least_opening(self):
-        self.assertEqual(check.held("0.3")[::14], [0.3, 1.0])
+        self.assertEqual([check.held("0.3")[i] for i in (0, -1)], [0.3, 1.0])
         for least in ("-0.1", "1"):
             with self.assertRaises(SystemExit) as raised:
                 check.held(least)
@@ -103,6 +131,49 @@ class Tables(unittest.TestCase):
             folder.mkdir(parents=True)
             (folder / "surfaceFieldValue.dat").write_text("# Time sum(phi)\n" + rows, encoding="ascii")
         self.assertEqual(check.foam.table(self.folder, "inflow").tolist(), [[1, 10], [2, 20], [3, 31], [4, 41]])
+
+
+class Search(unittest.TestCase):
+    """The search for a volume in blood whose pressure echoes: p = (1 - c) (A - Z q) + c p_before, from trial to trial."""
+
+    INERTANCE, TIME_STEP, ELASTANCE = 7e7, 2e-3, 1.5e8  # Z in Pa s/m3, s, Pa/m3
+
+    def steps(self, echo):
+        """Returns the residual in Pa and the number of trials of each step, and the Z and c that were found."""
+        search = ctypes.CDLL(os.environ["RIIS_VOLUME_SEARCH"])
+        for name in ("begin", "next", "residual", "miss", "slope", "echo"):
+            getattr(search, "search_" + name).restype = ctypes.c_double
+        search.search_new.restype = ctypes.c_void_p
+        number = ctypes.c_double
+        volume, pressure, flow = 120e-6, 1.5e4, 0.0
+        state = ctypes.c_void_p(search.search_new(number(1e7), number(3e9), number(2000), number(volume), number(pressure), 1))
+        rows = []
+        for step in range(100):
+            rest = volume - pressure / self.ELASTANCE if not rows else rest
+            level = pressure + self.INERTANCE * flow - 300 * np.sin(step / 5)
+            before, last = volume, False
+            volume = search.search_begin(state, number(self.TIME_STEP), number(self.ELASTANCE), number(rest))
+            for trial in range(1, 30):
+                flow = (volume - before) / self.TIME_STEP
+                pressure = (1 - echo) * (level - self.INERTANCE * flow) + echo * pressure
+                search.search_measured(state, number(pressure))
+                if last:
+                    break
+                last = search.search_miss(state) < 30
+                volume = search.search_next(state)
+            rows.append((abs(search.search_residual(state)), trial))
+        found = search.search_slope(state), search.search_echo(state)
+        search.search_delete(state)
+        return np.array(rows).T, found
+
+    def test_echo(self):
+        for echo in (0.0, -0.3, -0.64):
+            (residuals, trials), (slope, found) = self.steps(echo)
+            self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
+            self.assertLessEqual(trials[10:].max(), 9, f"echo {echo}")
+            self.assertAlmostEqual(found, echo, delta=0.02)
+            # The second trial of a step does not know the change before, so Z is too large, which is safe.
+            self.assertTrue(0.99 <= slope / self.INERTANCE <= 2, f"echo {echo}: {slope}")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ heart_coupled() {
   step "a beat of the coupled heart" heart_run coupled
   heart_python coupled/coupled.py check "$of_cases/coupled" "$of_out/mitral.csv" "$of_out/aortic.csv" | tee "$of_out/coupled.txt"
   step "prescribed volumes with valves that switch" heart_naive
-  heart_python coupled/coupled.py naive "$of_cases/naive" | tee "$of_out/coupled_naive.txt"
+  heart_python coupled/coupled.py naive "$of_cases/naive" "$of_cases/coupled" | tee "$of_out/coupled_naive.txt"
   step "20 steps on 2 ranks, and a restart" heart_coupled_ranks
   heart_python coupled/coupled.py ranks "$of_cases/coupled" "$of_cases/coupled-2" | tee "$of_out/coupled_ranks.txt"
   heart_python coupled/coupled.py restart "$of_cases/coupled" "$of_cases/coupled-restart" | tee -a "$of_out/coupled_ranks.txt"

@@ -97,7 +97,8 @@ class elastanceMotion : public points0MotionSolver {
     state_.add("flow", search_.flow);
     state_.add("pressure", search_.pressure);
     state_.add("slope", search_.slope);
-    state_.add("weight", search_.weight);
+    state_.add("echo", search_.echo);
+    state_.add("fit", FixedList<scalar, 5>(search_.fit));
     state_.add("drift", search_.drift);
     state_.add("surprise", search_.largestSurprise());
     state_.add("amplitude", amplitude_);
@@ -149,7 +150,11 @@ class elastanceMotion : public points0MotionSolver {
     search_.flow = kept("flow", 0);
     search_.pressure = kept("pressure", elastanceAt(mesh.time().value()) * (rest_ - unstressed_));
     search_.slope = kept("slope", search_.largestSlope);
-    search_.weight = kept("weight", 0);
+    search_.echo = kept("echo", 0);
+    if (found) {
+      const auto fit = state_.get<FixedList<scalar, 5>>("fit");
+      std::copy(fit.begin(), fit.end(), search_.fit);
+    }
     search_.drift = kept("drift", 0);
     search_.surprise = kept("surprise", 0);
     amplitude_ = kept("amplitude", 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for Python: study.py tries it in a heart without space.
+// The search for Python: study.py tries it in a heart without space, and tests/openfoam/test_left_heart.py in invented blood.
 #include "volumeSearch.H"
 
 extern "C" {
@@ -24,4 +24,5 @@ double search_next(volumeSearch *search) { return search->next(); }
 double search_residual(const volumeSearch *search) { return search->residual(); }
 double search_miss(const volumeSearch *search) { return search->miss(); }
 double search_slope(const volumeSearch *search) { return search->slope; }
+double search_echo(const volumeSearch *search) { return search->echo; }
 }

@@ -14,7 +14,7 @@ void riisValve::readLaw(const dictionary &dict) {
     law_ = Law::time;
   } else if (name == "switch") {
     refuseOthers(dict, {"law", "openingSeconds", "closingSeconds", "openAbove", "closeBelow", "filterSeconds",
-                        "dwellSeconds", "upstream", "downstream", "flowPatch", "forward"});
+                        "dwellSeconds", "closed", "upstream", "downstream", "flowPatch", "forward"});
     law_ = Law::pressure;
     check(riis_opening_switch_init(&switch_, sizeof switch_));
     switch_.opening_duration = dict.get<scalar>("openingSeconds");
@@ -23,6 +23,11 @@ void riisValve::readLaw(const dictionary &dict) {
     switch_.close_below = dict.getOrDefault<scalar>("closeBelow", switch_.close_below);
     switch_.filter_time = dict.getOrDefault<scalar>("filterSeconds", switch_.filter_time);
     switch_.dwell_time = dict.getOrDefault<scalar>("dwellSeconds", switch_.dwell_time);
+    closed_ = dict.getOrDefault<scalar>("closed", 0);
+    if (!(closed_ >= 0 && closed_ < 1)) {
+      FatalIOErrorInFunction(dict) << "closed is " << closed_ << ", and must be at least 0 and below 1"
+                                   << exit(FatalIOError);
+    }
     riis_opening_switch_state state;
     check(riis_opening_switch_state_init(&state, sizeof state));
     check(riis_opening_switch_advance(&switch_, &state, 0, 0, 0, &state), dict);
@@ -100,7 +105,6 @@ void riisValve::restartLaw(bool found) {
       switchState_.time = start;
       if (found) {
         switchState_.time = state_.get<scalar>("time");
-        switchState_.opening = opening_;
         switchState_.rate = state_.get<scalar>("rate");
         switchState_.progress = state_.get<scalar>("progress");
         switchState_.phase = state_.get<label>("phase");
@@ -109,7 +113,7 @@ void riisValve::restartLaw(bool found) {
         state_.readIfPresent("flow", switchState_.flow);
         state_.readIfPresent("turnTime", switchState_.turn_time);
       }
-      opening_ = switchState_.opening;
+      if (!found) opening_ = closed_;
       break;
     case Law::angle:
       check(riis_opening_angle_state_init(&angleState_, sizeof angleState_));
@@ -180,7 +184,7 @@ scalar riisValve::openingAt(scalar time, Ostream &report) {
     if (mag(exact - time) < 1e-6 * dt) time = exact;
     if (law_ == Law::pressure) {
       check(riis_opening_switch_advance(&switch_, &switchState_, time, difference, volume, &switchState_));
-      opening = switchState_.opening;
+      opening = closed_ + (1 - closed_) * switchState_.opening;
     } else {
       check(riis_opening_angle_advance(&angle_, &angleState_, time, difference, volume, &angleState_));
       opening = angleState_.opening;
