@@ -147,9 +147,8 @@ class Search(unittest.TestCase):
         number = ctypes.c_double
         volume, pressure, flow = 120e-6, 1.5e4, 0.0
         state = ctypes.c_void_p(search.search_new(number(1e7), number(3e9), number(2000), number(volume), number(pressure), 1))
-        rows = []
+        rest, rows = volume - pressure / self.ELASTANCE, []
         for step in range(100):
-            rest = volume - pressure / self.ELASTANCE if not rows else rest
             level = pressure + self.INERTANCE * flow - 300 * np.sin(step / 5)
             before, last = volume, False
             volume = search.search_begin(state, number(self.TIME_STEP), number(self.ELASTANCE), number(rest))
