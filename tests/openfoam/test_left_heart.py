@@ -3,7 +3,6 @@
 
 RIIS_VOLUME_SEARCH is the library of examples/left_heart/coupled/volumeSearch.C.
 """
-import ctypes
 import os
 import pathlib
 import sys
@@ -17,9 +16,10 @@ except ImportError:
     print("skipped: there is no numpy")
     sys.exit(77)
 
-sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "examples/left_heart"))
+sys.path[:0] = [str(pathlib.Path(__file__).parents[2] / "examples/left_heart" / part) for part in ("", "coupled")]
 import check  # noqa: E402
 import clinic  # noqa: E402
+import study  # noqa: E402
 import zero_d  # noqa: E402
 
 HEAD = "opening,area,leak,displaced\n"
@@ -140,22 +140,18 @@ class Search(unittest.TestCase):
 
     def steps(self, echo):
         """Returns the residual in Pa and the number of trials of each step, and the Z and c that were found."""
-        search = ctypes.CDLL(os.environ["RIIS_VOLUME_SEARCH"])
-        for name in ("begin", "next", "residual", "miss", "slope", "echo"):
-            getattr(search, "search_" + name).restype = ctypes.c_double
-        search.search_new.restype = ctypes.c_void_p
-        number = ctypes.c_double
+        search = study.library(os.environ["RIIS_VOLUME_SEARCH"])
         volume, pressure, flow = 120e-6, 1.5e4, 0.0
-        state = ctypes.c_void_p(search.search_new(number(1e7), number(3e9), number(2000), number(volume), number(pressure), 1))
+        state = search.search_new(1e7, 3e9, 2000, volume, pressure, 1)
         rest, rows = volume - pressure / self.ELASTANCE, []
         for step in range(100):
             level = pressure + self.INERTANCE * flow - 300 * np.sin(step / 5)
             before, last = volume, False
-            volume = search.search_begin(state, number(self.TIME_STEP), number(self.ELASTANCE), number(rest))
+            volume = search.search_begin(state, self.TIME_STEP, self.ELASTANCE, rest)
             for trial in range(1, 30):
                 flow = (volume - before) / self.TIME_STEP
                 pressure = (1 - echo) * (level - self.INERTANCE * flow) + echo * pressure
-                search.search_measured(state, number(pressure))
+                search.search_measured(state, pressure)
                 if last:
                     break
                 last = search.search_miss(state) < 30

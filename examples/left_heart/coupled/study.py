@@ -92,7 +92,8 @@ def library(path):
     search = ctypes.CDLL(path)
     search.search_new.restype = ctypes.c_void_p
     search.search_new.argtypes = [ctypes.c_double] * 5 + [ctypes.c_int]
-    for name, arguments in (("begin", 3), ("measured", 1), ("next", 0), ("residual", 0), ("miss", 0), ("slope", 0)):
+    for name, arguments in (("begin", 3), ("measured", 1), ("next", 0), ("residual", 0), ("miss", 0), ("slope", 0),
+                            ("echo", 0)):
         function = getattr(search, "search_" + name)
         function.restype = ctypes.c_double
         function.argtypes = [ctypes.c_void_p] + [ctypes.c_double] * arguments
@@ -172,4 +173,5 @@ def main():
               f"{min(found):.0f} to {max(found):.0f} mmHg")
 
 
-main()
+if __name__ == "__main__":
+    main()
