@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 
 namespace bench {
 namespace {
@@ -12,6 +13,23 @@ double milliseconds_of(const Contest::Work &work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Waits until only the calling thread runs, at most a second. OpenMP's threads spin for some milliseconds after a loop, and would
+// take processors from the next contender. The calling thread stays awake: if it slept, Linux would often wake a further thread of
+// the next loop on the calling thread's own processor.
+void wait_for_other_threads() {
+  using std::chrono::steady_clock;
+  constexpr double share = 0.1;  // of a processor, which the other threads may use
+  const auto seconds_since = [](steady_clock::time_point start) {
+    return std::chrono::duration<double>(steady_clock::now() - start).count();
+  };
+  for (const auto start = steady_clock::now(); seconds_since(start) < 1;) {
+    const std::clock_t used = std::clock();
+    const auto from = steady_clock::now();
+    while (seconds_since(from) < 1e-3) continue;
+    if (static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC < (1 + share) * seconds_since(from)) return;
+  }
 }
 
 double least_of(const std::vector<double> &values) { return *std::min_element(values.begin(), values.end()); }
@@ -39,6 +57,7 @@ void Contest::run() {
     for (const Contender &contender : contenders_) {
       // If a contender has fewer turns, they are spread over the whole run.
       if (turn * contender.n_turns / most == (turn + 1) * contender.n_turns / most) continue;
+      wait_for_other_threads();
       contender.before();
       times_[contender.name].push_back(milliseconds_of(contender.work));
     }

@@ -61,7 +61,7 @@ static void a_long_wait_chooses_a_team(void **state) {
 
 /* Times are in milliseconds here. */
 static int takes_team_at(double now, int n_loops, const double *waited, const double *ended) {
-  int64_t times[2][8] = {{0}};
+  int64_t times[2][40] = {{0}};
   for (int i = 0; i < n_loops; ++i) {
     times[0][i] = (int64_t)(1e6 * waited[i]);
     times[1][i] = (int64_t)(1e6 * ended[i]);
@@ -72,24 +72,38 @@ static int takes_team_at(double now, int n_loops, const double *waited, const do
 static void the_choice_lasts_for_a_while(void **state) {
   (void)state;
   const double brief[] = {1.9}, waits[8] = {10, 5, 5, 5, 5, 5, 5, 5};
-  const double ended[] = {100, 400, 1000, 20000};
+  const double ended[] = {100, 400, 1000};
   assert_false(takes_team_at(1, 0, NULL, NULL));
   assert_false(takes_team_at(101, 1, brief, ended)); /* blocks of unequal length */
   assert_true(takes_team_at(101, 1, waits, ended));
   assert_true(takes_team_at(349, 1, waits, ended));
   assert_false(takes_team_at(351, 1, waits, ended));
-  /* The second wait comes soon after the pause, so the next pause is twice as long. */
+  /* The second wait comes in the first loop after the pause, so the next pause is twice as long. */
   assert_true(takes_team_at(899, 2, waits, ended));
   assert_false(takes_team_at(901, 2, waits, ended));
   assert_true(takes_team_at(1999, 3, waits, ended));
   assert_false(takes_team_at(2001, 3, waits, ended));
-  /* After a calm time the pause is short again. */
-  assert_true(takes_team_at(20249, 4, waits, ended));
-  assert_false(takes_team_at(20251, 4, waits, ended));
-  /* No pause is longer than 8 s. */
-  const double ends[8] = {0, 300, 900, 2000, 4100, 8200, 16300, 24400};
-  assert_true(takes_team_at(32399, 8, waits, ends));
-  assert_false(takes_team_at(32401, 8, waits, ends));
+  /* No pause is longer than 2 s. */
+  const double ends[8] = {0, 300, 900, 2000, 4100, 6200, 8300, 10400};
+  assert_true(takes_team_at(12399, 8, waits, ends));
+  assert_false(takes_team_at(12401, 8, waits, ends));
+}
+
+/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait, and a loop that waits ends at 1000. */
+static int takes_team_after_calm(double now, int n_calm) {
+  double waits[40] = {10, 5}, ended[40] = {100, 400};
+  for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;
+  waits[2 + n_calm] = 5;
+  return takes_team_at(now, 3 + n_calm, waits, ended);
+}
+
+/* On a quiet machine, too, a loop now and then waits long. */
+static void rare_waits_do_not_prolong_the_choice(void **state) {
+  (void)state;
+  assert_true(takes_team_after_calm(1999, 31));
+  assert_false(takes_team_after_calm(2001, 31));
+  assert_true(takes_team_after_calm(1249, 32));
+  assert_false(takes_team_after_calm(1251, 32));
 }
 
 /* Times are in milliseconds here. */
@@ -135,6 +149,7 @@ int main(void) {
       cmocka_unit_test(the_threads_leave_signals_to_the_caller),
       cmocka_unit_test(a_long_wait_chooses_a_team),
       cmocka_unit_test(the_choice_lasts_for_a_while),
+      cmocka_unit_test(rare_waits_do_not_prolong_the_choice),
       cmocka_unit_test(a_loop_is_alone_for_the_mean_loss),
       cmocka_unit_test(the_caller_calls_a_team_late),
   };

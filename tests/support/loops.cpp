@@ -153,7 +153,7 @@ int wait_long_for_a_thread() {
 #if defined(RIIS_STD_THREADS)
   return next_loop_is_on_a_team();  // every loop runs on a team, so no wait chooses one
 #endif
-  // On a busy machine an earlier wait may have chosen a team, for 8 seconds at most. Its calling thread may run both blocks.
+  // On a busy machine an earlier wait may have chosen a team, for 2 seconds at most. Its calling thread may run both blocks.
   for (bool are_openmps = false; !are_openmps;) {
     std::atomic<int> n_come{0};
     parallel_for(2, 2, [&](std::int64_t, int thread) {

@@ -94,16 +94,17 @@ int run_alone(std::int64_t n_blocks, const Body &body) {
 // threads ran. The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as
 // nesting allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no
 // memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, and the next loop has to wait for new ones. Calls worked() when the calling thread has no more work.
-template <class Body, class Worked>
-int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Worked &worked) {
+// threads that are left out, and the next loop has to wait for new ones. Calls begins() when the calling thread begins its work, and
+// worked() when it has no more.
+template <class Body, class Begins, class Worked>
+int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Begins &begins, const Worked &worked) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks<Body> blocks(n_blocks, body);
   int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, worked)
+#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, begins, worked)
   {
     const int thread = omp_get_thread_num();
-    if (thread == 0) n_ran = omp_get_num_threads();
+    if (thread == 0) n_ran = omp_get_num_threads(), begins();
     blocks.run(thread);
     if (thread == 0) worked();
   }
@@ -112,7 +113,7 @@ int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Wor
 }
 template <class Body>
 int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  return openmp_for(n_blocks, n_threads, body, [] {});
+  return openmp_for(n_blocks, n_threads, body, [] {}, [] {});
 }
 
 inline std::int64_t nanoseconds() noexcept {
@@ -164,10 +165,12 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
 #else
   const std::int64_t begin = nanoseconds();
   if (loop_choice.takes_team(begin)) return team_for(n_blocks, n_threads, body, loop_choice);
-  std::int64_t has_worked = begin;
-  const int n_ran = openmp_for(n_blocks, n_threads, body, [&has_worked] { has_worked = nanoseconds(); });
+  std::int64_t begins = begin, has_worked = begin;
+  const int n_ran = openmp_for(
+      n_blocks, n_threads, body, [&begins] { begins = nanoseconds(); }, [&has_worked] { has_worked = nanoseconds(); });
   const std::int64_t end = nanoseconds();
-  loop_choice.record(end - has_worked, end);
+  // GCC's run-time waits for all threads also at the beginning, until they have left the loop before.
+  loop_choice.record((begins - begin) + (end - has_worked), end);
   return n_ran;
 #endif
 }

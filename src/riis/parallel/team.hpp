@@ -17,13 +17,15 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they are also the
 // threads of the caller's own loops. But a loop waits for all of them at its end, for as long as another process holds a
-// processor. After such a wait, teams run the loops for a while. Each further such wait doubles this time. A team also waits, for
-// a thread that another process interrupts inside a block. The calling thread therefore begins a team's loop alone. Recent loops
-// lost some time by calling their teams, and the calling thread works alone for that long before it calls its team. If the team
-// then loses as much, the loop takes at most twice as long as with the better choice. All times are in nanoseconds.
+// processor. After such a wait, teams run the loops for a while. If OpenMP then serves only a few loops until the next such wait,
+// the machine is busy, and this time doubles. A team also waits, for a thread that another process interrupts inside a block. The
+// calling thread therefore begins a team's loop alone. Recent loops lost some time by calling their teams, and the calling thread
+// works alone for that long before it calls its team. If the team then loses as much, the loop takes at most twice as long as with
+// the better choice. All times are in nanoseconds.
 class LoopChoice {
  public:
-  static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 8'000'000'000;
+  static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
+  static constexpr int few_loops = 32;  // about three time steps
   static constexpr double loops_in_mean = 16, half_life = 1e9;  // of the mean loss
   static constexpr double least_loss = 5'000;                   // a smaller mean loss counts as none
 
@@ -31,11 +33,14 @@ class LoopChoice {
   // Records a loop of OpenMP that ended now. The calling thread had then waited so long for the other threads. On a quiet machine
   // it waits for one block at most, which takes less than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
-    if (waited < long_wait) return;
-    const std::int64_t last = until_.load(std::memory_order_relaxed);
-    const bool is_first = last == 0 || now - last > longest_pause;
-    const std::int64_t pause =
-        is_first ? first_pause : std::min(2 * pause_.load(std::memory_order_relaxed), longest_pause);
+    const int n_served = n_served_.load(std::memory_order_relaxed);
+    if (waited < long_wait) {
+      if (n_served < few_loops) n_served_.store(n_served + 1, std::memory_order_relaxed);
+      return;
+    }
+    const std::int64_t last = pause_.load(std::memory_order_relaxed);
+    const std::int64_t pause = n_served < few_loops ? std::clamp(2 * last, first_pause, longest_pause) : first_pause;
+    n_served_.store(0, std::memory_order_relaxed);
     pause_.store(pause, std::memory_order_relaxed);
     until_.store(now + pause, std::memory_order_relaxed);
   }
@@ -61,7 +66,8 @@ class LoopChoice {
     return mean * std::exp2(static_cast<double>(recorded_.load(std::memory_order_relaxed) - now) / half_life);
   }
 
-  std::atomic<std::int64_t> until_{0}, pause_{first_pause}, recorded_{0};
+  std::atomic<std::int64_t> until_{0}, pause_{0}, recorded_{0};
+  std::atomic<int> n_served_{0};  // the number of OpenMP's loops since the last pause, few_loops at most
   std::atomic<double> mean_loss_{0};
 };
 
