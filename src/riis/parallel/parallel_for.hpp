@@ -94,8 +94,8 @@ int run_alone(std::int64_t n_blocks, const Body &body) {
 // threads ran. The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as
 // nesting allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no
 // memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, and the next loop has to wait for new ones. Calls begins() when the calling thread begins its work, and
-// worked() when it has no more.
+// threads that are left out, and the next loop has to wait for new ones. Calls begins() when the calling thread begins its work,
+// and worked() when it has no more.
 template <class Body, class Begins, class Worked>
 int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Begins &begins, const Worked &worked) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);

@@ -16,12 +16,12 @@ namespace riis {
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they are also the
-// threads of the caller's own loops. But a loop waits for all of them at its end, for as long as another process holds a
-// processor. After such a wait, teams run the loops for a while. If OpenMP then serves only a few loops until the next such wait,
-// the machine is busy, and this time doubles. A team also waits, for a thread that another process interrupts inside a block. The
-// calling thread therefore begins a team's loop alone. Recent loops lost some time by calling their teams, and the calling thread
-// works alone for that long before it calls its team. If the team then loses as much, the loop takes at most twice as long as with
-// the better choice. All times are in nanoseconds.
+// threads of the caller's own loops. But a loop waits for all of them, for as long as another process holds a processor. After
+// such a wait, teams run the loops for a while. If OpenMP then serves only a few loops until the next such wait, the machine is
+// busy, and this time doubles. A team also waits, for a thread that another process interrupts inside a block. The calling thread
+// therefore begins a team's loop alone. Recent loops lost some time by calling their teams, and the calling thread works alone for
+// that long before it calls its team. If the team then loses as much, the loop takes at most twice as long as with the better
+// choice. All times are in nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
