@@ -113,7 +113,8 @@ int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Beg
 }
 template <class Body>
 int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  return openmp_for(n_blocks, n_threads, body, [] {}, [] {});
+  return openmp_for(
+      n_blocks, n_threads, body, [] {}, [] {});
 }
 
 inline std::int64_t nanoseconds() noexcept {

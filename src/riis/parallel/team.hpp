@@ -19,8 +19,8 @@ int run_by_team(int n_threads, void (*work)(void *context, int thread), void *co
 // threads of the caller's own loops. But a loop waits for all of them, for as long as another process holds a processor. After
 // such a wait, teams run the loops for a while. If OpenMP then serves only a few loops until the next such wait, the machine is
 // busy, and this time doubles. A team also waits, for a thread that another process interrupts inside a block. The calling thread
-// therefore begins a team's loop alone. Recent loops lost some time by calling their teams, and the calling thread works alone for
-// that long before it calls its team. If the team then loses as much, the loop takes at most twice as long as with the better
+// therefore begins a team's loop alone. Recent loops lost some time by calling their teams, and the calling thread works alone
+// for that long before it calls its team. If the team then loses as much, the loop takes at most twice as long as with the better
 // choice. All times are in nanoseconds.
 class LoopChoice {
  public:
