@@ -2,6 +2,7 @@
 #include "kernels/kernels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -192,6 +193,7 @@ void kernels_differentiate(int set, const double *points, const double *on, cons
   PointsAndTriangles pairs;
   PointsOnTriangles located;
   const std::int64_t *vertex[pairs_at_once];
+  alignas(64) double distance[pairs_at_once];
   for (int i = 0; i < pairs_at_once; ++i) {
     vertex[i] = vertex_id + 3 * i;
     for (int c = 0; c < 3; ++c) {
@@ -199,10 +201,12 @@ void kernels_differentiate(int set, const double *points, const double *on, cons
       located.point[c][i] = on[3 * i + c];
       located.barycentric[c][i] = barycentric[3 * i + c];
     }
+    const auto away = [&](int c) { return points[3 * i + c] - on[3 * i + c]; };
+    distance[i] = std::sqrt(away(0) * away(0) + away(1) * away(1) + away(2) * away(2));
   }
   std::vector<const double *> of_direction;
   for (std::int64_t i = 0; i < n_directions; ++i) of_direction.push_back(rates + 3 * n_vertices * i);
-  of(set).differentiate(pairs, located, vertex, of_direction.data(), n_directions, n_points, derivatives);
+  of(set).differentiate(pairs, located, distance, vertex, of_direction.data(), n_directions, n_points, derivatives);
 }
 
 int32_t kernels_select(int set, const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {

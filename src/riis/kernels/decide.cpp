@@ -166,31 +166,34 @@ void mix_at_vertices(const VertexNumbers *numbers, const int64_t *const *vertex,
   }
 }
 
-void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &located, const int64_t *const *vertex,
-                   const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives) {
+void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &located, const double *distance,
+                   const int64_t *const *vertex, const double *const *rates, int64_t n_directions, int32_t n_points,
+                   double *derivatives) {
   const auto vector = [&](const double(&from)[3][pairs_at_once]) RIIS_LAMBDA {
     return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
   };
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   const Doubles3 away = vector(pairs.point) - vector(located.point);
-  const Doubles size = root(dot(away, away));
+  const Doubles size = Doubles::load(distance);
   const Doubles::Mask is_away = size > zero;
   // The unit vectors from the points to the surface.
   const Doubles3 unit = choose(is_away, (Doubles::all(-1) / choose(is_away, size, one)) * away, {zero, zero, zero});
-  alignas(64) double towards[3][pairs_at_once];
-  unit.x.store(towards[0]);
-  unit.y.store(towards[1]);
-  unit.z.store(towards[2]);
+  // The unit vectors, weighted for the three vertices.
+  alignas(64) double weighted[3][3][pairs_at_once];
+  for (int k = 0; k < 3; ++k) {
+    const Doubles weight = Doubles::load(located.barycentric[k]);
+    (weight * unit.x).store(weighted[k][0]);
+    (weight * unit.y).store(weighted[k][1]);
+    (weight * unit.z).store(weighted[k][2]);
+  }
   // Gathering the rates of eight points costs more than the arithmetic of one point at a time.
   for (int32_t lane = 0; lane < n_points; ++lane) {
-    double at[3][3];
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) at[k][c] = located.barycentric[k][lane] * towards[c][lane];
     const int64_t a = 3 * vertex[lane][0], b = 3 * vertex[lane][1], c = 3 * vertex[lane][2];
-    const auto part = [](const double(&weighted)[3], const double *rate)
-                          RIIS_LAMBDA { return weighted[0] * rate[0] + weighted[1] * rate[1] + weighted[2] * rate[2]; };
+    const auto part = [&](int k, const double *rate) RIIS_LAMBDA {
+      return weighted[k][0][lane] * rate[0] + weighted[k][1][lane] * rate[1] + weighted[k][2][lane] * rate[2];
+    };
     for (int64_t i = 0; i < n_directions; ++i)
-      *derivatives++ = part(at[0], rates[i] + a) + part(at[1], rates[i] + b) + part(at[2], rates[i] + c);
+      *derivatives++ = part(0, rates[i] + a) + part(1, rates[i] + b) + part(2, rates[i] + c);
   }
 }
 

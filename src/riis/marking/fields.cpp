@@ -183,8 +183,10 @@ class TriangleFields {
   void write_gradients(const EightPoints &eight, std::int64_t first, std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
     for (std::int64_t lane = 0; lane < n; ++lane) vertex[lane] = set_.vertex_id.data() + 3 * eight.triangle[lane];
-    simd_.differentiate(eight.pairs, eight.on, vertex, rates_.data(), n_directions(), static_cast<std::int32_t>(n),
-                        made_.distance_gradient.data() + n_directions() * first);
+    alignas(64) double distance[pairs_at_once] = {};
+    std::copy_n(list_.distance.data() + first, n, distance);
+    simd_.differentiate(eight.pairs, eight.on, distance, vertex, rates_.data(), n_directions(),
+                        static_cast<std::int32_t>(n), made_.distance_gradient.data() + n_directions() * first);
   }
 
   std::int64_t n_directions() const { return view(rates_).size(); }
