@@ -26,6 +26,9 @@ inline int default_thread_count() noexcept {
   return n < 1 ? 1 : n;
 }
 
+// Returns the number of processors of the machine, also of those that are not in the calling thread's affinity mask.
+int processors_of_machine() noexcept;
+
 // By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
 // machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine it takes as long as the system
 // lets other processes run.
@@ -165,7 +168,9 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  if (loop_choice.takes_team(begin)) return team_for(n_blocks, n_threads, body, loop_choice);
+  // More threads than processors wait for each other in every loop of OpenMP.
+  if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
+    return team_for(n_blocks, n_threads, body, loop_choice);
   std::int64_t begins = begin, has_worked = begin;
   const int n_ran = openmp_for(
       n_blocks, n_threads, body, [&begins] { begins = nanoseconds(); }, [&has_worked] { has_worked = nanoseconds(); });

@@ -5,12 +5,14 @@
 #include <sched.h>
 #include <semaphore.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <new>
 #include <utility>
@@ -210,6 +212,11 @@ void give_back(Team *team) noexcept {
 }  // namespace
 
 LoopChoice loop_choice;
+
+int processors_of_machine() noexcept {
+  static const int n = static_cast<int>(sysconf(_SC_NPROCESSORS_CONF));
+  return n < 1 ? std::numeric_limits<int>::max() : n;  // if the system does not say how many there are
+}
 
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {
   Team *const team = borrow_team();
