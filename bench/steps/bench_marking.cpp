@@ -206,8 +206,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
               100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
-  // More threads than processors wait long for each other. For some seconds the library then takes a team instead of OpenMP's
-  // threads (team.hpp), and OpenMP starts and ends threads. Among the other contenders this would slow down steps on two threads.
+  // More threads than processors come last: OpenMP starts and ends threads for them, and this would slow down the other
+  // contenders' steps on two threads.
   add(contest, "step, 4 threads", four, 4);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /

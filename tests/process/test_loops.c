@@ -59,6 +59,11 @@ static void a_long_wait_chooses_a_team(void **state) {
     assert_true(wait_long_for_a_thread());
 }
 
+static void more_threads_than_processors_are_a_team(void **state) {
+  (void)state;
+  assert_int_equal(too_many_threads_are_a_team(), !is_bound());
+}
+
 /* Times are in milliseconds here. */
 static int takes_team_at(double now, int n_loops, const double *waited, const double *ended) {
   int64_t times[2][40] = {{0}};
@@ -142,7 +147,10 @@ static void the_caller_calls_a_team_late(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
+      /* First, while a team has one worker. */
       cmocka_unit_test(loops_end_while_a_thread_is_held),
+      /* Before all loops of OpenMP. One of them may wait long, and then all loops are on teams for a while. */
+      cmocka_unit_test(more_threads_than_processors_are_a_team),
       cmocka_unit_test(each_block_runs_once),
       cmocka_unit_test(callers_do_not_disturb_each_other),
       cmocka_unit_test(a_callers_region_may_nest),

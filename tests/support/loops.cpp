@@ -141,13 +141,21 @@ int caller_calls_a_team_later() {
   return n_come >= 2 && n_alone > 0;
 }
 
-int next_loop_is_on_a_team() {
+namespace {
+
+bool is_on_a_team(int n_threads) {
   bool are_openmps = true;
-  parallel_for(2, 2, [&](std::int64_t block, int) {
+  parallel_for(2, n_threads, [&](std::int64_t block, int) {
     if (block == 0) are_openmps = omp_in_parallel() != 0;
   });
   return !are_openmps;
 }
+
+}  // namespace
+
+int next_loop_is_on_a_team() { return is_on_a_team(2); }
+
+int too_many_threads_are_a_team() { return is_on_a_team(processors_of_machine() + 1); }
 
 int wait_long_for_a_thread() {
 #if defined(RIIS_STD_THREADS)

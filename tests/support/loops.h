@@ -25,6 +25,8 @@ int caller_begins_alone(void);
 int caller_calls_a_team_later(void);
 /* Runs a loop and returns whether it ran on a team. */
 int next_loop_is_on_a_team(void);
+/* Returns whether a loop of more threads than the machine has processors is on a team. */
+int too_many_threads_are_a_team(void);
 /* Runs a loop of OpenMP in which the calling thread waits 100 ms for the other thread. Returns whether the next loop runs on a
  * team. */
 int wait_long_for_a_thread(void);
