@@ -175,8 +175,9 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   const int n_ran = openmp_for(
       n_blocks, n_threads, body, [&begins] { begins = nanoseconds(); }, [&has_worked] { has_worked = nanoseconds(); });
   const std::int64_t end = nanoseconds();
-  // GCC's run-time waits for all threads also at the beginning, until they have left the loop before.
-  loop_choice.record((begins - begin) + (end - has_worked), end);
+  // GCC's run-time waits for all threads also at the beginning, until they have left the loop before. The first loop starts them.
+  const std::int64_t waited = loop_choice.has_recorded() ? begins - begin : 0;
+  loop_choice.record(waited + (end - has_worked), end);
   return n_ran;
 #endif
 }

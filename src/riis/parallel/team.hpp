@@ -30,8 +30,11 @@ class LoopChoice {
   static constexpr double least_loss = 5'000;                   // a smaller mean loss counts as none
 
   bool takes_team(std::int64_t now) const noexcept { return now < until_.load(std::memory_order_relaxed); }
-  // Records a loop of OpenMP that ended now. The calling thread had then waited so long for the other threads. On a quiet machine
-  // it waits for one block at most, which takes less than a millisecond.
+  bool has_recorded() const noexcept {
+    return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
+  }
+  // Records a loop of OpenMP that ended now, and how long the calling thread had waited for the other threads, at the beginning
+  // and at the end. On a quiet machine it waits for one block at most, which takes less than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {
