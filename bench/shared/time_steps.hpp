@@ -68,6 +68,7 @@ class TimeSteps {
     return status == RIIS_OK;
   }
 
+  int n_threads() const { return marking_.n_threads; }
   const riis_surface *surface() const { return surface_.get(); }
   const riis_marks *result() const { return result_.get(); }
   riis_mark_stats stats() const { return stats_of(result_.get()); }

@@ -73,12 +73,12 @@ void wake_threads(int n_threads) {
   pass_over_coordinates(64, coordinates, n_threads);
 }
 
-void add(Contest &contest, const std::string &name, TimeSteps &steps, int n_threads = 2) {
+void add(Contest &contest, const std::string &name, TimeSteps &steps) {
   contest.add(
       name, n_turns, [&steps] { steps.step(); },
-      [&steps, n_threads] {
+      [&steps] {
         steps.move();
-        wake_threads(n_threads);
+        wake_threads(steps.n_threads());
       });
 }
 
@@ -117,7 +117,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   bars.add("bytes a node", (allocated() - before_preparing) / static_cast<double>(n), Wanted::at_most, 48);
 
   TimeSteps one(mesh.get(), step_options(1)), two(mesh.get(), step_options(2)), four(mesh.get(), step_options(4));
-  add(contest, "step, 1 thread", one, 1);
+  add(contest, "step, 1 thread", one);
   add(contest, "step, 2 threads", two);
   StepOptions options = step_options(2);
   options.tolerance = fine;
@@ -137,8 +137,8 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   TimeSteps avx2(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_AVX2)),
       baseline(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_BASELINE));
   if (TimeSteps(mesh.get(), step_options(1, RIIS_INSTRUCTIONS_AVX512)).can_mark()) {
-    add(contest, "step, 1 thread, AVX2", avx2, 1);
-    add(contest, "step, 1 thread, baseline", baseline, 1);
+    add(contest, "step, 1 thread, AVX2", avx2);
+    add(contest, "step, 1 thread, baseline", baseline);
   } else {
     for (const char *name : {"step, 1 thread, AVX2", "step, 1 thread, baseline"})
       contest.leave_out(name, "the processor has no AVX-512");
@@ -208,7 +208,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
   contest.run();
   // More threads than processors come last: OpenMP starts and ends threads for them, and this would slow down the other
   // contenders' steps on two threads.
-  add(contest, "step, 4 threads", four, 4);
+  add(contest, "step, 4 threads", four);
   contest.run();
   const double ns_a_pair = 1e6 * contest.least("the paper's search, every triangle, 1 thread") /
                            static_cast<double>(n_asked) / static_cast<double>(triangles.n());

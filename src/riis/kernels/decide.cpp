@@ -166,9 +166,9 @@ void mix_at_vertices(const VertexNumbers *numbers, const int64_t *const *vertex,
   }
 }
 
-void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &located, const double *distance,
-                   const int64_t *const *vertex, const double *const *rates, int64_t n_directions, int32_t n_points,
-                   double *derivatives) {
+void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
+                   const double (&distance)[pairs_at_once], const int64_t *const *vertex, const double *const *rates,
+                   int64_t n_directions, int32_t n_points, double *derivatives) {
   const auto vector = [&](const double(&from)[3][pairs_at_once]) RIIS_LAMBDA {
     return Doubles3{Doubles::load(from[0]), Doubles::load(from[1]), Doubles::load(from[2])};
   };

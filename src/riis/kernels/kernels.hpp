@@ -197,12 +197,12 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes the derivatives of the distances of the first n_points points, n_points > 0, when the triangles' vertices move.
-  // `distance` has pairs_at_once distances, which the search has computed, so that no root is taken again.
+  // The search has computed the distances, so no root is taken again.
   // `vertex` has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The
   // derivatives of a point follow each other. At distance 0 a derivative is 0.
-  void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located, const double *distance,
-                        const int64_t *const *vertex, const double *const *rates, int64_t n_directions,
-                        int32_t n_points, double *derivatives);
+  void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
+                        const double (&distance)[pairs_at_once], const int64_t *const *vertex,
+                        const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
   // Finds the side of each point, +1, -1 or 0. It is the sign of the point's height over the located point, along the normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);

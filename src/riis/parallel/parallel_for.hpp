@@ -93,36 +93,39 @@ int run_alone(std::int64_t n_blocks, const Body &body) {
   return 1;
 }
 
+inline std::int64_t nanoseconds() noexcept {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+// When the calling thread begins its work in a loop, and when it has no more.
+struct TimesOfCaller {
+  std::int64_t begins, has_worked;
+};
+
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads of OpenMP, and returns how many
 // threads ran. The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as
 // nesting allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no
 // memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, and the next loop has to wait for new ones. Calls begins() when the calling thread begins its work,
-// and worked() when it has no more.
-template <class Body, class Begins, class Worked>
-int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, const Begins &begins, const Worked &worked) {
+// threads that are left out, and the next loop has to wait for new ones. If OpenMP runs the loop, `of_caller` gets the times of
+// the calling thread. It may be null.
+template <class Body>
+int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, TimesOfCaller *of_caller = nullptr) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks<Body> blocks(n_blocks, body);
   int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, begins, worked)
+#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, of_caller)
   {
     const int thread = omp_get_thread_num();
-    if (thread == 0) n_ran = omp_get_num_threads(), begins();
+    if (thread == 0) {
+      n_ran = omp_get_num_threads();
+      if (of_caller) of_caller->begins = nanoseconds();
+    }
     blocks.run(thread);
-    if (thread == 0) worked();
+    if (thread == 0 && of_caller) of_caller->has_worked = nanoseconds();
   }
   blocks.rethrow();
   return n_ran;
-}
-template <class Body>
-int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  return openmp_for(
-      n_blocks, n_threads, body, [] {}, [] {});
-}
-
-inline std::int64_t nanoseconds() noexcept {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
 // Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up. The calling thread first
@@ -171,13 +174,12 @@ int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
   // More threads than processors wait for each other in every loop of OpenMP.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
-  std::int64_t begins = begin, has_worked = begin;
-  const int n_ran = openmp_for(
-      n_blocks, n_threads, body, [&begins] { begins = nanoseconds(); }, [&has_worked] { has_worked = nanoseconds(); });
+  TimesOfCaller of_caller{begin, begin};
+  const int n_ran = openmp_for(n_blocks, n_threads, body, &of_caller);
   const std::int64_t end = nanoseconds();
   // GCC's run-time waits for all threads also at the beginning, until they have left the loop before. The first loop starts them.
-  const std::int64_t waited = loop_choice.has_recorded() ? begins - begin : 0;
-  loop_choice.record(waited + (end - has_worked), end);
+  const std::int64_t waited = loop_choice.has_recorded() ? of_caller.begins - begin : 0;
+  loop_choice.record(waited + (end - of_caller.has_worked), end);
   return n_ran;
 #endif
 }
