@@ -3,6 +3,8 @@
  * placement and limit. */
 #include <riis/riis.h>
 
+#include <stdbool.h>
+
 #include "oracle.h"
 #include "test_support.h"
 
@@ -187,11 +189,10 @@ static void check_equal(const results *a, int64_t i, const riis_closest *one) {
   assert_int_equal(a->side[i], one->side);
 }
 
-/* The points fill several batches, which are searched over clusters. Masks, lists, limits and single precision give the results
- * of single queries. No other entry is written. */
-static void many_points_equal_single_queries(void **state) {
-  (void)state;
-  const int64_t n = is_long_test() ? 3000000 : fewer_if_sanitized(140000), stride = is_long_test() ? 1 : 5;
+/* Masks, lists, limits and single precision give the results of single queries. No other entry is written. In order, the points
+ * advance along x as those of many meshes do. */
+static void check_many_points(int64_t n, bool are_in_order) {
+  const int64_t stride = is_long_test() ? 1 : 5;
   riis_surface_options options = surface_options();
   options.rotation_angle = random_between(&rng, 0, 360);
   for (int c = 0; c < 3; ++c) options.rotation_axis[c] = random_between(&rng, 0.1, 1), options.translation[c] = c - 5;
@@ -206,6 +207,9 @@ static void many_points_equal_single_queries(void **state) {
     for (int c = 0; c < 3; ++c) {
       const double extent = info.upper[c] - info.lower[c];
       xyz[3 * i + c] = (float)random_between(&rng, info.lower[c] - wide * extent, info.upper[c] + wide * extent);
+      if (are_in_order && c == 0) xyz[3 * i] = (float)(info.lower[0] + extent * (double)i / (double)n);
+      /* Without an order every few points extend as far as all points do. */
+      if (!are_in_order && i % 500 == 1) xyz[3 * i + c] = i % 1000 == 1 ? 1e22F : -1e22F;
     }
   }
   /* In one loop with the rounding, GCC 12 would pass the coordinates before they were rounded. */
@@ -262,6 +266,18 @@ static void many_points_equal_single_queries(void **state) {
     if (way == limited) assert_true(n_far > 100 && n_far < n_written - 100);
     free_owned_after(owned_before);
   }
+}
+
+/* The points fill several batches, which all threads share. */
+static void many_points_equal_single_queries(void **state) {
+  (void)state;
+  check_many_points(is_long_test() ? 3000000 : fewer_if_sanitized(140000), false);
+}
+
+/* Near points follow each other, so each thread takes batches of its own. */
+static void many_points_in_order_equal_single_queries(void **state) {
+  (void)state;
+  check_many_points(is_long_test() ? 3000000 : fewer_if_sanitized(140000), true);
 }
 
 /* Points in a plane, in a line, in one place, most of them in a small part of their box, or near the valve except one. They are
@@ -331,10 +347,15 @@ static void closest_is_consistent(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(aortic_valve_equals_the_oracle),      cmocka_unit_test(random_soups_equal_the_oracle),
-      cmocka_unit_test(far_points_equal_the_oracle),         cmocka_unit_test(ties_go_to_the_lowest_id),
-      cmocka_unit_test(batches_equal_single_queries),        cmocka_unit_test(many_points_equal_single_queries),
-      cmocka_unit_test(crowded_points_equal_single_queries), cmocka_unit_test(closest_is_consistent),
+      cmocka_unit_test(aortic_valve_equals_the_oracle),
+      cmocka_unit_test(random_soups_equal_the_oracle),
+      cmocka_unit_test(far_points_equal_the_oracle),
+      cmocka_unit_test(ties_go_to_the_lowest_id),
+      cmocka_unit_test(batches_equal_single_queries),
+      cmocka_unit_test(many_points_equal_single_queries),
+      cmocka_unit_test(many_points_in_order_equal_single_queries),
+      cmocka_unit_test(crowded_points_equal_single_queries),
+      cmocka_unit_test(closest_is_consistent),
   };
   rng = random_start("test_closest_points");
   return cmocka_run_group_tests(tests, NULL, NULL);

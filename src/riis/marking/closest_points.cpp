@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <new>
 #include <vector>
@@ -19,8 +18,9 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. They take 2 MB.
-constexpr std::int64_t points_per_batch = 1 << 16;
+// The number of points that are sorted together. They take 2 MB. If points that follow each other are near each other, a small
+// batch gives leaves as compact, and its points are still in the cache when they are copied into leaves.
+constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
 
@@ -43,18 +43,21 @@ class ClosestPoints {
   void write() {
     // A failure must come before anything is written. Later, the queries may need the tree in place of memory.
     scene_.build_tree();
+    const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
-      write_one_by_one({0, wanted_.n}, [](Vec3) { return true; });
-      return;
-    }
-    for (std::int64_t begin = 0; begin < wanted_.n; begin += points_per_batch) {
-      const Range range{begin, std::min(begin + points_per_batch, wanted_.n)};
-      try {
-        if (search(range)) continue;
-      } catch (const std::bad_alloc &) {
-        if (!has_written_) throw;
-      }
-      write_one_by_one(range, [](Vec3) { return true; });
+      write_one_by_one({0, wanted_.n}, n_threads, [](Vec3) { return true; });
+    } else if (wanted_.n >= n_threads * points_per_small_batch && follow_each_other()) {
+      // Each thread takes batches of its own. All threads get the same number of them.
+      const std::int64_t of_all = n_threads * points_per_small_batch;
+      const std::int64_t n_batches = (wanted_.n + of_all - 1) / of_all * n_threads;
+      std::vector<Batch> batches;
+      resize(batches, n_threads);
+      parallel_for_ranges(wanted_.n, (wanted_.n + n_batches - 1) / n_batches, n_threads,
+                          [&](const Range &range, int thread) { write_batch(range, 1, view(batches)[thread]); });
+    } else {
+      Batch batch;
+      for (std::int64_t begin = 0; begin < wanted_.n; begin += points_per_batch)
+        write_batch({begin, std::min(begin + points_per_batch, wanted_.n)}, n_threads, batch);
     }
   }
 
@@ -73,11 +76,36 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
+  // Returns whether points that follow each other are near each other: along some axis, a small batch from the middle has at most
+  // half the extent of all points. The middle counts, because many meshes begin with the nodes of their boundary.
+  bool follow_each_other() const {
+    const std::int64_t begin = (wanted_.n - std::min(points_per_small_batch, wanted_.n)) / 2;
+    Bounds bounds;
+    for (std::int64_t k = begin; k < std::min(begin + points_per_small_batch, wanted_.n); ++k)
+      bounds.add(points_[wanted_.id(k)]);
+    const Vec3 all = wanted_.bounds.half_extent(), own = bounds.half_extent();
+    const auto is_short = [](double of_batch, double of_all) { return of_all > 0 && of_batch <= 0.5 * of_all; };
+    return is_short(own.x, all.x) || is_short(own.y, all.y) || is_short(own.z, all.z);
+  }
+
+  struct alignas(64) OfThread {
+    Clusters clusters;
+    ClusterScratch scratch;
+    FoundNodes found;
+  };
+
+  // The points of a batch that are searched over clusters, and their frame. The first point of the batch has the number 0.
+  struct Batch {
+    NodeItems<std::uint32_t> items, buffer;
+    NodeFrame frame;
+    std::vector<OfThread> threads;
+  };
+
   // Queries and writes those points of a range for which is_asked(point) is true. This needs no memory.
   template <class IsAsked>
-  void write_one_by_one(const Range &all, const IsAsked &is_asked) const {
+  void write_one_by_one(const Range &all, int n_threads, const IsAsked &is_asked) const {
     constexpr std::int64_t few = 512;  // a query takes longer than a point of a batch
-    parallel_for_ranges(all.end - all.begin, few, request_.n_threads, [&](const Range &range, int) {
+    parallel_for_ranges(all.end - all.begin, few, n_threads, [&](const Range &range, int) {
       for (std::int64_t k = all.begin + range.begin; k < all.begin + range.end; ++k) {
         const std::int64_t i = wanted_.id(k);
         if (!wanted_.is_wanted(i)) continue;
@@ -92,51 +120,51 @@ class ClosestPoints {
     });
   }
 
+  // Writes the points of a range. If memory runs out, all of them are queried one by one.
+  void write_batch(const Range &range, int n_threads, Batch &batch) const {
+    try {
+      if (search(range, n_threads, batch)) return;
+    } catch (const std::bad_alloc &) {
+    }
+    write_one_by_one(range, n_threads, [](Vec3) { return true; });
+  }
+
   // Searches the points of a range over clusters, and writes them. Returns false before it writes anything if clusters cannot be
   // used. If memory runs out, some points may be written.
-  bool search(const Range &range) {
+  bool search(const Range &range, int n_threads, Batch &batch) const {
     Bounds bounds = wanted_.bounds;
     if (is_spread_) {
       bounds = {};
-      for (const Block &block : visit_blocks(range, [](std::int64_t, Vec3, std::int64_t) {})) bounds.add(block.bounds);
+      for (const Block &block : visit_blocks(range, n_threads, [](std::int64_t, Vec3, std::int64_t) {}))
+        bounds.add(block.bounds);
     }
-    frame_ = frame_around(bounds);
-    const bool has_far = gather(range);
-    if (!items_.empty() && !separates_in_single_precision(node_search(), frame_)) return false;
-    NodeSorter<std::uint32_t>(items_, buffer_, Cuts::by_leaves, request_.n_threads).sort();
-    resize(threads_, request_.n_threads);
-    if (is_limited_) {
-      has_written_ = true;
-      parallel_for_ranges(range.end - range.begin, points_per_block, request_.n_threads, [&](const Range &block, int) {
+    batch.frame = frame_around(bounds);
+    const bool has_far = gather(range, n_threads, batch);
+    if (!batch.items.empty() && !separates_in_single_precision(node_search(), batch.frame)) return false;
+    NodeSorter<std::uint32_t>(batch.items, batch.buffer, Cuts::by_leaves, n_threads).sort();
+    resize(batch.threads, n_threads);
+    if (is_limited_)
+      parallel_for_ranges(range.end - range.begin, points_per_block, n_threads, [&](const Range &block, int) {
         for (std::int64_t k = range.begin + block.begin; k < range.begin + block.end; ++k)
           if (const std::int64_t i = wanted_.id(k); wanted_.is_wanted(i)) write_far(i, request_.far_distance, to_);
       });
-    }
     // Each thread fills, searches and writes the points of a region while they are in its cache.
-    const std::int64_t n = view(items_).size();
-    const std::int64_t share = request_.n_threads == 1 ? n : n / (4 * request_.n_threads);
+    const std::int64_t n = view(batch.items).size();
+    const std::int64_t share = n_threads == 1 ? n : n / (4 * n_threads);
     const std::int64_t per_part =
         std::clamp<std::int64_t>(share / nodes_per_cluster * nodes_per_cluster, nodes_per_cluster, points_per_region);
-    parallel_for_ranges(n, per_part, request_.n_threads,
-                        [&](const Range &part, int thread) { search_part(range, part, view(threads_)[thread]); });
-    if (has_far) {
-      has_written_ = true;
-      write_one_by_one(range, [&](Vec3 p) { return is_far(p); });
-    }
+    parallel_for_ranges(n, per_part, n_threads,
+                        [&](const Range &part, int thread) { search_part(range, part, batch, thread); });
+    if (has_far) write_one_by_one(range, n_threads, [&](Vec3 p) { return is_far(p); });
     return true;
   }
 
-  struct alignas(64) OfThread {
-    Clusters clusters;
-    ClusterScratch scratch;
-    FoundNodes found;
-  };
-
   // Fills clusters with a part of the batch's items, searches them, and writes the points.
-  void search_part(const Range &batch, const Range &part, OfThread &own) {
-    const auto id_of = [&](std::int64_t at) { return wanted_.id(batch.begin + at); };
-    const auto item_at = [&](std::int64_t at) -> const auto & { return view(items_)[part.begin + at]; };
-    own.clusters.frame = frame_;
+  void search_part(const Range &range, const Range &part, Batch &batch, int thread) const {
+    const auto id_of = [&](std::int64_t at) { return wanted_.id(range.begin + at); };
+    const auto item_at = [&](std::int64_t at) -> const auto & { return view(batch.items)[part.begin + at]; };
+    OfThread &own = view(batch.threads)[thread];
+    own.clusters.frame = batch.frame;
     fill_clusters(
         part.end - part.begin, 1,
         [&](std::int64_t at) {
@@ -146,7 +174,6 @@ class ClosestPoints {
         [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, own.clusters);
     const NodeSearch search = node_search();
     search_clusters(search, own.clusters, kernels(search.instructions), own.scratch, own.found);
-    has_written_ = true;
     write_found(view(own.found.by_thread)[0], id_of);
   }
 
@@ -163,10 +190,11 @@ class ClosestPoints {
   // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. The first point
   // of the range has the k 0. The visited points of a block have consecutive places from the k at which the block begins.
   template <class Visit>
-  std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, const Visit &visit) const {
+  std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
+                                                                      const Visit &visit) const {
     std::array<Block, points_per_batch / points_per_block> blocks;
     blocks.fill({0, false, {}});
-    parallel_for_ranges(all.end - all.begin, points_per_block, request_.n_threads, [&](const Range &range, int) {
+    parallel_for_ranges(all.end - all.begin, points_per_block, n_threads, [&](const Range &range, int) {
       // Copies, which stay in registers whatever `visit` writes.
       const WantedPoints wanted = wanted_;
       const StridedReals<Real> points = points_;
@@ -192,24 +220,25 @@ class ClosestPoints {
   }
 
   // Makes items of those points of a range that are searched over clusters. Returns whether there are also far points.
-  bool gather(const Range &all) {
+  bool gather(const Range &all, int n_threads, Batch &batch) const {
     const std::int64_t n = all.end - all.begin;
-    resize(items_, n);
-    NodeItem<std::uint32_t> *const items = items_.data();
-    const auto blocks = visit_blocks(all, [items, frame = frame_](std::int64_t k, Vec3 p, std::int64_t place) {
-      frame.place_inner(p, items[place].x);
-      items[place].node = static_cast<std::uint32_t>(k);
-    });
+    resize(batch.items, n);
+    NodeItem<std::uint32_t> *const items = batch.items.data();
+    const auto blocks =
+        visit_blocks(all, n_threads, [items, frame = batch.frame](std::int64_t k, Vec3 p, std::int64_t place) {
+          frame.place_inner(p, items[place].x);
+          items[place].node = static_cast<std::uint32_t>(k);
+        });
     // Closes the gaps between the blocks.
     std::int64_t n_items = 0;
     bool has_far = false;
     for (std::int64_t begin = 0; begin < n; begin += points_per_block) {
       const Block &block = view(blocks)[begin / points_per_block];
-      if (n_items < begin) std::copy_n(items_.data() + begin, block.n, items_.data() + n_items);
+      if (n_items < begin) std::copy_n(items + begin, block.n, items + n_items);
       n_items += block.n;
       has_far = has_far || block.has_far;
     }
-    resize(items_, n_items);
+    resize(batch.items, n_items);
     return has_far;
   }
 
@@ -267,11 +296,6 @@ class ClosestPoints {
   const StridedReals<Real> &points_;
   const bool is_limited_, may_be_far_, is_spread_;
   const riis_closest_arrays &to_;
-  std::atomic<bool> has_written_{false};
-  // The points of a batch that are searched over clusters, and their frame. The first point of the batch has the number 0.
-  NodeItems<std::uint32_t> items_, buffer_;
-  NodeFrame frame_;
-  std::vector<OfThread> threads_;
 };
 
 }  // namespace
