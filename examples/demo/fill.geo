@@ -7,5 +7,8 @@
 Surface Loop(1) = Surface{:};
 Volume(1) = {1};
 Physical Volume("fluid") = {1};
-Mesh.Algorithm3D = 10; // the algorithm HXT, several times faster here than the default
+// The algorithm HXT is several times faster here than gmsh's default, Delaunay. Delaunay keeps closer to the edge lengths of a
+// size field: -setnumber algorithm 1.
+DefineConstant[ algorithm = 10 ];
+Mesh.Algorithm3D = algorithm;
 Mesh.Binary = 1;

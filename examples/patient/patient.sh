@@ -132,7 +132,6 @@ attachment_of_patient() {
 }
 
 # random_patient SEED FOLDER: the commands of docs/patient.md for a random patient, with three more landmarks in each half cusp.
-# The edges in the band are shorter, because gmsh makes some edges longer than the field says.
 random_patient() {
   local here=$PWD riis=$PWD/$build/bin/riis from to opening valve=(--valve placed.json --skirt 6 --wall root.stl)
   mkdir -p "$2" && cd "$2" || return
@@ -140,9 +139,9 @@ random_patient() {
     python3 -B "$here/examples/patient/make_patient.py" . --random --seed "$1" --attachment 3 &&
     { read -r from && read -r to; } <sides.txt &&
     "$riis" place landmarks.mrk.json --valve coapting --warp smoothed --output placed.json &&
-    "$riis" size-field valve.dat "${valve[@]}" --largest-edge 5 --band-edge 0.85 --quiet &&
+    "$riis" size-field valve.dat "${valve[@]}" --largest-edge 5 --quiet &&
     gmsh -2 -nt 1 -format msh2 -o surface.msh surface.geo edges.geo &&
-    gmsh -3 -nt 1 -format vtk -o graded.vtk surface.msh edges.geo fill.geo &&
+    gmsh -3 -nt 1 -setnumber algorithm 1 -format vtk -o graded.vtk surface.msh edges.geo fill.geo &&
     "$riis" check leaks graded.vtk "${valve[@]}" --opening 0 "--between=$from" "$to" --stats closed.json &&
     "$riis" check leaks graded.vtk "${valve[@]}" --opening 1 "--between=$from" "$to" --stats open.json || return
   for opening in "${patient_openings[@]}"; do

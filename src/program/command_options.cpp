@@ -370,7 +370,7 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
   const auto factor = [&](const char *name, const char *help, double &to) {
     command.value(name, "F", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
   };
-  factor("--band-edge", "Edge length in the band, in half thicknesses (default 0.9)", options.band_edge);
+  factor("--band-edge", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge);
   factor("--growth", "Growth of the edge length by distance outside the band (default 0.3)", options.growth);
   length("--largest-edge", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
          options.largest_edge);

@@ -99,7 +99,7 @@ struct SizeFieldOptions : MarkOptions {
   SizeFieldOptions() { needs_mesh = false; }
 
   std::string field;                   // the file of the grid; "-" is stdout
-  double band_edge = 0.9;              // edge length in the band, in half thicknesses
+  double band_edge = 0.95;             // edge length in the band, in half thicknesses
   double growth = 0.3;                 // how much longer an edge is at a point that is one length farther away
   std::optional<double> largest_edge;  // default 4 half thicknesses
   std::optional<double> spacing;       // spacing of the grid; default half a half thickness

@@ -119,7 +119,7 @@ static void valves_at_all_openings(void **state) {
     assert_non_null(strstr(program_out, "Field[1] = Structured;"));
     assert_non_null(strstr(program_out, "3 states, openings from 0 to 1"));
     add_states(kinds[i], 3, openings, NULL);
-    check_grid((edges){0.1, 0.09, 0.5, 0.25});
+    check_grid((edges){0.1, 0.095, 0.5, 0.25});
     drop_states();
   }
 }
@@ -157,7 +157,7 @@ static void case_of_two_valves(void **state) {
   add_states("trileaflet", 3, openings, &how);
   how.translation[0] = 4;
   add_states("mitral", 1, &half, &how);
-  check_grid((edges){0.1, 0.09, 0.5, 0.25});
+  check_grid((edges){0.1, 0.095, 0.5, 0.25});
   drop_states();
 }
 
@@ -167,8 +167,8 @@ static void refusals(void **state) {
   RUN_REFUSED(2, "--growth: 0 is not above 0", "size-field", "-", "--growth", "0");
   RUN_REFUSED(2, "--growth: nan is not above 0", "size-field", "-", "--growth", "nan");
   RUN_REFUSED(2, "--band-edge: -1 is not above 0", "size-field", "-", "--band-edge", "-1");
-  RUN_REFUSED(2, "--largest-edge: 0.05 is below the edge length in the band, 0.09", "size-field", "-", "--largest-edge",
-              "0.05");
+  RUN_REFUSED(2, "--largest-edge: 0.05 is below the edge length in the band, 0.095", "size-field", "-",
+              "--largest-edge", "0.05");
   RUN_REFUSED(2, "--spacing: the grid would have ", "size-field", "-", "--spacing", "1e-4");
   RUN_REFUSED(2, "--spacing: inf is not above 0 and finite", "size-field", "-", "--spacing", "inf");
   RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "size-field", "-", "--count", "1");
