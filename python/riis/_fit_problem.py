@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -159,6 +160,13 @@ class Problem:
         self.surface: Surface | None = None
         self.surface_at: bytes | None = None  # the parameters of the surface, unless it has directions
         self.last: tuple[bytes, Seen | None] | None = None
+
+    def with_points(self, points: Reals) -> Problem:
+        """Returns the problem of the same valve and pose with other points, each with the weight 1."""
+        other = copy.copy(self)
+        other.points, other.weights, other.valve = points, numpy.ones(len(points)), self.valve.copy()
+        other.surface = other.surface_at = other.last = None
+        return other
 
     def begin(self, base: Pose) -> None:
         """Sets the base: the pose to which the unknowns of the placement are relative."""

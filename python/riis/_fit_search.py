@@ -37,6 +37,8 @@ _N_USUAL = 10.0
 _FIXED_SPREAD = 0.1
 # A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
+# The number of simulated points that show how strongly sizes that are not free pull by chance.
+_N_SIMULATED = 8000
 # A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 
@@ -65,17 +67,56 @@ class Judged(NamedTuple):
     better: Reals | None  # unknowns at which the profile found a lower cost
 
 
-def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator) -> Reals:
-    """Returns points that lie evenly on the surface at x."""
+def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator, n: int = 150) -> Reals:
+    """Returns n points that lie evenly on the surface at x."""
     surface, pose = problem.set_valve(x), problem.pose(x)
     assert surface is not None
     triangles, vertices = surface.triangles.vertex_id, surface.vertices
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
-    chosen = random.choice(len(area), 150, p=area / area.sum())
-    shares = random.dirichlet((1.0, 1.0, 1.0), 150)
+    chosen = random.choice(len(area), n, p=area / area.sum())
+    shares = random.dirichlet((1.0, 1.0, 1.0), n)
     local = shares[:, :1] * a[chosen] + shares[:, 1:2] * b[chosen] + shares[:, 2:] * c[chosen]
     return numpy.asarray(pose.scale * local @ pose.rotation.T + pose.move)
+
+
+def simulated(problem: Problem, x: Reals, noise: float, n: int, random: numpy.random.Generator) -> Reals:
+    """Returns at most n points as a whole valve at x would give them: evenly on it or on its faces, with normal noise."""
+    if problem.thickness == 0.0:
+        points = probes_of(problem, x, random, n)
+    else:  # points near the surface move to its faces, and around its rims
+        away = random.normal(size=(2 * n, 3))
+        length = problem.thickness * random.uniform(size=2 * n) ** (1.0 / 3.0)
+        points = probes_of(problem, x, random, 2 * n) + away * (length / numpy.linalg.norm(away, axis=1))[:, None]
+        seen = problem.with_points(points).at(x)
+        assert seen is not None
+        points = points - seen.residual[:, None] * seen.direction
+        seen = problem.with_points(points).at(x)
+        assert seen is not None
+        points = points[numpy.abs(seen.residual) < 0.01 * problem.thickness][:n]  # the others are nearer to another leaflet
+    return numpy.asarray(points + random.normal(0.0, noise, points.shape))
+
+
+def likeliest_spread(pull: Reals, response: Reals, covariance: Reals, only_possible: bool) -> tuple[float, Reals, Reals]:
+    """Takes the likeliest spread of sizes that pull: each size has its square as variance. Returns how much likelier it is than
+    no spread (the logarithm of the ratio), and the expectation and the covariance of the sizes.
+
+    response       the derivatives of the pull by the sizes
+    covariance     of the pull if the sizes have no spread
+    only_possible  leaves out directions in which the pull asks for more than three spreads of 1
+    """
+    # A pull of less than 1e-3 says nothing about sizes with a spread of 1. So rounding does not count.
+    variances, axes = numpy.linalg.eigh(covariance)
+    white = (axes / numpy.sqrt(variances.clip(0.0) + 1e-6)).T
+    left, gains, right = numpy.linalg.svd(white @ response)
+    scores, values = left.T @ white @ pull, gains**2
+    if only_possible:
+        possible = scores**2 <= 9.0 * (1.0 + values)
+        scores, gains, values, right = scores[possible], gains[possible], values[possible], right[possible]
+    spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
+    evidence = 0.5 * (spreads * values * scores**2 / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
+    shrunk = spreads[numpy.argmax(evidence)] / (1.0 + spreads[numpy.argmax(evidence)] * values)
+    return float(evidence.max()), right.T @ (shrunk * gains * scores), (right.T * shrunk) @ right
 
 
 def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
@@ -247,17 +288,21 @@ class Judge:
             n_pieces = pieces.sum(axis=0) ** 2 / (pieces**2).sum(axis=0).clip(1e-300)
             usual = variances * max(misfit, 1.0)
             variances = numpy.maximum(variances, (_N_USUAL * usual + n_pieces * robust) / (_N_USUAL + n_pieces))
-        variances = variances + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2)
+        variances = variances + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2, variances)
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
         errors, better = self._profile(errors, covariance, ratio)
         influence = numpy.sqrt((rows**2).sum(axis=0) / inlier.sum())
         return Judged(errors, influence, s / problem.size, misfit, most_misfit, better)
 
-    def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float) -> Reals:
+    def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float,
+                  variances: Reals) -> Reals:
         """Returns the share of the squared errors that comes from sizes that are not free. It is 0 unless other values of these
         sizes would fit better than chance allows. It consists of the shift of the unknowns in a fit with all sizes, and of the
-        variance that this fit adds."""
+        variance that this fit adds.
+
+        variances  the other share of the squared errors
+        """
         problem, n, weights = self.problem, self.problem.n, inlier * factor
         seen, (columns, area) = problem.at(self.x), problem.fixed_jacobian(self.x)
         columns, area = columns * _FIXED_SPREAD, area * _FIXED_SPREAD
@@ -269,25 +314,28 @@ class Judge:
         both_areas = numpy.concatenate([free_area, area])
         full = both.T @ (both * weights[:, None]) + 0.125 * n_area * numpy.outer(both_areas, both_areas)
         full[:n, :n] = precision
-        alone = full[n:, n:] - full[n:, :n] @ numpy.linalg.solve(precision, full[:n, n:])
-        pull = -columns.T @ (weights * seen.residual) - n_area * area
-        # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
-        left = -jacobian.T @ (weights * seen.residual) - n_area * free_area
-        pull -= full[n:, :n] @ numpy.linalg.solve(precision, left)
-        # Takes the likeliest spread of the sizes, if it is much likelier than no spread.
-        values, vectors = numpy.linalg.eigh(alone)
-        values, squares = values.clip(0.0), (vectors.T @ pull) ** 2
-        if problem.whole:  # a pull for far larger differences is from edges, where the area's term is right only on average
-            possible = squares <= 9.0 * values * (1.0 + values)
-            values, vectors, squares = values[possible], vectors[:, possible], squares[possible]
-        spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
-        evidence = 0.5 * (spreads * squares / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
-        if evidence.max() < _LEAST_EVIDENCE:
-            return numpy.zeros(n)
-        spread = float(spreads[numpy.argmax(evidence), 0])
-        inverse = (vectors * (spread / (1.0 + spread * values))) @ vectors.T
         shares = numpy.linalg.solve(precision, full[:n, n:])
-        return numpy.asarray((shares @ inverse @ pull) ** 2 + numpy.einsum("ij,jk,ik->i", shares, inverse, shares))
+        alone = full[n:, n:] - full[n:, :n] @ shares
+        # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
+        apart, of_area = columns - jacobian @ shares, n_area * (area - free_area @ shares)
+        pull = -apart.T @ (weights * seen.residual) - of_area
+
+        # For a whole valve, a pull for far larger differences is from edges, where the area's term is right only on average.
+        evidence, mean, covariance = likeliest_spread(pull, alone, alone, problem.whole)
+        found = numpy.asarray((shares @ mean) ** 2 + numpy.einsum("ij,jk,ik->i", shares, covariance, shares))
+        if evidence >= _LEAST_EVIDENCE and problem.whole and (
+                variances + found)[: len(problem.names)].max(initial=0.0) > UNDETERMINED**2:
+            # Few points near edges pull strongly. Points of a valve whose sizes are right show which pull is chance.
+            points = simulated(problem, self.x, self.mixture.noise, _N_SIMULATED, numpy.random.default_rng(0))
+            other = problem.with_points(points)
+            there = other.at(self.x)
+            assert there is not None
+            pulls = (other.jacobian(self.x)[0] @ shares - _FIXED_SPREAD * other.fixed_jacobian(self.x)[0]) * (
+                factor * self.mixture.inlier(there.residual) * there.residual)[:, None]
+            pull = pull + of_area - problem.weights.sum() * (1.0 - self.mixture.outliers) * pulls.mean(axis=0)
+            chance = numpy.cov(pulls.T).reshape(alone.shape) * (inlier**2).sum()
+            evidence = likeliest_spread(pull, alone, chance, True)[0]
+        return found if evidence >= _LEAST_EVIDENCE else numpy.zeros(n)
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
         """Holds each parameter two standard errors away, and minimizes over the others. Widens the standard error if the cost
