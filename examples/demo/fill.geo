@@ -7,8 +7,8 @@
 Surface Loop(1) = Surface{:};
 Volume(1) = {1};
 Physical Volume("fluid") = {1};
-// The algorithm HXT is several times faster here than gmsh's default, Delaunay. Delaunay keeps closer to the edge lengths of a
-// size field: -setnumber algorithm 1.
+// The algorithm HXT is several times faster here than gmsh's default, Delaunay. -setnumber algorithm 1 chooses Delaunay, which
+// keeps closer to the edge lengths of a size field.
 DefineConstant[ algorithm = 10 ];
 Mesh.Algorithm3D = algorithm;
 Mesh.Binary = 1;

@@ -81,7 +81,8 @@ def probes_of(problem: Problem, x: Reals, random: numpy.random.Generator, n: int
 
 
 def simulated(problem: Problem, x: Reals, noise: float, n: int, random: numpy.random.Generator) -> Reals:
-    """Returns at most n points as a whole valve at x would give them: evenly on it or on its faces, with normal noise."""
+    """Returns at most n points as a whole valve at x would give them, with normal noise. They lie evenly on the surface. If there
+    is a thickness, they lie on both faces, less densely near the rims."""
     if problem.thickness == 0.0:
         points = probes_of(problem, x, random, n)
     else:  # points near the surface move to its faces, and around its rims
@@ -98,24 +99,25 @@ def simulated(problem: Problem, x: Reals, noise: float, n: int, random: numpy.ra
 
 
 def likeliest_spread(pull: Reals, response: Reals, covariance: Reals, only_possible: bool) -> tuple[float, Reals, Reals]:
-    """Takes the likeliest spread of sizes that pull: each size has its square as variance. Returns how much likelier it is than
-    no spread (the logarithm of the ratio), and the expectation and the covariance of the sizes.
+    """Takes the likeliest variance of sizes that pull, the same for all. Returns how much likelier it is than none (the logarithm
+    of the ratio), and the expectation and the covariance of the sizes.
 
     response       the derivatives of the pull by the sizes
-    covariance     of the pull if the sizes have no spread
-    only_possible  leaves out directions in which the pull asks for more than three spreads of 1
+    covariance     of the pull if the sizes have no variance
+    only_possible  leaves out directions in which the pull asks for more than three times a standard deviation of 1
     """
     # A pull of less than 1e-3 says nothing about sizes with a spread of 1. So rounding does not count.
-    variances, axes = numpy.linalg.eigh(covariance)
-    white = (axes / numpy.sqrt(variances.clip(0.0) + 1e-6)).T
+    chances, axes = numpy.linalg.eigh(covariance)
+    white = (axes / numpy.sqrt(chances.clip(0.0) + 1e-6)).T
     left, gains, right = numpy.linalg.svd(white @ response)
     scores, values = left.T @ white @ pull, gains**2
     if only_possible:
         possible = scores**2 <= 9.0 * (1.0 + values)
         scores, gains, values, right = scores[possible], gains[possible], values[possible], right[possible]
-    spreads = numpy.logspace(-4.0, 0.0, 41)[:, None]
-    evidence = 0.5 * (spreads * values * scores**2 / (1.0 + spreads * values) - numpy.log1p(spreads * values)).sum(axis=1)
-    shrunk = spreads[numpy.argmax(evidence)] / (1.0 + spreads[numpy.argmax(evidence)] * values)
+    tried = numpy.logspace(-4.0, 0.0, 41)[:, None]
+    evidence = 0.5 * (tried * values * scores**2 / (1.0 + tried * values) - numpy.log1p(tried * values)).sum(axis=1)
+    best = tried[numpy.argmax(evidence)]
+    shrunk = best / (1.0 + best * values)
     return float(evidence.max()), right.T @ (shrunk * gains * scores), (right.T * shrunk) @ right
 
 
@@ -323,8 +325,8 @@ class Judge:
         # For a whole valve, a pull for far larger differences is from edges, where the area's term is right only on average.
         evidence, mean, covariance = likeliest_spread(pull, alone, alone, problem.whole)
         found = numpy.asarray((shares @ mean) ** 2 + numpy.einsum("ij,jk,ik->i", shares, covariance, shares))
-        if evidence >= _LEAST_EVIDENCE and problem.whole and (
-                variances + found)[: len(problem.names)].max(initial=0.0) > UNDETERMINED**2:
+        becomes = (variances <= UNDETERMINED**2) & (variances + found > UNDETERMINED**2)
+        if evidence >= _LEAST_EVIDENCE and problem.whole and becomes[: len(problem.names)].any():
             # Few points near edges pull strongly. Points of a valve whose sizes are right show which pull is chance.
             points = simulated(problem, self.x, self.mixture.noise, _N_SIMULATED, numpy.random.default_rng(0))
             other = problem.with_points(points)

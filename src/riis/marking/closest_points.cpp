@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. They take 2 MB. If points that follow each other are near each other, a small
-// batch gives leaves as compact, and its points are still in the cache when they are copied into leaves.
+// The number of points that are sorted together. They take 2 MB. Small batches suit points that follow each other closely: their
+// leaves are as compact as those of large batches, and their points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -47,7 +47,7 @@ class ClosestPoints {
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
       write_one_by_one({0, wanted_.n}, n_threads, [](Vec3) { return true; });
     } else if (wanted_.n >= n_threads * points_per_small_batch && follow_each_other()) {
-      // Each thread takes batches of its own. All threads get the same number of them.
+      // Each thread takes batches of its own. Their number is a multiple of the number of threads.
       const std::int64_t of_all = n_threads * points_per_small_batch;
       const std::int64_t n_batches = (wanted_.n + of_all - 1) / of_all * n_threads;
       std::vector<Batch> batches;
@@ -330,8 +330,7 @@ template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to) {
   if (request.wanted.n == 0) return;
-  // Makes the pseudonormals before anything is written. If memory runs out before the first result, the arrays are
-  // unchanged. If memory runs out later, the remaining points are queried one by one, which needs no memory.
+  // Makes the pseudonormals before anything is written. If memory runs out there, the arrays are unchanged.
   if (to.side || (to.normal && request.wanted.n > request.surface.triangles().n_triangles()))
     request.surface.pseudonormals();
   ClosestPoints<Real>(request, points, to).write();
