@@ -421,9 +421,9 @@ def test_random_patients_are_right_or_flagged():
 
 @pytest.mark.parametrize("seed", [7020, 7039, 7053, 7254])
 def test_whole_valves_whose_sizes_were_undetermined(seed):
-    """Cases from past faults. 7020: starts with far too large roots, see also test_starts_are_near_enough. 7053: three of 26 parts
-    determine a length, with large residuals there by chance. 7039 and 7254: few points near the edges of two closed disks pull
-    as if the housing had other angles."""
+    """Cases from past faults. 7020: starts with far too large roots (see also test_starts_are_near_enough). 7053: three of 26
+    parts determine a length, with large residuals there by chance. 7039 and 7254: few points near the edges of two closed
+    disks pull as if the housing had other angles."""
     one = fit_study.examine(fit_study.patient(seed))
     assert one.found.doubts == () and one.found.undetermined == () and not one.wrong(), one.found.report()
 
