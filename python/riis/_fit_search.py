@@ -39,6 +39,8 @@ _FIXED_SPREAD = 0.1
 _LEAST_EVIDENCE = 4.0
 # The number of simulated points that show how strongly sizes that are not free pull by chance.
 _N_SIMULATED = 8000
+# If the cost hardly rises at two standard errors, the profile looks this many times as far before it believes a larger error.
+_FARTHER = 2.5
 # A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 
@@ -290,10 +292,11 @@ class Judge:
             n_pieces = pieces.sum(axis=0) ** 2 / (pieces**2).sum(axis=0).clip(1e-300)
             usual = variances * max(misfit, 1.0)
             variances = numpy.maximum(variances, (_N_USUAL * usual + n_pieces * robust) / (_N_USUAL + n_pieces))
-        variances = variances + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2, variances)
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
+        # The profile comes before the share of the fixed sizes. Where that share leads, most points would count as outliers.
         errors, better = self._profile(errors, covariance, ratio)
+        errors = numpy.sqrt(errors**2 + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2, errors**2))
         influence = numpy.sqrt((rows**2).sum(axis=0) / inlier.sum())
         return Judged(errors, influence, s / problem.size, misfit, most_misfit, better)
 
@@ -351,7 +354,7 @@ class Judge:
             linear = errors[i]
             for sign in (1.0, -1.0):
                 error = linear
-                for _ in range(3):
+                for n_left in (3, 2, 1, 0):
                     target = float(numpy.clip(self.x[i] + sign * 2.0 * error, 0.0, 1.0))
                     moved = abs(target - self.x[i])
                     if moved < 0.5 * linear:
@@ -367,6 +370,9 @@ class Judge:
                     if rise < least:
                         least, better = rise, x
                     wider = moved / numpy.sqrt(max(rise / ratio[i], 0.04))
+                    if wider > _FARTHER * error and _FARTHER * error < UNDETERMINED and n_left and target not in (0.0, 1.0):
+                        error *= _FARTHER  # the cost is flat here, but may rise soon
+                        continue
                     errors[i] = max(errors[i], min(wider, 1.0))
                     if wider < 1.3 * error or wider > UNDETERMINED or target in (0.0, 1.0):
                         break
