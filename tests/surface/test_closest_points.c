@@ -208,7 +208,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
       const double extent = info.upper[c] - info.lower[c];
       xyz[3 * i + c] = (float)random_between(&rng, info.lower[c] - wide * extent, info.upper[c] + wide * extent);
       if (are_in_order && c == 0) xyz[3 * i] = (float)(info.lower[0] + extent * (double)i / (double)n);
-      /* Without an order every few points extend as far as all points do. */
+      /* Without an order, any 1000 consecutive points extend as far as all points. */
       if (!are_in_order && i % 500 == 1) xyz[3 * i + c] = i % 1000 == 1 ? 1e22F : -1e22F;
     }
   }

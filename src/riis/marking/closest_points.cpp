@@ -77,12 +77,12 @@ class ClosestPoints {
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
   // Returns whether points that follow each other are near each other: along some axis, a small batch from the middle has at most
-  // half the extent of all points. The middle counts, because many meshes begin with the nodes of their boundary.
+  // half the extent of all points. The middle counts, because many meshes begin with the nodes of their boundary. There must be
+  // enough points for a small batch.
   bool follow_each_other() const {
-    const std::int64_t begin = (wanted_.n - std::min(points_per_small_batch, wanted_.n)) / 2;
+    const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;
-    for (std::int64_t k = begin; k < std::min(begin + points_per_small_batch, wanted_.n); ++k)
-      bounds.add(points_[wanted_.id(k)]);
+    for (std::int64_t k = begin; k < begin + points_per_small_batch; ++k) bounds.add(points_[wanted_.id(k)]);
     const Vec3 all = wanted_.bounds.half_extent(), own = bounds.half_extent();
     const auto is_short = [](double of_batch, double of_all) { return of_all > 0 && of_batch <= 0.5 * of_all; };
     return is_short(own.x, all.x) || is_short(own.y, all.y) || is_short(own.z, all.z);
