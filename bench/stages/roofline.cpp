@@ -297,7 +297,7 @@ class StagedSteps {
     riis::NodeList &list = marks_.within.nodes;
     if (!list.has_room(n.n_within)) list.reserve(n.n_within);
     list.resize(n.n_within);
-    riis::put_in_order(content(), found_, false, mesh_.nodes().n, 1, marks_.order_scratch, list, marks_.marked.nodes);
+    riis::put_in_order(content(), false, mesh_.nodes().n, 1, marks_.order_scratch, list, marks_.marked.nodes);
   }
 
   TimeSteps steps_;

@@ -24,6 +24,23 @@ static void each_block_runs_once(void **state) {
       }
 }
 
+static void the_lowest_failing_block_is_reported(void **state) {
+  (void)state;
+  random_source random = random_start("the_lowest_failing_block_is_reported");
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    const int64_t n_blocks = 2 + (int64_t)(random_bits(&random) % 200);
+    const int n_threads = 1 + (int)(random_bits(&random) % 20);
+    int64_t failing[4], lowest = n_blocks;
+    const int64_t n_failing = (int64_t)(random_bits(&random) % 5);
+    for (int64_t i = 0; i < n_failing; ++i) {
+      failing[i] = (int64_t)(random_bits(&random) % (uint64_t)n_blocks);
+      if (failing[i] < lowest) lowest = failing[i];
+    }
+    assert_int_equal(block_whose_exception_comes(n_blocks, n_threads, n_failing, failing, 1), lowest);
+    if (repeat < 20) assert_int_equal(block_whose_exception_comes(n_blocks, 2, n_failing, failing, 0), lowest);
+  }
+}
+
 static void callers_do_not_disturb_each_other(void **state) {
   (void)state;
   assert_true(loops_at_once(5, is_bound() ? 5 : 100));
@@ -152,6 +169,7 @@ int main(void) {
       /* Before all loops of OpenMP. One of them may wait long, and then all loops are on teams for a while. */
       cmocka_unit_test(more_threads_than_processors_are_a_team),
       cmocka_unit_test(each_block_runs_once),
+      cmocka_unit_test(the_lowest_failing_block_is_reported),
       cmocka_unit_test(callers_do_not_disturb_each_other),
       cmocka_unit_test(a_callers_region_may_nest),
       cmocka_unit_test(the_threads_leave_signals_to_the_caller),

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -27,6 +28,7 @@ struct Seen {
 Seen run_loop(std::int64_t n_blocks, int n_threads, LoopChoice *choice = nullptr) {
   struct Thread {
     std::int64_t last = -1;
+    int n_descents = 0;
     std::atomic<int> n_inside{0};
   };
   std::vector<std::atomic<int>> n_runs(static_cast<std::size_t>(n_blocks));
@@ -42,7 +44,10 @@ Seen run_loop(std::int64_t n_blocks, int n_threads, LoopChoice *choice = nullptr
       return;
     }
     Thread &thread = threads[static_cast<std::size_t>(number)];
-    if (thread.n_inside.fetch_add(1) != 0 || block <= thread.last) is_right = false;
+    // A thread goes from its share to the next shares, and from the last share to the first.
+    thread.n_descents += block < thread.last;
+    if (thread.n_inside.fetch_add(1) != 0 || block == thread.last || thread.n_descents > (number == 0 ? 0 : 1))
+      is_right = false;
     thread.last = block;
     n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
     if (is_caller) n_of_caller.fetch_add(1, std::memory_order_relaxed);
@@ -93,6 +98,28 @@ void hold(int) {
 int loop_once(int64_t n_blocks, int n_threads) {
   const Seen seen = run_loop(n_blocks, n_threads);
   return seen.is_right ? seen.n_ran : -1;
+}
+
+int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_failing, const int64_t *failing,
+                                    int on_a_team) {
+  std::vector<std::atomic<int>> n_runs(static_cast<std::size_t>(n_blocks));
+  const std::int64_t *const end = failing + n_failing;
+  const auto body = [&](std::int64_t block, int) {
+    n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
+    if (std::find(failing, end, block) != end) throw block;
+  };
+  LoopChoice choice;
+  std::int64_t caught = n_blocks;
+  try {
+    on_a_team ? team_for(n_blocks, n_threads, body, choice) : openmp_for(n_blocks, n_threads, body);
+  } catch (std::int64_t block) {
+    caught = block;
+  }
+  for (std::int64_t block = 0; block < n_blocks; ++block) {
+    const int n = n_runs[static_cast<std::size_t>(block)];
+    if (n > 1 || (block < caught && n == 0)) return -1;
+  }
+  return caught;
 }
 
 int team_loop_once(int64_t n_blocks, int n_threads) {

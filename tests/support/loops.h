@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * C wrappers of the loops of src/riis/parallel. The assertions stay in C, because a failed assertion leaves by longjmp. A loop is
- * correct if it runs each block once, if each thread sees ascending blocks, and if no two threads have one number. */
+ * correct if it runs each block once, and if no two threads have one number. A thread's blocks must also ascend, from its own
+ * share to the last block and then from the first block. */
 #ifndef RIIS_TEST_LOOPS_H
 #define RIIS_TEST_LOOPS_H
 
@@ -14,6 +15,10 @@ extern "C" {
 int loop_once(int64_t n_blocks, int n_threads);
 /* Does the same on a team. */
 int team_loop_once(int64_t n_blocks, int n_threads);
+/* Runs a loop whose failing blocks throw. Returns the block whose exception comes out of the loop, or n_blocks if none does.
+ * Returns -1 if a lower block did not run or a block ran twice. */
+int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_failing, const int64_t *failing,
+                                    int on_a_team);
 /* Records loops of OpenMP, times in nanoseconds, and returns whether a loop that begins now takes a team. */
 int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);
 /* Records losses of loops on teams, times in nanoseconds, and returns how long a loop that begins now runs on the calling thread

@@ -136,8 +136,8 @@ void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks
             prepare_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
                           marks.order_scratch),
             marks);
-  put_in_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
-               marks.order_scratch, marks.within.nodes, marks.marked.nodes);
+  put_in_order(request.surface, limit_is_wider, request.mesh.nodes().n, request.n_threads, marks.order_scratch,
+               marks.within.nodes, marks.marked.nodes);
   make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
   if (limit_is_wider)
     select_fields(data.field_set(), marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "marking/put_in_order.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 
 #include "common/array_view.hpp"
@@ -10,168 +10,201 @@
 namespace riis {
 namespace {
 
-// Nodes are sorted stretch by stretch. A stretch is a range of node numbers. Its found nodes become a set with one bit for each
-// node, which gives their order.
-constexpr std::int64_t nodes_per_stretch = 16384, bits_per_word = 64;
-constexpr std::size_t n_words = nodes_per_stretch / bits_per_word;
+constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// The set of a stretch's found nodes. It gives the rank of each node in the set.
-class Ranks {
+// Bins all have the same number of node numbers, a power of two. One thread writes a bin's part of the result, so few cache lines
+// have two writers. There are enough bins for equal shares of many threads.
+class Bins {
  public:
-  void clear() { bits_.fill(0); }
-  void add(std::int64_t node) { view(bits_)[word(node)] |= bit(node); }
-  void count() {
-    std::uint32_t n = 0;
-    for (std::size_t i = 0; i < n_words; ++i) {
-      before_[i] = n;
-      n += n_bits(bits_[i]);
-    }
+  explicit Bins(std::int64_t n_nodes) {
+    constexpr std::int64_t most = 256;
+    while (n_nodes > most << shift_) ++shift_;
+    n_ = (n_nodes + size() - 1) >> shift_;
   }
-  std::int64_t operator()(std::int64_t node) const {
-    const std::int64_t i = word(node);
-    return view(before_)[i] + n_bits(view(bits_)[i] & (bit(node) - 1));
-  }
+  std::int64_t n() const { return n_; }
+  std::int64_t size() const { return std::int64_t{1} << shift_; }
+  std::int64_t bin_of(const FoundNode &found) const { return number(found) >> shift_; }
+  std::int64_t number_in_bin(const FoundNode &found) const { return number(found) & (size() - 1); }
 
  private:
-  static std::int64_t word(std::int64_t node) { return node % nodes_per_stretch / bits_per_word; }
-  static std::uint64_t bit(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
-  // Counts bits without the popcount instruction. For processors that may lack it, the compiler's built-in would call a
-  // function.
-  static std::uint32_t n_bits(std::uint64_t x) {
-    x -= x >> 1 & 0x5555555555555555;
-    x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
-    return static_cast<std::uint32_t>(((x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
-  }
+  static std::int64_t number(const FoundNode &found) { return static_cast<std::int64_t>(found.node); }
 
-  std::array<std::uint64_t, n_words> bits_;
-  std::array<std::uint32_t, n_words> before_;
+  int shift_ = 12;  // a bin has at least one stretch
+  std::int64_t n_ = 0;
 };
+static_assert(bits_per_word * words_per_stretch == 1 << 12);
 
-std::int64_t node_of(const FoundNode &found) { return found.node; }
+std::uint64_t bit_of(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
+
+// Counts bits without the popcount instruction. For processors that may lack it, the compiler's built-in would call a function.
+std::uint32_t n_bits(std::uint64_t x) {
+  x -= x >> 1 & 0x5555555555555555;
+  x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
+  return static_cast<std::uint32_t>(((x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
+}
 
 class Ordering {
  public:
-  Ordering(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+  Ordering(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, std::int64_t n_within, int n_threads,
            OrderScratch &scratch)
       : triangles_(surface.triangles()),
         other_(surface.other_distance()),
         half_thickness_(surface.half_thickness()),
-        found_(found),
         limit_is_wider_(limit_is_wider),
-        n_threads_(n_threads),
-        n_lists_(view(found.by_thread).size()),
-        n_stretches_((n_nodes + nodes_per_stretch - 1) / nodes_per_stretch),
+        bins_(n_nodes),
+        n_threads_(threads_for_order(n_within, n_threads)),
         scratch_(scratch) {}
 
-  // Pass 1. Counts the nodes of each list in each stretch. Then replaces each count by the position where these nodes will
-  // begin. Returns the sums.
-  OrderScratch::Counts count() {
-    scratch_.counts.clear();
-    resize(scratch_.counts, n_stretches_ * n_lists_ + 1);
-    for_each_list([&](std::int64_t list, const FoundNode &found) {
-      OrderScratch::Counts &counts = counts_of(found, list);
-      ++counts.n_within;
-      counts.n_marked += is_marked(found);
-    });
+  // Copies the nodes of each list bin by bin. Returns how many nodes the results will have.
+  OrderScratch::Counts gather(const FoundNodes &found) {
+    make_room(found);
+    parallel_for(view(found.by_thread).size(), n_threads_,
+                 [&](std::int64_t i, int) { gather_list(view(found.by_thread)[i], view(scratch_.lists)[i]); });
     OrderScratch::Counts sum{0, 0};
-    for (OrderScratch::Counts &counts : scratch_.counts) {
-      const OrderScratch::Counts n = counts;
-      counts = sum;
-      sum.n_within += n.n_within;
-      sum.n_marked += n.n_marked;
+    for (std::int64_t bin = 0; bin < bins_.n(); ++bin) {
+      view(scratch_.first)[bin] = sum;
+      for (const OrderScratch::List &list : scratch_.lists) {
+        sum.n_within += view(list.n)[bin].n_within;
+        sum.n_marked += view(list.n)[bin].n_marked;
+      }
     }
     return sum;
   }
 
-  // Pass 2. Copies the found nodes so that each stretch's nodes are together. Afterwards each position is the end of its nodes.
-  void gather() {
-    for_each_list([&](std::int64_t list, const FoundNode &found) {
-      std::int64_t &at = counts_of(found, list).n_within;
-      view(scratch_.by_stretch)[at++] = found;
-    });
-  }
-
-  // Pass 3. Writes each stretch's nodes in ascending order.
+  // Writes the nodes of each bin in ascending order.
   void write(NodeList &within, NodeList &marked) {
-    parallel_for(n_stretches_, n_threads_, [&](std::int64_t stretch, int) {
-      const OrderScratch::Counts *lists = scratch_.counts.data() + stretch * n_lists_;
-      // A stretch begins where the previous stretch ends.
-      const std::int64_t begin = stretch == 0 ? 0 : lists[-1].n_within, end = lists[n_lists_ - 1].n_within;
-      if (begin == end) return;
-      const FoundNode *nodes = scratch_.by_stretch.data();
-      write_ranked(nodes + begin, nodes + end, begin, within, [](const FoundNode &) { return true; });
-      if (!limit_is_wider_) return;
-      write_ranked(nodes + begin, nodes + end, lists[0].n_marked, marked,
-                   [&](const FoundNode &found) { return is_marked(found); });
+    parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
+      const OrderScratch::Counts &first = view(scratch_.first)[bin];
+      NodeRanks &ranks = view(scratch_.ranks)[thread];
+      write_bin(bin, first.n_within, ranks, within, [](const FoundNode &) { return true; });
+      if (limit_is_wider_)
+        write_bin(bin, first.n_marked, ranks, marked, [&](const FoundNode &found) { return is_marked(found); });
     });
   }
 
  private:
+  // One thread handles few nodes, because other threads would start too late to help.
+  static int threads_for_order(std::int64_t n_within, int n_threads) {
+    constexpr std::int64_t few = 4096;
+    return n_within < few ? 1 : n_threads;
+  }
   bool is_marked(const FoundNode &found) const { return found.distance <= half_thickness_; }
 
-  OrderScratch::Counts &counts_of(const FoundNode &found, std::int64_t list) const {
-    return view(scratch_.counts)[node_of(found) / nodes_per_stretch * n_lists_ + list];
+  void make_room(const FoundNodes &found) {
+    const std::int64_t n_lists = view(found.by_thread).size();
+    resize(scratch_.lists, n_lists);
+    for (std::int64_t i = 0; i < n_lists; ++i) {
+      OrderScratch::List &list = view(scratch_.lists)[i];
+      if (const auto &nodes = view(found.by_thread)[i]; list.nodes.size() < nodes.size()) {
+        list.nodes.clear();  // the old nodes need no copy
+        list.nodes.resize(nodes.capacity());
+      }
+      list.n.assign(static_cast<std::size_t>(bins_.n()), {0, 0});
+      resize(list.end, bins_.n());
+    }
+    resize(scratch_.first, bins_.n());
+    if (view(scratch_.ranks).size() < n_threads_) resize(scratch_.ranks, n_threads_);
+    for (NodeRanks &ranks : scratch_.ranks) ranks.make_room(bins_.size());
+  }
+
+  void gather_list(const UnfilledVector<FoundNode> &found, OrderScratch::List &list) const {
+    OrderScratch::Counts *const n = list.n.data();
+    for (const FoundNode &node : found) {
+      OrderScratch::Counts &of_bin = n[bins_.bin_of(node)];
+      ++of_bin.n_within;
+      if (limit_is_wider_) of_bin.n_marked += is_marked(node);
+    }
+    std::int64_t *const end = list.end.data();
+    std::int64_t sum = 0;
+    for (std::int64_t bin = 0; bin < bins_.n(); ++bin) {
+      end[bin] = sum;
+      sum += n[bin].n_within;
+    }
+    FoundNode *const nodes = list.nodes.data();
+    for (const FoundNode &node : found) nodes[end[bins_.bin_of(node)]++] = node;
   }
 
   template <class Visit>
-  void for_each_list(const Visit &visit) const {
-    parallel_for(n_lists_, n_threads_, [&](std::int64_t list, int) {
-      for (const FoundNode &found : view(found_.by_thread)[list]) visit(list, found);
-    });
+  void for_each_in(std::int64_t bin, const Visit &visit) const {
+    for (const OrderScratch::List &list : scratch_.lists) {
+      const FoundNode *const end = list.nodes.data() + view(list.end)[bin];
+      for (const FoundNode *node = end - view(list.n)[bin].n_within; node != end; ++node) visit(*node);
+    }
   }
 
-  // Writes the wanted nodes of a stretch to the list in the order of their ranks. The first one gets position `first`.
+  // Writes the wanted nodes of a bin. The first one gets position `first`.
   template <class IsWanted>
-  void write_ranked(const FoundNode *begin, const FoundNode *end, std::int64_t first, NodeList &list,
-                    const IsWanted &is_wanted) const {
-    Ranks ranks;
+  void write_bin(std::int64_t bin, std::int64_t first, NodeRanks &ranks, NodeList &list,
+                 const IsWanted &is_wanted) const {
     ranks.clear();
-    for (const FoundNode *found = begin; found != end; ++found)
-      if (is_wanted(*found)) ranks.add(node_of(*found));
+    for_each_in(bin, [&](const FoundNode &found) {
+      if (is_wanted(found)) ranks.add(bins_.number_in_bin(found));
+    });
     ranks.count();
-    for (const FoundNode *found = begin; found != end; ++found)
-      if (is_wanted(*found)) put(*found, first + ranks(node_of(*found)), list);
+    for_each_in(bin, [&](const FoundNode &found) {
+      if (is_wanted(found)) put(found, first + ranks.rank(bins_.number_in_bin(found)), list);
+    });
   }
 
   void put(const FoundNode &found, std::int64_t at, NodeList &list) const {
     const std::int64_t position = found.triangle;
-    list.set(at, node_of(found), found.distance, other_ ? -1 : view(triangles_.triangle_id)[position],
+    list.set(at, static_cast<std::int64_t>(found.node), found.distance,
+             other_ ? -1 : view(triangles_.triangle_id)[position],
              other_ ? view(other_->patches().patches)[position].leaflet_id : view(triangles_.leaflet_id)[position]);
   }
 
   const TriangleSet &triangles_;
   const PatchDistance *other_;
   double half_thickness_;
-  const FoundNodes &found_;
   bool limit_is_wider_;
+  Bins bins_;
   int n_threads_;
-  std::int64_t n_lists_;
-  std::int64_t n_stretches_;
   OrderScratch &scratch_;
 };
 
-// One thread handles few nodes, because other threads would start too late to help.
-int threads_for_order(std::int64_t n_within, int n_threads) {
-  constexpr std::int64_t few = 4096;
-  return n_within < few ? 1 : n_threads;
+}  // namespace
+
+void NodeRanks::make_room(std::int64_t n_nodes) {
+  resize(words_, n_nodes / bits_per_word);
+  resize(before_, n_nodes / bits_per_word);
+  resize(stretch_has_nodes_, n_nodes / (bits_per_word * words_per_stretch));
 }
 
-}  // namespace
+void NodeRanks::clear() { std::fill(stretch_has_nodes_.begin(), stretch_has_nodes_.end(), std::uint8_t{0}); }
+
+void NodeRanks::add(std::int64_t node) {
+  const std::int64_t word = node / bits_per_word, stretch = word / words_per_stretch;
+  if (!view(stretch_has_nodes_)[stretch]) {
+    view(stretch_has_nodes_)[stretch] = 1;
+    std::fill_n(words_.begin() + stretch * words_per_stretch, words_per_stretch, std::uint64_t{0});
+  }
+  view(words_)[word] |= bit_of(node);
+}
+
+void NodeRanks::count() {
+  std::uint32_t n = 0;
+  for (std::int64_t stretch = 0; stretch < view(stretch_has_nodes_).size(); ++stretch) {
+    if (!view(stretch_has_nodes_)[stretch]) continue;
+    for (std::int64_t word = stretch * words_per_stretch; word < (stretch + 1) * words_per_stretch; ++word) {
+      view(before_)[word] = n;
+      n += n_bits(view(words_)[word]);
+    }
+  }
+}
+
+std::int64_t NodeRanks::rank(std::int64_t node) const {
+  const std::int64_t word = node / bits_per_word;
+  return view(before_)[word] + n_bits(view(words_)[word] & (bit_of(node) - 1));
+}
 
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
                                    std::int64_t n_nodes, int n_threads, OrderScratch &scratch) {
-  const std::int64_t n_within = found.size();
-  if (view(scratch.by_stretch).size() < n_within) resize(scratch.by_stretch, n_within + n_within / 2);
-  Ordering ordering(surface, found, limit_is_wider, n_nodes, threads_for_order(n_within, n_threads), scratch);
-  const std::int64_t n_marked = ordering.count().n_marked;
-  return {n_within, limit_is_wider ? n_marked : 0};
+  return Ordering(surface, limit_is_wider, n_nodes, found.size(), n_threads, scratch).gather(found);
 }
 
-void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
-                  int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked) {
-  Ordering ordering(surface, found, limit_is_wider, n_nodes, threads_for_order(within.size(), n_threads), scratch);
-  ordering.gather();
-  ordering.write(within, marked);
+void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+                  OrderScratch &scratch, NodeList &within, NodeList &marked) {
+  Ordering(surface, limit_is_wider, n_nodes, within.size(), n_threads, scratch).write(within, marked);
 }
 
 }  // namespace riis

@@ -6,19 +6,46 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/unfilled.hpp"
 #include "distance/surface.hpp"
 #include "marking/found_nodes.hpp"
 #include "marking/node_list.hpp"
 
 namespace riis {
 
-// Memory that put_in_order reuses. A stretch is a range of node numbers.
+// A set of nodes of one bin, with a bit for each node of the bin. It gives the rank of each of its nodes, which is the number of
+// lesser nodes in the set. Only those stretches of the bits that have nodes are written and read.
+class NodeRanks {
+ public:
+  // Makes room for the nodes of a bin. Only this function allocates memory.
+  void make_room(std::int64_t n_nodes);
+  void clear();
+  // `node` is a number within the bin.
+  void add(std::int64_t node);
+  // Call this after all nodes were added, and before the first rank is requested.
+  void count();
+  std::int64_t rank(std::int64_t node) const;
+
+ private:
+  UnfilledVector<std::uint64_t> words_;
+  UnfilledVector<std::uint32_t> before_;  // for each word, the number of nodes in the words before it
+  std::vector<std::uint8_t> stretch_has_nodes_;
+};
+
+// Memory that put_in_order reuses. A bin is a range of node numbers.
 struct OrderScratch {
   struct Counts {
     std::int64_t n_within, n_marked;
   };
-  std::vector<Counts> counts;         // for each stretch and list; later the positions where the nodes begin
-  std::vector<FoundNode> by_stretch;  // all found nodes, stretch by stretch
+  // The nodes that a thread found, bin by bin.
+  struct alignas(64) List {
+    UnfilledVector<FoundNode> nodes;
+    std::vector<Counts> n;          // for each bin
+    std::vector<std::int64_t> end;  // for each bin, the end of its nodes
+  };
+  std::vector<List> lists;
+  std::vector<Counts> first;     // for each bin, the positions of its first nodes in the lists that are filled
+  std::vector<NodeRanks> ranks;  // one for each thread
 };
 
 // Counts the nodes of both lists. The lists must have these sizes when put_in_order fills them. Only this function allocates
@@ -28,7 +55,7 @@ OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &fou
 
 // Fills the lists. Fills `marked` only if the limit is wider than the half thickness. Call prepare_order first with the same
 // arguments.
-void put_in_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider, std::int64_t n_nodes,
-                  int n_threads, OrderScratch &scratch, NodeList &within, NodeList &marked);
+void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
+                  OrderScratch &scratch, NodeList &within, NodeList &marked);
 
 }  // namespace riis

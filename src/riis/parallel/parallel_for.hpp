@@ -6,12 +6,14 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <exception>
 #include <mutex>
 
+#include "common/array_view.hpp"
 #include "common/float_environment.hpp"
 #include "parallel/range.hpp"
 #include "parallel/team.hpp"
@@ -41,31 +43,44 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// The blocks of a loop, which are handed out in ascending order. So each thread sees ascending block numbers. If bodies throw,
-// all threads stop, and then the exception of the lowest block is rethrown. It is the exception that a single thread would meet,
-// because all lower blocks were handed out earlier and ran to their end.
+// The blocks of a loop. Each thread begins with a share of its own, a range of blocks, and then helps with the shares of others.
+// So a loop over the same data as the last finds most of a thread's data in the thread's cache. The blocks of a share are handed
+// out in ascending order. If a body throws, no higher block begins any more, and the exception of the lowest block is rethrown
+// after the loop. It is the exception that a single thread would meet, because all lower blocks run to their end.
 template <class Body>
 class Blocks {
  public:
-  Blocks(std::int64_t n_blocks, const Body &body) : n_blocks_(n_blocks), body_(body), first_to_fail_(n_blocks) {}
+  Blocks(std::int64_t n_blocks, int n_threads, const Body &body)
+      : n_shares_(std::min<std::int64_t>({n_blocks, n_threads, most_shares})), body_(body), end_(n_blocks) {
+    for (std::int64_t i = 0; i < n_shares_; ++i) {
+      view(shares_)[i].next.store(n_blocks * i / n_shares_, std::memory_order_relaxed);
+      view(shares_)[i].end = n_blocks * (i + 1) / n_shares_;
+    }
+  }
 
   // Runs blocks until none is left, or until has_to_stop() before a block. Returns how many blocks it ran. Each thread of the
   // loop calls this once, and the calling thread may also call it before the other threads begin.
   template <class HasToStop>
   std::int64_t run(int thread, const HasToStop &has_to_stop) {
     const FloatEnvironment environment;
-    std::int64_t block = 0, n_ran = 0;
-    try {
-      while (!has_to_stop() && (block = next_block_.fetch_add(1, std::memory_order_relaxed)) < n_blocks_) {
-        body_(block, thread);
-        ++n_ran;
-      }
-    } catch (...) {
-      next_block_.store(n_blocks_, std::memory_order_relaxed);
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (block < first_to_fail_) {
-        first_to_fail_ = block;
-        first_exception_ = std::current_exception();
+    std::int64_t n_ran = 0;
+    for (std::int64_t i = 0; i < n_shares_; ++i) {
+      Share &share = view(shares_)[(thread + i) % n_shares_];
+      std::int64_t block = 0;
+      try {
+        while (share.next.load(std::memory_order_relaxed) < share.end) {
+          if (has_to_stop()) return n_ran;
+          block = share.next.fetch_add(1, std::memory_order_relaxed);
+          if (block >= share.end || block >= end_.load(std::memory_order_relaxed)) break;
+          body_(block, thread);
+          ++n_ran;
+        }
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (block < end_.load(std::memory_order_relaxed)) {
+          end_.store(block, std::memory_order_relaxed);
+          exception_ = std::current_exception();
+        }
       }
     }
     return n_ran;
@@ -74,16 +89,22 @@ class Blocks {
     return run(thread, [] { return false; });
   }
   void rethrow() const {
-    if (first_exception_) std::rethrow_exception(first_exception_);
+    if (exception_) std::rethrow_exception(exception_);
   }
 
  private:
-  const std::int64_t n_blocks_;
+  static constexpr std::int64_t most_shares = 16;
+  struct alignas(64) Share {
+    std::atomic<std::int64_t> next;
+    std::int64_t end;
+  };
+
+  const std::int64_t n_shares_;
   const Body &body_;
-  std::atomic<std::int64_t> next_block_{0};
+  std::array<Share, most_shares> shares_;
+  std::atomic<std::int64_t> end_;  // the lowest block that has failed, or the number of blocks
   std::mutex mutex_;
-  std::int64_t first_to_fail_;
-  std::exception_ptr first_exception_;
+  std::exception_ptr exception_;
 };
 
 // Runs body(block, thread) once for every block in [0, n_blocks) on the calling thread.
@@ -112,7 +133,7 @@ struct TimesOfCaller {
 template <class Body>
 int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, TimesOfCaller *of_caller = nullptr) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
-  Blocks<Body> blocks(n_blocks, body);
+  Blocks<Body> blocks(n_blocks, n_threads, body);
   int n_ran = 1;
 #pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, of_caller)
   {
@@ -137,7 +158,7 @@ int team_for(std::int64_t n_blocks, int n_threads, const Body &body, LoopChoice 
     Blocks<Body> blocks;
     std::int64_t n_of_caller;  // the number of blocks that the calling thread ran in the team
     std::int64_t has_worked;   // when it had run them
-  } loop{{n_blocks, body}, 0, 0};
+  } loop{{n_blocks, n_threads, body}, 0, 0};
   std::int64_t n_alone = 0, begin = nanoseconds();
   if (const std::int64_t time_alone = choice.time_alone(begin); time_alone > 0) {
     const std::int64_t until = begin + time_alone;
