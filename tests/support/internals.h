@@ -122,6 +122,10 @@ void kernels_take_corners(int set, const double *vertices, const int64_t *vertex
 /* Transforms up to 16 triangles into a frame: framed(16, 9). */
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
                          int32_t n, double *framed);
+/* Transforms the 32 nodes (3, 32) of a leaf into a frame: framed(32, 3), and finds their box. Returns 0 if a coordinate is not
+ * usable. */
+int kernels_frame_leaf(int set, const double *centre, double scale, const double *nodes, float *framed, float *lower,
+                       float *upper);
 /* For fields: interpolates the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);

@@ -279,7 +279,7 @@ void measure_triangles(const double *vertices, const int64_t *vertex_id, int32_t
   dot(bc, a - b).store(measures.product_at_b);
 }
 
-void frame_group(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
+void frame_group(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                  GroupCorners &framed) {
   // Takes only as many triangles at a time as fit in one register, so that their addresses also stay in registers.
   constexpr int at_once = Doubles::per_register;
@@ -334,6 +334,46 @@ RIIS_INLINE float round_down(double x) {
   return static_cast<float>(x - unit);
 }
 RIIS_INLINE float round_up(double x) { return -round_down(-x); }
+
+bool frame_leaf(const PlainFrame &frame, double largest, const double *xyz, Leaf &leaf, float *lower, float *upper) {
+  // Three times eight coordinates are those of eight nodes, so they have the same centres each time.
+  constexpr int n_in_turn = 3;
+  alignas(64) double turn[n_in_turn * Doubles::n];
+  for (int i = 0; i < n_in_turn * Doubles::n; ++i) turn[i] = frame.centre[i % 3];
+  const Doubles scale = Doubles::all(frame.scale), low = Doubles::all(-2), high = Doubles::all(2),
+                limit = Doubles::all(largest);
+  Doubles centre[n_in_turn];
+  for (int j = 0; j < n_in_turn; ++j) centre[j] = Doubles::load(turn + j * Doubles::n);
+  alignas(64) float framed[3 * nodes_per_leaf];
+  Doubles::Mask are_usable = limit <= limit;
+  for (int k = 0; k < 3 * nodes_per_leaf; k += n_in_turn * Doubles::n)
+    for (int j = 0; j < n_in_turn; ++j) {
+      const Doubles x = Doubles::load_unaligned(xyz + k + j * Doubles::n);
+      are_usable = both(are_usable, magnitude(x) <= limit);
+      put(least(greatest(scale * (x - centre[j]), low), high), framed + k + j * Doubles::n);
+    }
+  for (int i = 0; i < nodes_per_leaf; ++i) {
+    leaf.x[i] = framed[3 * i];
+    leaf.y[i] = framed[3 * i + 1];
+    leaf.z[i] = framed[3 * i + 2];
+  }
+  const Floats zero = Floats::all(0);
+  Floats least_of[4] = {zero, zero, zero, zero}, opposite_of_greatest[4] = {zero, zero, zero, zero};
+  const float *const of_axis[3] = {leaf.x, leaf.y, leaf.z};
+  for (int i = 0; i < 3; ++i) {
+    const Floats first = Floats::load(of_axis[i]), last = Floats::load(of_axis[i] + Floats::n);
+    least_of[i] = least(first, last);
+    opposite_of_greatest[i] = zero - greatest(first, last);
+  }
+  float least_lane[4], negated_greatest[4];
+  least_lanes(least_of, least_lane);
+  least_lanes(opposite_of_greatest, negated_greatest);
+  for (int i = 0; i < 3; ++i) {
+    lower[i] = least_lane[i];
+    upper[i] = 0 - negated_greatest[i];
+  }
+  return !any(opposite(are_usable));
+}
 
 struct Floats3 {
   Floats x, y, z;
@@ -554,18 +594,8 @@ void sum_cubes_with_derivatives(const CubeSources &sources, const double *at, Cu
 
 }  // namespace
 
-const DecisionKernels RIIS_KERNELS(decision_kernels) = {take_corners,
-                                                        have_area,
-                                                        place_points,
-                                                        measure_triangles,
-                                                        frame_group,
-                                                        make_groups,
-                                                        decide,
-                                                        locate,
-                                                        mix_at_vertices,
-                                                        differentiate,
-                                                        find_sides,
-                                                        sum_cubes,
-                                                        sum_cubes_with_derivatives};
+const DecisionKernels RIIS_KERNELS(decision_kernels) = {
+    take_corners, have_area, place_points,    measure_triangles, frame_group, frame_leaf, make_groups,
+    decide,       locate,    mix_at_vertices, differentiate,     find_sides,  sum_cubes,  sum_cubes_with_derivatives};
 
 }  // namespace riis

@@ -32,8 +32,8 @@ struct alignas(64) GroupCorners {
   double xyz[9][triangles_per_group];
 };
 
-// Takes a coordinate x to (x - centre) * scale.
-struct SurfaceFrame {
+// Takes a coordinate x to (x - centre) * scale. The frame is the surface's or the mesh's.
+struct PlainFrame {
   double centre[3], scale;
 };
 
@@ -182,8 +182,12 @@ struct DecisionKernels {
   // Measures up to eight triangles, given by the ids of their vertices. The normals have the bits of triangle_normal.
   void (*measure_triangles)(const double *vertices, const int64_t *vertex_id, int32_t n, TriangleMeasures &measures);
   // Takes the corners of up to 16 triangles to the surface's frame. The triangles are given by index.
-  void (*frame_group)(const SurfaceFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
+  void (*frame_group)(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                       GroupCorners &framed);
+  // Takes the nodes of a leaf (3, nodes_per_leaf) to the mesh's frame, in single precision. Coordinates far outside become 2 or
+  // -2. Also finds the leaf's box. Returns false if a coordinate is not a number, or if it is larger than `largest`.
+  bool (*frame_leaf)(const PlainFrame &frame, double largest, const double *xyz, Leaf &leaf, float *lower,
+                     float *upper);
   // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
   // Computes the squares of the distances of n pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.

@@ -168,10 +168,10 @@ class ClosestPoints {
     fill_clusters(
         part.end - part.begin, 1,
         [&](std::int64_t at) {
-          const NodeItem<std::uint32_t> &item = item_at(at);
-          return OrderedNode{item.node, points_[id_of(item.node)], {item.x[0], item.x[1], item.x[2]}};
+          const std::uint32_t number = item_at(at).node;
+          return OrderedNode{number, points_[id_of(number)]};
         },
-        [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, own.clusters);
+        [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, [](std::int64_t) {}, own.clusters);
     const NodeSearch search = node_search();
     search_clusters(search, own.clusters, kernels(search.instructions), own.scratch, own.found);
     write_found(view(own.found.by_thread)[0], id_of);

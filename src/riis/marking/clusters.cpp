@@ -22,12 +22,12 @@ bool are_within_frame(const Clusters &clusters) {
 template <class NumberOf>
 void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const NumberOf &number_of) {
   const auto ordered = [&](std::int64_t i) {
-    OrderedNode node{number_of(i), node_at(nodes, number_of(i)), {}};
-    clusters.frame(node.at, node.x);
-    return node;
+    const std::uint32_t number = number_of(i);
+    return OrderedNode{number, nodes[number]};
   };
   fill_clusters(
-      nodes.n, n_threads, ordered, [&](std::int64_t i) { nodes.prefetch(number_of(i)); }, clusters);
+      nodes.n, n_threads, ordered, [&](std::int64_t i) { nodes.prefetch(number_of(i)); },
+      [&](std::int64_t i) { node_at(nodes, number_of(i)); }, clusters);
 }
 
 Bounds bounds_of(const StridedPoints &nodes) {

@@ -15,11 +15,10 @@
 
 namespace riis {
 
-// A node with its number, its coordinates, and its coordinates in the clusters' frame.
+// A node with its number and its coordinates.
 struct OrderedNode {
   std::uint32_t number;
   Vec3 at;
-  float x[3];
 };
 
 inline void put_box(const NodeBox &box, Boxes &boxes, std::int64_t at) {
@@ -53,11 +52,14 @@ inline Boxes no_boxes() {
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. node_at(i) returns the i-th node in order, and prefetch(i) requests the memory that
-// node_at(i) reads.
-template <class NodeAt, class Prefetch>
+// node_at(i) reads. Calls check(i) for the nodes of a leaf with a coordinate that is not usable (strided.hpp).
+template <class NodeAt, class Prefetch, class Check>
 void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, const Prefetch &prefetch,
-                   Clusters &clusters) {
+                   const Check &check, Clusters &clusters) {
   make_room_for(n_nodes, clusters);
+  const Kernels &simd = kernels(best_instruction_set());
+  const Vec3 centre = clusters.frame.centre;
+  const PlainFrame frame{{centre.x, centre.y, centre.z}, clusters.frame.scale};
   parallel_for(view(clusters.regions).size(), n_threads, [&](std::int64_t r, int) {
     Boxes &region = view(clusters.regions)[r];
     region = no_boxes();
@@ -74,14 +76,14 @@ void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, c
         // Prefetches the next leaf's nodes, because they may lie anywhere in the caller's memory. Stops at the end of this
         // region, because another thread reads the next one.
         for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i) prefetch(i);
-        NodeBox box;
         for (int i = 0; i < nodes_per_leaf; ++i) {
           const OrderedNode node = node_at(std::min(first + i, last));
-          leaf.x[i] = node.x[0], leaf.y[i] = node.x[1], leaf.z[i] = node.x[2];
           leaf.node[i] = node.number;
           xyz[3 * i] = node.at.x, xyz[3 * i + 1] = node.at.y, xyz[3 * i + 2] = node.at.z;
-          box.add(node.x);
         }
+        NodeBox box;
+        if (!simd.frame_leaf(frame, max_coordinate, xyz, leaf, box.lower, box.upper))
+          for (std::int64_t i = first; i < std::min(first + nodes_per_leaf, n_nodes); ++i) check(i);
         put_box(box, cluster, l - of_cluster.begin);
       }
       put_box(box_of(cluster), region, c - of_region.begin);

@@ -140,7 +140,7 @@ void TriangleGroups::enclose(int n_threads) {
   groups.resize(end.size());
   bounds.resize(end.size());
   const Kernels &simd = kernels(best_instruction_set());
-  const SurfaceFrame surface_frame{{frame.centre.x, frame.centre.y, frame.centre.z}, frame.scale};
+  const PlainFrame surface_frame{{frame.centre.x, frame.centre.y, frame.centre.z}, frame.scale};
   resize(packs, (view(end).size() + groups_per_pack - 1) / groups_per_pack);
   parallel_for_ranges(view(end).size(), groups_per_pack, n_threads, [&](const Range &range, int) {
     GroupCorners framed[groups_at_once];
