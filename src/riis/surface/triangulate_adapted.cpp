@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The adapted triangulation: grids as coarse as the state of the valve allows.
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "parallel/parallel_for.hpp"
+#include "parallel/range.hpp"
 #include "surface/grids.hpp"
 #include "surface/pieces.hpp"
 #include "surface/triangle_groups.hpp"
@@ -29,37 +31,56 @@ class QuadGroups {
     std::size_t i0, i1, j0, j1;
   };
 
-  // Splits a block of quads along its longer side until its triangles fit in a group.
+  // The quads of a row are consecutive, and so are their triangles.
+  Range triangles_of_row(const Quads &quads, std::size_t j) const {
+    const std::size_t n_u = grid_.u.size() - 1;
+    return {first_of_quad_[j * n_u + quads.i0], first_of_quad_[j * n_u + quads.i1]};
+  }
+  std::int64_t n_triangles(const Quads &quads) const {
+    std::int64_t n = 0;
+    for (std::size_t j = quads.j0; j < quads.j1; ++j) {
+      const Range row = triangles_of_row(quads, j);
+      n += row.end - row.begin;
+    }
+    return n;
+  }
+
+  // Cuts a block of quads across its longer side until its triangles fit in a group.
   void group(const Quads &quads) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
-    const std::size_t n_u = grid_.u.size() - 1;
-    // The quads of a row are consecutive, and so are their triangles.
-    const auto triangles_of_row = [&](std::size_t j) {
-      return std::pair(first_of_quad_[j * n_u + i0], first_of_quad_[j * n_u + i1]);
-    };
-    std::int32_t n = 0;
-    for (std::size_t j = j0; j < j1; ++j) n += triangles_of_row(j).second - triangles_of_row(j).first;
+    const std::int64_t n = n_triangles(quads);
     if (n == 0) return;
     if (n <= triangles_per_group) {
-      for (std::size_t j = j0; j < j1; ++j)
-        for (std::int32_t t = triangles_of_row(j).first; t < triangles_of_row(j).second; ++t) made_.order.push_back(t);
+      for (std::size_t j = j0; j < j1; ++j) {
+        const Range row = triangles_of_row(quads, j);
+        for (std::int64_t t = row.begin; t < row.end; ++t) made_.order.push_back(static_cast<std::int32_t>(t));
+      }
       made_.end.push_back(static_cast<std::int32_t>(made_.order.size()));
       return;
     }
     if (i1 - i0 == 1 && j1 - j0 == 1) {
-      group_by_place(set_, triangles_of_row(j0).first, triangles_of_row(j0).second, made_);
+      const Range row = triangles_of_row(quads, j0);
+      group_by_place(set_, static_cast<std::int32_t>(row.begin), static_cast<std::int32_t>(row.end), made_);
       return;
     }
     const std::size_t i = (i0 + i1) / 2, j = (j0 + j1) / 2;
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
-    if (along_u) {
-      group({i0, i, j0, j1});
-      group({i, i1, j0, j1});
-    } else {
-      group({i0, i1, j0, j});
-      group({i0, i1, j, j1});
-    }
+    const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
+    // The cut is so near the middle that both parts are compact. There it takes the place at which the fewest groups may hold
+    // the triangles of both parts.
+    constexpr std::size_t farthest = 4;
+    const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
+    const auto n_groups = [](std::int64_t n_held) { return (n_held + triangles_per_group - 1) / triangles_per_group; };
+    std::size_t best = middle;
+    std::int64_t fewest = n;
+    for (std::size_t off = 0; off <= std::min(farthest, size / 4); ++off)
+      for (const std::size_t cut : {middle - off, middle + off}) {
+        const std::int64_t n_before = n_triangles(before(cut)), n_needed = n_groups(n_before) + n_groups(n - n_before);
+        if (n_needed < fewest) fewest = n_needed, best = cut;
+      }
+    group(before(best));
+    group(along_u ? Quads{best, i1, j0, j1} : Quads{i0, i1, best, j1});
   }
 
   const QuadGrid &grid_;
