@@ -280,7 +280,7 @@ class StagedSteps {
               {"filter", counts.filter.bytes()},
               {"decide", counts.decide.bytes()},
               {"rest", n_found * found_bytes},
-              // The found nodes are read, copied piece by piece, read again, and written into the lists.
+              // The found nodes are read, copied bin by bin, read again, and written into the lists.
               {"order", 3 * n_found * found_bytes + in_lists}}}};
   }
 

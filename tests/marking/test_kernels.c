@@ -557,33 +557,30 @@ static void corners_are_bounded_and_framed(void **state) {
   }
 }
 
-/* The nodes of a leaf have the bits of a plain loop. Some coordinates are far outside the frame, or not usable. */
+/* The nodes of a leaf have the bits of a plain loop. Some coordinates are far outside the frame, infinite or not numbers. */
 static void leaves_are_framed(void **state) {
   (void)state;
   enum { n_nodes = 32 };
   for (int trial = 0; trial < fewer_if_sanitized(5000); ++trial) {
     double nodes[3 * n_nodes], centre[3];
     const double scale = ldexp(1, (int)(random_bits(&rng) % 40) - 20);
-    int are_usable = 1;
     for (int c = 0; c < 3; ++c) centre[c] = random_between(&rng, -1, 1) * random_power_of_ten(&rng, -3, 3);
     for (int i = 0; i < 3 * n_nodes; ++i) nodes[i] = centre[i % 3] + random_between(&rng, -1, 1) / scale;
     if (trial % 3 == 0) {
-      const double strange[] = {5 / scale, -1e9 / scale, 1e60, -1e60, 1.1e60, -INFINITY, INFINITY, NAN};
-      const int which = (int)(random_bits(&rng) % 8);
-      nodes[random_bits(&rng) % (3 * n_nodes)] = strange[which];
-      are_usable = which < 4;
+      const double strange[] = {5 / scale, -1e9 / scale, 1e60, -1e61, -INFINITY, INFINITY, NAN};
+      nodes[random_bits(&rng) % (3 * n_nodes)] = strange[random_bits(&rng) % 7];
     }
     for (int set = 0; set < n_kernel_sets; ++set) {
       if (!kernels_there(set)) continue;
       float in_frame[3 * n_nodes], lower[3], upper[3];
-      assert_int_equal(kernels_frame_leaf(set, centre, scale, nodes, in_frame, lower, upper), are_usable);
-      if (!are_usable) continue;
+      kernels_frame_leaf(set, centre, scale, nodes, in_frame, lower, upper);
       for (int c = 0; c < 3; ++c) {
         float least = INFINITY, greatest = -INFINITY;
         for (int i = 0; i < n_nodes; ++i) {
-          const float x = (float)fmin(fmax(scale * (nodes[3 * i + c] - centre[c]), -2), 2);
-          CHECK_SAME(in_frame[n_nodes * c + i], x);
-          least = fminf(least, x), greatest = fmaxf(greatest, x);
+          const double x = scale * (nodes[3 * i + c] - centre[c]);
+          const float expected = (float)(isnan(x) ? -2 : fmin(fmax(x, -2), 2));
+          CHECK_SAME(in_frame[n_nodes * c + i], expected);
+          least = fminf(least, expected), greatest = fmaxf(greatest, expected);
         }
         CHECK_SAME(lower[c], least);
         CHECK_SAME(upper[c], greatest);

@@ -41,6 +41,19 @@ static void the_lowest_failing_block_is_reported(void **state) {
   }
 }
 
+static void lower_blocks_run_after_a_failure(void **state) {
+  (void)state;
+  int64_t n_higher = 0;
+  assert_int_equal(block_that_fails_first(100, 30, &n_higher), 30);
+  /* The exception may be stored only after the calling thread has gone on. That is rare. */
+  int n_with_none = 0;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    assert_int_equal(block_that_fails_first(100, -1, &n_higher), 50);
+    n_with_none += n_higher == 0;
+  }
+  assert_true(n_with_none > 0);
+}
+
 static void callers_do_not_disturb_each_other(void **state) {
   (void)state;
   assert_true(loops_at_once(5, is_bound() ? 5 : 100));
@@ -170,6 +183,7 @@ int main(void) {
       cmocka_unit_test(more_threads_than_processors_are_a_team),
       cmocka_unit_test(each_block_runs_once),
       cmocka_unit_test(the_lowest_failing_block_is_reported),
+      cmocka_unit_test(lower_blocks_run_after_a_failure),
       cmocka_unit_test(callers_do_not_disturb_each_other),
       cmocka_unit_test(a_callers_region_may_nest),
       cmocka_unit_test(the_threads_leave_signals_to_the_caller),

@@ -20,6 +20,7 @@
 #include "geometry/coons.hpp"
 #include "geometry/crossing.hpp"
 #include "geometry/curve.hpp"
+#include "marking/put_in_order.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/triangle_scene.hpp"
@@ -325,6 +326,30 @@ double powell_minimum(double (*f)(double u, double v), double enough, double ste
   uv[0] = found.at.u;
   uv[1] = found.at.v;
   return found.value;
+}
+
+std::int64_t order_found_nodes(const riis_surface *surface, std::int64_t n_nodes, int n_threads, int limit_is_wider,
+                               int n_lists, const std::int64_t *end, const std::int64_t *node, const double *distance,
+                               const std::int64_t *triangle, std::int64_t *within_node, double *within_distance,
+                               std::int64_t *within_triangle, std::int64_t *marked_node, double *marked_distance) {
+  static FoundNodes found;
+  static OrderScratch scratch;
+  const Surface &content = content_of(surface);
+  found.prepare(n_lists);
+  for (int list = 0; list < n_lists; ++list)
+    for (std::int64_t i = list == 0 ? 0 : end[list - 1]; i < end[list]; ++i)
+      view(found.by_thread)[list].push_back({node[i], distance[i], triangle[i]});
+  const OrderScratch::Counts n = prepare_order(content, found, limit_is_wider, n_nodes, n_threads, scratch);
+  NodeList within, marked;
+  within.resize(n.n_within);
+  marked.resize(n.n_marked);
+  put_in_order(content, limit_is_wider, n_nodes, n_threads, scratch, within, marked);
+  std::copy(within.node_id.begin(), within.node_id.end(), within_node);
+  std::copy(within.distance.begin(), within.distance.end(), within_distance);
+  std::copy(within.triangle_id.begin(), within.triangle_id.end(), within_triangle);
+  std::copy(marked.node_id.begin(), marked.node_id.end(), marked_node);
+  std::copy(marked.distance.begin(), marked.distance.end(), marked_distance);
+  return limit_is_wider ? n.n_marked : -1;
 }
 
 riis_status wall_meets(const char *exception) {

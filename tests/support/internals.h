@@ -98,6 +98,15 @@ riis_status triangulate_deviating(const char *kind, double deviation, double max
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
+/* Puts found nodes in order on up to n_threads threads. List i of n_lists has the nodes from its end[i - 1] to end[i] - 1. Nodes
+ * are less than n_nodes. Writes all nodes, which are within the limit, to within_* and returns the number of marked nodes. If the
+ * limit is wider than the half thickness, writes these to marked_*, and otherwise returns -1. Each call reuses the memory of the
+ * last. */
+int64_t order_found_nodes(const riis_surface *surface, int64_t n_nodes, int n_threads, int limit_is_wider, int n_lists,
+                          const int64_t *end, const int64_t *node, const double *distance, const int64_t *triangle,
+                          int64_t *within_node, double *within_distance, int64_t *within_triangle, int64_t *marked_node,
+                          double *marked_distance);
+
 /* The kernels compiled for each instruction set (kernels/kernels.hpp): 0 is the baseline, 1 AVX2, 2 AVX-512. 3 is portable
  * code for processors without these sets, which runs on any processor. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
@@ -122,9 +131,8 @@ void kernels_take_corners(int set, const double *vertices, const int64_t *vertex
 /* Transforms up to 16 triangles into a frame: framed(16, 9). */
 void kernels_frame_group(int set, const double *centre, double scale, const double *corners, const int32_t *triangle,
                          int32_t n, double *framed);
-/* Transforms the 32 nodes (3, 32) of a leaf into a frame: framed(32, 3), and finds their box. Returns 0 if a coordinate is not
- * usable. */
-int kernels_frame_leaf(int set, const double *centre, double scale, const double *nodes, float *framed, float *lower,
+/* Transforms the 32 nodes (3, 32) of a leaf into a frame: framed(32, 3), and finds their box. */
+void kernels_frame_leaf(int set, const double *centre, double scale, const double *nodes, float *framed, float *lower,
                        float *upper);
 /* For fields: interpolates the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,

@@ -141,13 +141,11 @@ void kernels_frame_group(int set, const double *centre, double scale, const doub
   std::memcpy(framed, of_group.xyz, sizeof of_group.xyz);
 }
 
-int kernels_frame_leaf(int set, const double *centre, double scale, const double *nodes, float *framed, float *lower,
-                       float *upper) {
+void kernels_frame_leaf(int set, const double *centre, double scale, const double *nodes, float *framed, float *lower,
+                        float *upper) {
   Leaf leaf;
-  const PlainFrame frame{{centre[0], centre[1], centre[2]}, scale};
-  const bool are_usable = of(set).frame_leaf(frame, max_coordinate, nodes, leaf, lower, upper);
+  of(set).frame_leaf({{centre[0], centre[1], centre[2]}, scale}, nodes, leaf, lower, upper);
   for (const float *axis : {leaf.x, leaf.y, leaf.z}) framed = std::copy_n(axis, nodes_per_leaf, framed);
-  return are_usable;
 }
 
 void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,

@@ -122,6 +122,40 @@ int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_f
   return caught;
 }
 
+int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *n_higher) {
+  std::vector<std::atomic<int>> n_runs(static_cast<std::size_t>(n_blocks));
+  std::atomic<int> has_failed{0};
+  std::atomic<bool> begin_with_own_shares{true};
+  const std::int64_t first_of_second = n_blocks / 2;
+  const auto body = [&](std::int64_t block, int thread) {
+    n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
+    if (thread == 1 && has_failed == 0) {
+      if (block != first_of_second) begin_with_own_shares = false;
+      has_failed = 1;
+      throw block;
+    }
+    if (block == 0) {
+      wait_for(has_failed, 1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the exception is on its way
+    }
+    if (block == also_failing) throw block;
+  };
+  LoopChoice choice;
+  std::int64_t caught = n_blocks;
+  try {
+    team_for(n_blocks, 2, body, choice);
+  } catch (std::int64_t block) {
+    caught = block;
+  }
+  *n_higher = 0;
+  for (std::int64_t block = 0; block < n_blocks; ++block) {
+    const int n = n_runs[static_cast<std::size_t>(block)];
+    if (block < caught && n != 1) return -1;
+    *n_higher += block > caught && n > 0;
+  }
+  return begin_with_own_shares ? caught : -1;
+}
+
 int team_loop_once(int64_t n_blocks, int n_threads) {
   LoopChoice choice;
   const Seen seen = run_loop(n_blocks, n_threads, &choice);

@@ -335,21 +335,18 @@ RIIS_INLINE float round_down(double x) {
 }
 RIIS_INLINE float round_up(double x) { return -round_down(-x); }
 
-bool frame_leaf(const PlainFrame &frame, double largest, const double *xyz, Leaf &leaf, float *lower, float *upper) {
-  // Three times eight coordinates are those of eight nodes, so they have the same centres each time.
+void frame_leaf(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper) {
+  // Eight nodes have 24 coordinates, so the centres repeat after three times eight coordinates.
   constexpr int n_in_turn = 3;
   alignas(64) double turn[n_in_turn * Doubles::n];
   for (int i = 0; i < n_in_turn * Doubles::n; ++i) turn[i] = frame.centre[i % 3];
-  const Doubles scale = Doubles::all(frame.scale), low = Doubles::all(-2), high = Doubles::all(2),
-                limit = Doubles::all(largest);
+  const Doubles scale = Doubles::all(frame.scale), low = Doubles::all(-2), high = Doubles::all(2);
   Doubles centre[n_in_turn];
   for (int j = 0; j < n_in_turn; ++j) centre[j] = Doubles::load(turn + j * Doubles::n);
   alignas(64) float framed[3 * nodes_per_leaf];
-  Doubles::Mask are_usable = limit <= limit;
   for (int k = 0; k < 3 * nodes_per_leaf; k += n_in_turn * Doubles::n)
     for (int j = 0; j < n_in_turn; ++j) {
       const Doubles x = Doubles::load_unaligned(xyz + k + j * Doubles::n);
-      are_usable = both(are_usable, magnitude(x) <= limit);
       put(least(greatest(scale * (x - centre[j]), low), high), framed + k + j * Doubles::n);
     }
   for (int i = 0; i < nodes_per_leaf; ++i) {
@@ -372,7 +369,6 @@ bool frame_leaf(const PlainFrame &frame, double largest, const double *xyz, Leaf
     lower[i] = least_lane[i];
     upper[i] = 0 - negated_greatest[i];
   }
-  return !any(opposite(are_usable));
 }
 
 struct Floats3 {

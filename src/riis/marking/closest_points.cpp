@@ -171,7 +171,7 @@ class ClosestPoints {
           const std::uint32_t number = item_at(at).node;
           return OrderedNode{number, points_[id_of(number)]};
         },
-        [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, [](std::int64_t) {}, own.clusters);
+        [&](std::int64_t at) { points_.prefetch(id_of(item_at(at).node)); }, own.clusters);
     const NodeSearch search = node_search();
     search_clusters(search, own.clusters, kernels(search.instructions), own.scratch, own.found);
     write_found(view(own.found.by_thread)[0], id_of);

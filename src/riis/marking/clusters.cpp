@@ -9,8 +9,8 @@
 namespace riis {
 namespace {
 
-// Checks that all boxes lie within the frame. The caller may have moved nodes without telling the mesh. The errors of single
-// precision are bounded only for coordinates of at most 1.
+// Checks that all boxes lie within the frame. The caller may have moved nodes without telling the mesh, or made their coordinates
+// unusable. The errors of single precision are bounded only for coordinates of at most 1.
 bool are_within_frame(const Clusters &clusters) {
   return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {
     return std::all_of(box.lower, box.lower + 3, [](float x) { return x >= -1; }) &&
@@ -26,10 +26,10 @@ void fill(const StridedPoints &nodes, Clusters &clusters, int n_threads, const N
     return OrderedNode{number, nodes[number]};
   };
   fill_clusters(
-      nodes.n, n_threads, ordered, [&](std::int64_t i) { nodes.prefetch(number_of(i)); },
-      [&](std::int64_t i) { node_at(nodes, number_of(i)); }, clusters);
+      nodes.n, n_threads, ordered, [&](std::int64_t i) { nodes.prefetch(number_of(i)); }, clusters);
 }
 
+// Fails with RIIS_INVALID_MESH for an unusable coordinate.
 Bounds bounds_of(const StridedPoints &nodes) {
   Bounds bounds;
   for (std::int64_t i = 0; i < nodes.n; ++i) bounds.add(node_at(nodes, i));

@@ -52,10 +52,10 @@ inline Boxes no_boxes() {
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. node_at(i) returns the i-th node in order, and prefetch(i) requests the memory that
-// node_at(i) reads. Calls check(i) for the nodes of a leaf with a coordinate that is not usable (strided.hpp).
-template <class NodeAt, class Prefetch, class Check>
+// node_at(i) reads. An unusable coordinate (strided.hpp) leaves the boxes outside the frame.
+template <class NodeAt, class Prefetch>
 void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, const Prefetch &prefetch,
-                   const Check &check, Clusters &clusters) {
+                   Clusters &clusters) {
   make_room_for(n_nodes, clusters);
   const Kernels &simd = kernels(best_instruction_set());
   const Vec3 centre = clusters.frame.centre;
@@ -82,8 +82,7 @@ void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, c
           xyz[3 * i] = node.at.x, xyz[3 * i + 1] = node.at.y, xyz[3 * i + 2] = node.at.z;
         }
         NodeBox box;
-        if (!simd.frame_leaf(frame, max_coordinate, xyz, leaf, box.lower, box.upper))
-          for (std::int64_t i = first; i < std::min(first + nodes_per_leaf, n_nodes); ++i) check(i);
+        simd.frame_leaf(frame, xyz, leaf, box.lower, box.upper);
         put_box(box, cluster, l - of_cluster.begin);
       }
       put_box(box_of(cluster), region, c - of_region.begin);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// Bins all have the same number of node numbers, a power of two. One thread writes a bin's part of the result, so few cache lines
-// have two writers. There are enough bins for equal shares of many threads.
+// All bins have equally many numbers, a power of two. One thread writes a bin's part of the result, so few cache lines have two
+// writers. Many more bins would make gathering slower.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {
@@ -58,16 +58,17 @@ class Ordering {
   // Copies the nodes of each list bin by bin. Returns how many nodes the results will have.
   OrderScratch::Counts gather(const FoundNodes &found) {
     make_room(found);
-    parallel_for(view(found.by_thread).size(), n_threads_,
-                 [&](std::int64_t i, int) { gather_list(view(found.by_thread)[i], view(scratch_.lists)[i]); });
+    parallel_for(scratch_.n_lists, n_threads_, [&](std::int64_t i, int) { gather_list(view(scratch_.lists)[i]); });
     OrderScratch::Counts sum{0, 0};
     for (std::int64_t bin = 0; bin < bins_.n(); ++bin) {
       view(scratch_.first)[bin] = sum;
-      for (const OrderScratch::List &list : scratch_.lists) {
-        sum.n_within += view(list.n)[bin].n_within;
-        sum.n_marked += view(list.n)[bin].n_marked;
+      for (std::int64_t i = 0; i < scratch_.n_lists; ++i) {
+        const OrderScratch::Counts &n = view(view(scratch_.lists)[i].n)[bin];
+        sum.n_within += n.n_within;
+        sum.n_marked += n.n_marked;
       }
     }
+    view(scratch_.first)[bins_.n()] = sum;
     return sum;
   }
 
@@ -75,6 +76,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
       const OrderScratch::Counts &first = view(scratch_.first)[bin];
+      if (view(scratch_.first)[bin + 1].n_within == first.n_within) return;
       NodeRanks &ranks = view(scratch_.ranks)[thread];
       write_bin(bin, first.n_within, ranks, within, [](const FoundNode &) { return true; });
       if (limit_is_wider_)
@@ -91,23 +93,26 @@ class Ordering {
   bool is_marked(const FoundNode &found) const { return found.distance <= half_thickness_; }
 
   void make_room(const FoundNodes &found) {
-    const std::int64_t n_lists = view(found.by_thread).size();
-    resize(scratch_.lists, n_lists);
-    for (std::int64_t i = 0; i < n_lists; ++i) {
-      OrderScratch::List &list = view(scratch_.lists)[i];
-      if (const auto &nodes = view(found.by_thread)[i]; list.nodes.size() < nodes.size()) {
+    if (scratch_.lists.size() < found.by_thread.size()) scratch_.lists.resize(found.by_thread.size());
+    scratch_.n_lists = 0;
+    for (const UnfilledVector<FoundNode> &nodes : found.by_thread) {
+      if (nodes.empty()) continue;
+      OrderScratch::List &list = view(scratch_.lists)[scratch_.n_lists++];
+      list.found = &nodes;
+      if (list.nodes.size() < nodes.size()) {
         list.nodes.clear();  // the old nodes need no copy
         list.nodes.resize(nodes.capacity());
       }
       list.n.assign(static_cast<std::size_t>(bins_.n()), {0, 0});
       resize(list.end, bins_.n());
     }
-    resize(scratch_.first, bins_.n());
+    resize(scratch_.first, bins_.n() + 1);
     if (view(scratch_.ranks).size() < n_threads_) resize(scratch_.ranks, n_threads_);
     for (NodeRanks &ranks : scratch_.ranks) ranks.make_room(bins_.size());
   }
 
-  void gather_list(const UnfilledVector<FoundNode> &found, OrderScratch::List &list) const {
+  void gather_list(OrderScratch::List &list) const {
+    const UnfilledVector<FoundNode> &found = *list.found;
     OrderScratch::Counts *const n = list.n.data();
     for (const FoundNode &node : found) {
       OrderScratch::Counts &of_bin = n[bins_.bin_of(node)];
@@ -126,7 +131,8 @@ class Ordering {
 
   template <class Visit>
   void for_each_in(std::int64_t bin, const Visit &visit) const {
-    for (const OrderScratch::List &list : scratch_.lists) {
+    for (std::int64_t i = 0; i < scratch_.n_lists; ++i) {
+      const OrderScratch::List &list = view(scratch_.lists)[i];
       const FoundNode *const end = list.nodes.data() + view(list.end)[bin];
       for (const FoundNode *node = end - view(list.n)[bin].n_within; node != end; ++node) visit(*node);
     }
@@ -164,10 +170,10 @@ class Ordering {
 
 }  // namespace
 
-void NodeRanks::make_room(std::int64_t n_nodes) {
-  resize(words_, n_nodes / bits_per_word);
-  resize(before_, n_nodes / bits_per_word);
-  resize(stretch_has_nodes_, n_nodes / (bits_per_word * words_per_stretch));
+void NodeRanks::make_room(std::int64_t n_numbers) {
+  resize(words_, n_numbers / bits_per_word);
+  resize(before_, n_numbers / bits_per_word);
+  resize(stretch_has_nodes_, n_numbers / (bits_per_word * words_per_stretch));
 }
 
 void NodeRanks::clear() { std::fill(stretch_has_nodes_.begin(), stretch_has_nodes_.end(), std::uint8_t{0}); }

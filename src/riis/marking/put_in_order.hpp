@@ -13,12 +13,15 @@
 
 namespace riis {
 
-// A set of nodes of one bin, with a bit for each node of the bin. It gives the rank of each of its nodes, which is the number of
-// lesser nodes in the set. Only those stretches of the bits that have nodes are written and read.
+// Nodes are put in order by bins. A bin is a range of node numbers.
+
+// A set of nodes of one bin has a bit for each number of the bin. It gives the rank of each of its nodes, which is the number of
+// lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and read.
 class NodeRanks {
  public:
-  // Makes room for the nodes of a bin. Only this function allocates memory.
-  void make_room(std::int64_t n_nodes);
+  // Makes room for bins of n_numbers. Only this function allocates memory.
+  void make_room(std::int64_t n_numbers);
+  // Empties the set.
   void clear();
   // `node` is a number within the bin.
   void add(std::int64_t node);
@@ -32,19 +35,21 @@ class NodeRanks {
   std::vector<std::uint8_t> stretch_has_nodes_;
 };
 
-// Memory that put_in_order reuses. A bin is a range of node numbers.
+// Memory that put_in_order reuses.
 struct OrderScratch {
   struct Counts {
     std::int64_t n_within, n_marked;
   };
-  // The nodes that a thread found, bin by bin.
+  // The nodes of a thread's list, bin by bin.
   struct alignas(64) List {
+    const UnfilledVector<FoundNode> *found;  // while they are gathered
     UnfilledVector<FoundNode> nodes;
     std::vector<Counts> n;          // for each bin
     std::vector<std::int64_t> end;  // for each bin, the end of its nodes
   };
   std::vector<List> lists;
-  std::vector<Counts> first;     // for each bin, the positions of its first nodes in the lists that are filled
+  std::int64_t n_lists = 0;      // the number of lists with nodes, which come first
+  std::vector<Counts> first;     // for each bin, its first position in each result; then the sizes of the results
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 

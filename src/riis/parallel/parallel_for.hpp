@@ -43,10 +43,11 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// The blocks of a loop. Each thread begins with a share of its own, a range of blocks, and then helps with the shares of others.
-// So a loop over the same data as the last finds most of a thread's data in the thread's cache. The blocks of a share are handed
-// out in ascending order. If a body throws, no higher block begins any more, and the exception of the lowest block is rethrown
-// after the loop. It is the exception that a single thread would meet, because all lower blocks run to their end.
+// The blocks of a loop. Each thread begins with a share of the blocks, and then helps with the other shares. If the last loop
+// used the same data, a thread finds most of its data in its own cache. The blocks of a share are handed out in ascending order.
+// If a body throws, no higher block begins any more, and the exception of the lowest block is rethrown after the loop. It is the
+// exception that a single thread would meet, because all lower blocks run to their end: the calling thread goes through the shares
+// in ascending order, so each lower block is handed out.
 template <class Body>
 class Blocks {
  public:
@@ -63,11 +64,10 @@ class Blocks {
   template <class HasToStop>
   std::int64_t run(int thread, const HasToStop &has_to_stop) {
     const FloatEnvironment environment;
-    std::int64_t n_ran = 0;
-    for (std::int64_t i = 0; i < n_shares_; ++i) {
-      Share &share = view(shares_)[(thread + i) % n_shares_];
-      std::int64_t block = 0;
-      try {
+    std::int64_t block = 0, n_ran = 0;
+    try {
+      for (std::int64_t i = 0; i < n_shares_; ++i) {
+        Share &share = view(shares_)[(thread + i) % n_shares_];
         while (share.next.load(std::memory_order_relaxed) < share.end) {
           if (has_to_stop()) return n_ran;
           block = share.next.fetch_add(1, std::memory_order_relaxed);
@@ -75,12 +75,12 @@ class Blocks {
           body_(block, thread);
           ++n_ran;
         }
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (block < end_.load(std::memory_order_relaxed)) {
-          end_.store(block, std::memory_order_relaxed);
-          exception_ = std::current_exception();
-        }
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (block < end_.load(std::memory_order_relaxed)) {
+        end_.store(block, std::memory_order_relaxed);
+        exception_ = std::current_exception();
       }
     }
     return n_ran;
@@ -93,7 +93,7 @@ class Blocks {
   }
 
  private:
-  static constexpr std::int64_t most_shares = 16;
+  static constexpr std::int64_t most_shares = 64;  // further threads share these, which take 4 kB of the stack
   struct alignas(64) Share {
     std::atomic<std::int64_t> next;
     std::int64_t end;
