@@ -133,7 +133,7 @@ void kernels_frame_group(int set, const double *centre, double scale, const doub
                          int32_t n, double *framed);
 /* Transforms the 32 nodes (3, 32) of a leaf into a frame: framed(32, 3), and finds their box. */
 void kernels_frame_leaf(int set, const double *centre, double scale, const double *nodes, float *framed, float *lower,
-                       float *upper);
+                        float *upper);
 /* For fields: interpolates the numbers (8, n_vertices) at the vertices (3, 8) of 8 triangles by weights (3, 8); mixed(8, 8). */
 void kernels_mix_at_vertices(int set, int64_t n_vertices, const double *numbers, const int64_t *vertex_id,
                              const double *barycentric, double *mixed);

@@ -20,8 +20,8 @@ int team_loop_once(int64_t n_blocks, int n_threads);
 int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_failing, const int64_t *failing,
                                     int on_a_team);
 /* Runs a loop on a team of two threads. The second thread's first block fails while the calling thread is in block 0, and
- * `also_failing` fails later, unless it is -1. Returns the block whose exception comes. *n_higher is the number of blocks above it
- * that ran. Returns -1 if a lower block did not run, or if a thread did not begin with its own share. */
+ * `also_failing` fails later, unless it is -1. Returns the block whose exception comes. *n_higher becomes the number of blocks
+ * above it that ran. Returns -1 if a lower block did not run, or if the second thread did not begin with its own share. */
 int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *n_higher);
 /* Records loops of OpenMP, times in nanoseconds, and returns whether a loop that begins now takes a team. */
 int choice_after(int n_loops, const int64_t *waited, const int64_t *ended, int64_t now);

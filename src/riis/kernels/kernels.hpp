@@ -184,8 +184,8 @@ struct DecisionKernels {
   // Takes the corners of up to 16 triangles to the surface's frame. The triangles are given by index.
   void (*frame_group)(const PlainFrame &frame, const double *corners, const int32_t *triangle, int32_t n,
                       GroupCorners &framed);
-  // Takes the nodes of a leaf (3, nodes_per_leaf) to the mesh's frame, in single precision, and finds the leaf's box. A coordinate
-  // far outside becomes 2 or -2, and NaN becomes -2.
+  // Takes the nodes of a leaf (3, nodes_per_leaf) to the mesh's frame, in single precision, and finds the leaf's box. A
+  // coordinate far outside becomes 2 or -2, and NaN becomes -2.
   void (*frame_leaf)(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper);
   // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);

@@ -46,8 +46,8 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
 // The blocks of a loop. Each thread begins with a share of the blocks, and then helps with the other shares. If the last loop
 // used the same data, a thread finds most of its data in its own cache. The blocks of a share are handed out in ascending order.
 // If a body throws, no higher block begins any more, and the exception of the lowest block is rethrown after the loop. It is the
-// exception that a single thread would meet, because all lower blocks run to their end: the calling thread goes through the shares
-// in ascending order, so each lower block is handed out.
+// exception that a single thread would meet, because all lower blocks run to their end. They are handed out, because the calling
+// thread goes through the shares in ascending order.
 template <class Body>
 class Blocks {
  public:
