@@ -98,10 +98,9 @@ riis_status triangulate_deviating(const char *kind, double deviation, double max
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
-/* Puts found nodes in order on up to n_threads threads. List i of n_lists has the nodes from its end[i - 1] to end[i] - 1. Nodes
- * are less than n_nodes. Writes all nodes, which are within the limit, to within_* and returns the number of marked nodes. If the
- * limit is wider than the half thickness, writes these to marked_*, and otherwise returns -1. Each call reuses the memory of the
- * last. */
+/* Puts found nodes in order on up to n_threads threads. List i of n_lists has the nodes from end[i - 1] to end[i] - 1, and each
+ * node is less than n_nodes. Writes all nodes to within_*. If the limit is wider than the half thickness, writes the marked nodes
+ * to marked_* and returns their number. Otherwise returns -1. Each call reuses the memory of the last call. */
 int64_t order_found_nodes(const riis_surface *surface, int64_t n_nodes, int n_threads, int limit_is_wider, int n_lists,
                           const int64_t *end, const int64_t *node, const double *distance, const int64_t *triangle,
                           int64_t *within_node, double *within_distance, int64_t *within_triangle, int64_t *marked_node,

@@ -100,37 +100,58 @@ int loop_once(int64_t n_blocks, int n_threads) {
   return seen.is_right ? seen.n_ran : -1;
 }
 
+namespace {
+
+// A loop whose bodies count their runs and may throw the number of their block.
+struct FailingLoop {
+  explicit FailingLoop(std::int64_t n_blocks) : n_runs(static_cast<std::size_t>(n_blocks)) {}
+
+  void begin(std::int64_t block) { n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed); }
+  // Returns the block whose exception comes out of run(), or the number of blocks if none does. Returns -1 if a lower block did
+  // not run, or if a block ran twice.
+  template <class Run>
+  std::int64_t caught(const Run &run) const {
+    const auto n_blocks = static_cast<std::int64_t>(n_runs.size());
+    std::int64_t caught = n_blocks;
+    try {
+      run();
+    } catch (std::int64_t block) {
+      caught = block;
+    }
+    for (std::int64_t block = 0; block < n_blocks; ++block) {
+      const int n = n_runs[static_cast<std::size_t>(block)];
+      if (n > 1 || (block < caught && n == 0)) return -1;
+    }
+    return caught;
+  }
+
+  std::vector<std::atomic<int>> n_runs;  // of each block
+};
+
+}  // namespace
+
 int64_t block_whose_exception_comes(int64_t n_blocks, int n_threads, int64_t n_failing, const int64_t *failing,
                                     int on_a_team) {
-  std::vector<std::atomic<int>> n_runs(static_cast<std::size_t>(n_blocks));
+  FailingLoop loop(n_blocks);
   const std::int64_t *const end = failing + n_failing;
   const auto body = [&](std::int64_t block, int) {
-    n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
+    loop.begin(block);
     if (std::find(failing, end, block) != end) throw block;
   };
   LoopChoice choice;
-  std::int64_t caught = n_blocks;
-  try {
-    on_a_team ? team_for(n_blocks, n_threads, body, choice) : openmp_for(n_blocks, n_threads, body);
-  } catch (std::int64_t block) {
-    caught = block;
-  }
-  for (std::int64_t block = 0; block < n_blocks; ++block) {
-    const int n = n_runs[static_cast<std::size_t>(block)];
-    if (n > 1 || (block < caught && n == 0)) return -1;
-  }
-  return caught;
+  return loop.caught(
+      [&] { on_a_team ? team_for(n_blocks, n_threads, body, choice) : openmp_for(n_blocks, n_threads, body); });
 }
 
 int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *n_higher) {
-  std::vector<std::atomic<int>> n_runs(static_cast<std::size_t>(n_blocks));
+  FailingLoop loop(n_blocks);
   std::atomic<int> has_failed{0};
-  std::atomic<bool> begin_with_own_shares{true};
+  std::atomic<bool> begins_with_own_share{true};
   const std::int64_t first_of_second = n_blocks / 2;
   const auto body = [&](std::int64_t block, int thread) {
-    n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed);
+    loop.begin(block);
     if (thread == 1 && has_failed == 0) {
-      if (block != first_of_second) begin_with_own_shares = false;
+      if (block != first_of_second) begins_with_own_share = false;
       has_failed = 1;
       throw block;
     }
@@ -141,19 +162,11 @@ int64_t block_that_fails_first(int64_t n_blocks, int64_t also_failing, int64_t *
     if (block == also_failing) throw block;
   };
   LoopChoice choice;
-  std::int64_t caught = n_blocks;
-  try {
-    team_for(n_blocks, 2, body, choice);
-  } catch (std::int64_t block) {
-    caught = block;
-  }
+  const std::int64_t caught = loop.caught([&] { team_for(n_blocks, 2, body, choice); });
   *n_higher = 0;
-  for (std::int64_t block = 0; block < n_blocks; ++block) {
-    const int n = n_runs[static_cast<std::size_t>(block)];
-    if (block < caught && n != 1) return -1;
-    *n_higher += block > caught && n > 0;
-  }
-  return begin_with_own_shares ? caught : -1;
+  for (std::int64_t block = caught + 1; block < n_blocks; ++block)
+    *n_higher += loop.n_runs[static_cast<std::size_t>(block)] > 0;
+  return begins_with_own_share ? caught : -1;
 }
 
 int team_loop_once(int64_t n_blocks, int n_threads) {

@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// Checks that all boxes lie within the frame. The caller may have moved nodes without telling the mesh, or made their coordinates
-// unusable. The errors of single precision are bounded only for coordinates of at most 1.
+// Checks that all boxes lie within the frame. The caller may have moved nodes, or made coordinates unusable, without telling the
+// mesh. The errors of single precision are bounded only for coordinates of at most 1.
 bool are_within_frame(const Clusters &clusters) {
   return std::all_of(clusters.boxes.begin(), clusters.boxes.end(), [](const Clusters::Box &box) {
     return std::all_of(box.lower, box.lower + 3, [](float x) { return x >= -1; }) &&
@@ -40,8 +40,8 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages. A search reads leaves here and there. With small pages, the processor would often have to look
-// up where a leaf's page is. Only whole large pages of the memory are asked for, so the process takes no more memory.
+// Asks the system for large pages. A search reads leaves here and there, and the processor looks up the page of each. The request
+// is for whole large pages within the memory, so the process takes no more memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t size = std::uintptr_t{1} << 21;

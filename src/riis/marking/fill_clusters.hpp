@@ -52,7 +52,7 @@ inline Boxes no_boxes() {
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. node_at(i) returns the i-th node in order, and prefetch(i) requests the memory that
-// node_at(i) reads. An unusable coordinate (strided.hpp) leaves the boxes outside the frame.
+// node_at(i) reads. With an unusable coordinate (strided.hpp), some boxes are not within the frame.
 template <class NodeAt, class Prefetch>
 void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, const Prefetch &prefetch,
                    Clusters &clusters) {

@@ -13,10 +13,9 @@
 
 namespace riis {
 
-// Nodes are put in order by bins. A bin is a range of node numbers.
-
-// A set of nodes of one bin has a bit for each number of the bin. It gives the rank of each of its nodes, which is the number of
-// lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and read.
+// A bin is a range of node numbers. This is a set of nodes of one bin, with a bit for each number of the bin. It gives each node a
+// rank, which is the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and
+// read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
@@ -48,8 +47,8 @@ struct OrderScratch {
     std::vector<std::int64_t> end;  // for each bin, the end of its nodes
   };
   std::vector<List> lists;
-  std::int64_t n_lists = 0;      // the number of lists with nodes, which come first
-  std::vector<Counts> first;     // for each bin, its first position in each result; then the sizes of the results
+  std::int64_t n_lists = 0;      // the number of lists that have nodes; they come first
+  std::vector<Counts> first;     // for each bin, its first position in each result; at last the sizes of both results
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 

@@ -21,7 +21,8 @@ class QuadGroups {
       : grid_(grid), first_of_quad_(first_of_quad), set_(set) {}
 
   Grouping make() {
-    group({0, grid_.u.size() - 1, 0, grid_.v.size() - 1});
+    const Quads all{0, grid_.u.size() - 1, 0, grid_.v.size() - 1};
+    group(all, n_triangles(all));
     return std::move(made_);
   }
 
@@ -45,10 +46,9 @@ class QuadGroups {
     return n;
   }
 
-  // Cuts a block of quads across its longer side until its triangles fit in a group.
-  void group(const Quads &quads) {
+  // Cuts a block of quads across its longer side until its n triangles fit in a group.
+  void group(const Quads &quads, std::int64_t n) {
     const std::size_t i0 = quads.i0, i1 = quads.i1, j0 = quads.j0, j1 = quads.j1;
-    const std::int64_t n = n_triangles(quads);
     if (n == 0) return;
     if (n <= triangles_per_group) {
       for (std::size_t j = j0; j < j1; ++j) {
@@ -67,20 +67,19 @@ class QuadGroups {
     const bool along_u = j1 - j0 == 1 || (i1 - i0 > 1 && distance(grid_.point(i0, j), grid_.point(i1, j)) >
                                                              distance(grid_.point(i, j0), grid_.point(i, j1)));
     const auto before = [&](std::size_t cut) { return along_u ? Quads{i0, cut, j0, j1} : Quads{i0, i1, j0, cut}; };
-    // The cut is so near the middle that both parts are compact. There it takes the place at which the fewest groups may hold
-    // the triangles of both parts.
+    // Near the middle, both parts are compact. There the cut takes the place at which both parts may need the fewest groups.
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
     const auto n_groups = [](std::int64_t n_held) { return (n_held + triangles_per_group - 1) / triangles_per_group; };
     std::size_t best = middle;
-    std::int64_t fewest = n;
+    std::int64_t n_before_best = 0, fewest = n;
     for (std::size_t off = 0; off <= std::min(farthest, size / 4); ++off)
       for (const std::size_t cut : {middle - off, middle + off}) {
         const std::int64_t n_before = n_triangles(before(cut)), n_needed = n_groups(n_before) + n_groups(n - n_before);
-        if (n_needed < fewest) fewest = n_needed, best = cut;
+        if (n_needed < fewest) fewest = n_needed, best = cut, n_before_best = n_before;
       }
-    group(before(best));
-    group(along_u ? Quads{best, i1, j0, j1} : Quads{i0, i1, best, j1});
+    group(before(best), n_before_best);
+    group(along_u ? Quads{best, i1, j0, j1} : Quads{i0, i1, best, j1}, n - n_before_best);
   }
 
   const QuadGrid &grid_;
