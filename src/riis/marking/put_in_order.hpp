@@ -13,9 +13,9 @@
 
 namespace riis {
 
-// A bin is a range of node numbers. This is a set of nodes of one bin, with a bit for each number of the bin. It gives each node a
-// rank, which is the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and
-// read.
+// A bin is a range of node numbers. This is a set of nodes of one bin, with a bit for each number of the bin. It gives each node
+// a rank, which is the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written
+// and read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
