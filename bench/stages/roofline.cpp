@@ -59,10 +59,17 @@ bool measured_near_boxes(const riis::FilterTask &task, const riis::Boxes &boxes,
   return is_near;
 }
 
-std::int32_t measured_filter_leaf(const riis::FilterTask &task, riis::LeafTask &leaf, const riis::PairArrays &pairs,
-                                  std::int32_t room) {
+void measured_begin_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster) {
   const auto start = Clock::now();
-  const std::int32_t n = measured.kernels->filter_leaf(task, leaf, pairs, room);
+  measured.kernels->begin_cluster(task, cluster);
+  measured.filter += Clock::now() - start;
+  ++measured.n_filter;
+}
+
+std::int32_t measured_filter_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster,
+                                     const riis::PairArrays &pairs, std::int32_t room) {
+  const auto start = Clock::now();
+  const std::int32_t n = measured.kernels->filter_cluster(task, cluster, pairs, room);
   measured.filter += Clock::now() - start;
   ++measured.n_filter;
   return n;
@@ -80,7 +87,8 @@ riis::Kernels measuring(const riis::Kernels &kernels) {
   measured.kernels = &kernels;
   riis::Kernels with_clocks = kernels;
   with_clocks.near_boxes = measured_near_boxes;
-  with_clocks.filter_leaf = measured_filter_leaf;
+  with_clocks.begin_cluster = measured_begin_cluster;
+  with_clocks.filter_cluster = measured_filter_cluster;
   with_clocks.decide = measured_decide;
   return with_clocks;
 }
@@ -138,17 +146,25 @@ bool counted_near_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, 
   return riis::filter_kernels_counted.near_boxes(task, boxes, candidates, n_candidates, near);
 }
 
-std::int32_t counted_filter_leaf(const riis::FilterTask &task, riis::LeafTask &leaf, const riis::PairArrays &pairs,
-                                 std::int32_t room) {
+void counted_begin_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster) {
   const CountsOf counts(counted->in_filter);
-  if (leaf.next_group == 0 && leaf.rest == 0) counted->n_near_groups += leaf.n_groups;
-  counted->leaves.add(*leaf.leaf);
-  counted->filter.add(*leaf.leaf);
-  for (std::int32_t k = 0; k < leaf.n_groups; ++k) {
-    counted->filter.add(task.bounds[leaf.near_groups[k]]);
-    counted->filter.add(task.groups[leaf.near_groups[k]]);
+  for (std::int32_t i = 0; i < cluster.n_leaves; ++i) {
+    const riis::LeafTask &leaf = cluster.leaf[i];
+    counted->n_near_groups += leaf.n_groups;
+    counted->leaves.add(*leaf.leaf);
+    counted->filter.add(*leaf.leaf);
+    for (std::int32_t k = 0; k < leaf.n_groups; ++k) {
+      counted->filter.add(task.bounds[leaf.near_groups[k]]);
+      counted->filter.add(task.groups[leaf.near_groups[k]]);
+    }
   }
-  return riis::filter_kernels_counted.filter_leaf(task, leaf, pairs, room);
+  riis::filter_kernels_counted.begin_cluster(task, cluster);
+}
+
+std::int32_t counted_filter_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster,
+                                    const riis::PairArrays &pairs, std::int32_t room) {
+  const CountsOf counts(counted->in_filter);
+  return riis::filter_kernels_counted.filter_cluster(task, cluster, pairs, room);
 }
 
 void counted_decide(std::int32_t n, const std::int32_t *point, const std::int32_t *triangle, const double *points,
@@ -167,7 +183,8 @@ void counted_decide(std::int32_t n, const std::int32_t *point, const std::int32_
 riis::Kernels counting() {
   riis::Kernels kernels{riis::filter_kernels_counted, riis::decision_kernels_counted};
   kernels.near_boxes = counted_near_boxes;
-  kernels.filter_leaf = counted_filter_leaf;
+  kernels.begin_cluster = counted_begin_cluster;
+  kernels.filter_cluster = counted_filter_cluster;
   kernels.decide = counted_decide;
   return kernels;
 }

@@ -190,11 +190,13 @@ typedef struct kernel_filter {
   int n_nodes;
   const float *nodes;
 } kernel_filter;
-/* Returns all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that
- * this took. The caller frees the pairs. */
+enum { kernel_leaves = 2 };
+/* Filters a cluster that has the nodes twice, in two of its leaves. In the second leaf, a node's number is larger by 32. Returns
+ * all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that this took.
+ * The caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
-/* Gives the squares of the first bounds: lower bounds by groups, lower_sq(32, n_groups), and upper bounds, upper_sq(32). */
-void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq);
+/* Gives the squares of the lower bounds by groups, lower_sq(32, n_groups). */
+void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq);
 /* Each of up to 16 boxes contains one node. Sets near(n_groups): an entry has one bit for each box, which is 1 if the group may
  * be near the box. Returns the kernel's result. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);

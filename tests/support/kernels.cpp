@@ -38,9 +38,12 @@ struct Filter {
   std::vector<Leaf> lower_bounds;  // in a Leaf, because the kernel needs a Leaf's alignment
   Leaf leaf;
   FilterTask task;
-  LeafTask of_leaf;
+  ClusterTask cluster;
 
-  explicit Filter(const kernel_filter &filter) : lower_bounds(static_cast<std::size_t>(filter.n_groups)) {
+  static constexpr int positions[kernel_leaves] = {3, 14};
+
+  explicit Filter(const kernel_filter &filter)
+      : lower_bounds(static_cast<std::size_t>(kernel_leaves * filter.n_groups)) {
     for (int i = 0; i < filter.n_groups; ++i) {
       groups.push_back(filter.groups[i]->group);
       bounds.push_back(filter.groups[i]->bounds);
@@ -63,19 +66,19 @@ struct Filter {
     const double error = filter_error(filter.ratio, shift, filter.limit, longest_edge),
                  reach = filter.limit + 2 * error;
     task.ratio = static_cast<float>(filter.ratio);
-    task.reach_sq = static_cast<float>(reach * reach);
-    task.tolerance = filter_tolerance(error, reach);
-    task.margin = static_cast<float>(0.5 * error);
+    task.limits = {static_cast<float>(reach * reach), filter_tolerance(error, reach), static_cast<float>(0.5 * error)};
     task.groups = groups.data();
     task.bounds = bounds.data();
-    of_leaf.leaf = &leaf;
-    of_leaf.first_node = 0;
-    of_leaf.wanted = filter.wanted;
-    of_leaf.near_groups = near_groups.data();
-    of_leaf.n_groups = filter.n_groups;
-    of_leaf.lower_bounds = lower_bounds.data()->x;
-    of_leaf.next_group = 0;
-    of_leaf.rest = 0;
+    cluster.n_leaves = kernel_leaves;
+    for (int i = 0; i < kernel_leaves; ++i)
+      cluster.leaf[i] = {&leaf, positions[i], filter.wanted, near_groups.data(), filter.n_groups, task.limits, false, 0};
+    cluster.lower_bounds = lower_bounds.data()->x;
+    request_lines();
+  }
+  void request_lines() {
+    cluster.ahead.n = 2;
+    cluster.ahead.line[0] = reinterpret_cast<const char *>(leaf.x);
+    cluster.ahead.line[1] = reinterpret_cast<const char *>(leaf.y);
   }
 };
 
@@ -264,7 +267,7 @@ kernel_group *kernels_group(int set, int n, const double *corners) {
 void kernels_group_free(kernel_group *group) { delete group; }
 
 int kernels_groups_equal(const kernel_group *a, const kernel_group *b) {
-  static_assert(sizeof(TriangleGroup) == 19 * triangles_per_group * sizeof(float), "no gaps between its fields");
+  static_assert(sizeof(TriangleGroup) == 23 * triangles_per_group * sizeof(float), "no gaps between its fields");
   const GroupBounds &p = a->bounds, &q = b->bounds;
   return std::memcmp(&a->group, &b->group, sizeof a->group) == 0 && std::memcmp(&p, &q, sizeof p) == 0;
 }
@@ -280,33 +283,38 @@ double kernels_error(double ratio, double shift, double reach, double longest_ed
 
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls) {
   Filter of_filter(*filter);
+  ClusterTask &cluster = of_filter.cluster;
   std::vector<kernel_pair> found;
   const auto size = static_cast<std::size_t>(room) + 16;
-  for (*n_calls = 0; *n_calls == 0 || of_filter.of_leaf.next_group < filter->n_groups; ++*n_calls) {
+  std::uint32_t nodes[kernel_leaves] = {};
+  of(set).begin_cluster(of_filter.task, cluster);
+  bool is_right = cluster.ahead.n == 0;
+  of_filter.request_lines();
+  for (*n_calls = 0; is_right && !cluster.is_done; ++*n_calls) {
     std::vector<std::int32_t> node(size + 16, untouched), triangle(size + 16, untouched);
-    const std::int32_t n = of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {node.data(), triangle.data()}, room);
-    std::uint32_t nodes = 0;
-    bool is_right = n <= room;
+    const std::int32_t n = of(set).filter_cluster(of_filter.task, cluster, {node.data(), triangle.data()}, room);
+    is_right = n <= room && cluster.ahead.n == 0;
     for (std::size_t i = 0; is_right && i < static_cast<std::size_t>(n); ++i) {
-      nodes |= 1u << node[i];
-      found.push_back({node[i], triangle[i]});
+      const int position = node[i] / nodes_per_leaf, lane = node[i] % nodes_per_leaf;
+      const int leaf = position == Filter::positions[1];
+      is_right = position == Filter::positions[leaf];
+      nodes[leaf] |= 1u << lane;
+      found.push_back({nodes_per_leaf * leaf + lane, triangle[i]});
     }
     for (std::size_t i = size; i < node.size(); ++i)
       is_right = is_right && node[i] == untouched && triangle[i] == untouched;
-    if (!is_right || nodes != of_filter.of_leaf.found) return -1;
   }
+  for (int i = 0; i < kernel_leaves; ++i) is_right = is_right && nodes[i] == cluster.leaf[i].found;
+  if (!is_right) return -1;
   *pairs = static_cast<kernel_pair *>(std::malloc((found.size() + 1) * sizeof(kernel_pair)));
   std::copy(found.begin(), found.end(), *pairs);
   return static_cast<int64_t>(found.size());
 }
 
-void kernels_first_bounds(int set, const kernel_filter *filter, float *lower_sq, float *upper_sq) {
+void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq) {
   Filter of_filter(*filter);
-  of(set).filter_leaf(of_filter.task, of_filter.of_leaf, {nullptr, nullptr}, 0);
-  for (int k = 0; k < filter->n_groups; ++k)
-    std::copy_n(of_filter.of_leaf.lower_bounds + nodes_per_leaf * k, nodes_per_leaf,
-                lower_sq + nodes_per_leaf * of_filter.near_groups[static_cast<std::size_t>(k)]);
-  std::copy_n(of_filter.of_leaf.best, nodes_per_leaf, upper_sq);
+  of(set).begin_cluster(of_filter.task, of_filter.cluster);
+  std::copy_n(of_filter.cluster.lower_bounds, nodes_per_leaf * filter->n_groups, lower_sq);
 }
 
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near) {

@@ -311,6 +311,18 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
+// Stores an axis in single precision, and the origin that makes the coordinate of `middle` zero. The origin belongs to the rounded
+// axis, so the axis' rounding matters only for the distance from `middle`.
+RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
+  put(axis, to, from);
+  const auto rounded = [](Doubles x) RIIS_LAMBDA {
+    for (DoubleRegister &part : x.part)
+      part = __builtin_convertvector(__builtin_convertvector(part, HalfRegister), DoubleRegister);
+    return x;
+  };
+  put(Doubles::all(0) - dot(middle, Doubles3{rounded(axis.x), rounded(axis.y), rounded(axis.z)}), origin + from);
+}
+
 // The unit vector and the length of a vector. If the vector has no direction, the length is 0, and `unit` is a vector that the
 // caller passes.
 struct Direction {
@@ -487,13 +499,14 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
                       Doubles::load(corners.xyz[3 * i + 2] + from)};
     };
     const Doubles3 a = corner(0), b = corner(1), c = corner(2), ac = c - a;
-    put(a, group.a, from);
     put(a, rounded, from);
     put(b, rounded + 3, from);
     put(c, rounded + 6, from);
     const Direction e = direction(b - a, {one, zero, zero});
-    put(e.unit, group.e, from);
-    put(e.length, group.ab + from);
+    const Doubles one_half = Doubles::all(0.5), half_ab = one_half * e.length;
+    const Doubles3 middle = one_half * (a + b);
+    put_axis(e.unit, middle, group.e, group.e_origin, from);
+    put(half_ab, group.half_ab + from);
     // Returns the part of v at right angles to e. It is called twice: in a needle-shaped triangle, rounding leaves a part along
     // e, and the second call removes this part.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
@@ -508,28 +521,35 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     }
     const Doubles3 f = direction(across(over), {zero, zero, one}).unit, g = cross(e.unit, f);
     const Doubles c_e = dot(ac, e.unit), c_f = dot(ac, f);
-    put(f, group.f, from);
-    put(g, group.g, from);
+    put_axis(f, middle, group.f, group.f_origin, from);
+    put_axis(g, middle, group.g, group.g_origin, from);
     sum = sum + (e.length * c_f) * g;
     const Direction along_ac = direction({c_e, c_f, zero}, {one, zero, zero});
-    put(along_ac.length, group.ac + from);
+    const Doubles half_ac = one_half * along_ac.length;
+    put(half_ac, group.half_ac + from);
     put(along_ac.unit.x, group.ac_e + from);
     put(along_ac.unit.y, group.ac_f + from);
+    put(half_ab * along_ac.unit.x - half_ac, group.ac_middle + from);
+    put(half_ab * along_ac.unit.y, group.ac_side + from);
     const Direction along_bc = direction({c_e - e.length, c_f, zero}, {one, zero, zero});
-    put(along_bc.length, group.bc + from);
+    const Doubles half_bc = one_half * along_bc.length;
+    put(half_bc, group.half_bc + from);
     put(along_bc.unit.x, group.bc_e + from);
     put(along_bc.unit.y, group.bc_f + from);
+    put(zero - (half_ab * along_bc.unit.x + half_bc), group.bc_middle + from);
+    put(half_ab * along_bc.unit.y, group.bc_side + from);
   }
   normal[0] = sum_of(sum.x), normal[1] = sum_of(sum.y), normal[2] = sum_of(sum.z);
 }
 
 RIIS_INLINE float longest_edge(const TriangleGroup &group) {
-  const Floats longest = greatest(greatest(Floats::load(group.ab), Floats::load(group.ac)), Floats::load(group.bc));
+  const Floats longest =
+      greatest(greatest(Floats::load(group.half_ab), Floats::load(group.half_ac)), Floats::load(group.half_bc));
   const Floats opposite_of_longest = Floats::all(0) - longest;
   const Floats four[4] = {opposite_of_longest, opposite_of_longest, opposite_of_longest, opposite_of_longest};
   float longest_lane[4];
   least_lanes(four, longest_lane);
-  return -round_down(longest_lane[0]);
+  return -round_down(2 * longest_lane[0]);
 }
 
 void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds) {
@@ -538,6 +558,7 @@ void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, 
   for (int32_t g = 0; g < n; ++g) {
     double normal[3];
     make_frames(corners[g], groups[g], rounded[g], normal);
+    for (int32_t i = bounds[g].n; i < triangles_per_group; ++i) groups[g].g_origin[i] = beyond_limits;
     for (int i = 0; i < 3; ++i) {
       across[i][g] = normal[i];
       along[i][g] = corners[g].xyz[3 + i][0] - corners[g].xyz[i][0];

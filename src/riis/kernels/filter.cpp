@@ -13,7 +13,6 @@ struct Floats3 {
 
 RIIS_INLINE Floats3 all(const float *p) { return {Floats::all(p[0]), Floats::all(p[1]), Floats::all(p[2])}; }
 RIIS_INLINE Floats dot(Floats3 a, Floats3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
-RIIS_INLINE Floats3 operator-(Floats3 a, Floats3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 RIIS_INLINE Floats3 load(const float (*from)[16]) {
   return {Floats::load(from[0]), Floats::load(from[1]), Floats::load(from[2])};
 }
@@ -23,45 +22,33 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
   return greatest(greatest(from - x, x - to), Floats::all(0));
 }
 
-// Computes the squares of the distances of n points to sixteen triangles. The points are computed together, so that a triangle's
-// numbers are loaded once. Every result is the distance to some point of the triangle, to rounding. A point counts as inside
-// only if it is inside by a margin. A point inside by less gets the distance to the nearest edge, which differs by at most that
-// margin. The function writes its results directly to memory. If it returned them, GCC would copy them in pieces, and later loads
-// would wait for the pieces.
-template <int n>
-RIIS_INLINE void distances_to_group(const TriangleGroup &group, const Floats3 (&p)[n], Floats margin,
-                                    Floats *distances) {
-  const Floats zero = Floats::all(0);
-  Floats e[n], f[n], g[n], in_plane[n];
-  const auto beyond = [&](Floats along, Floats end) RIIS_LAMBDA { return along - least(greatest(along, zero), end); };
-  {
-    const Floats3 a = load(group.a), unit_e = load(group.e), unit_f = load(group.f), unit_g = load(group.g);
-    for (int i = 0; i < n; ++i) {
-      const Floats3 r = p[i] - a;
-      e[i] = dot(r, unit_e);
-      f[i] = dot(r, unit_f);
-      g[i] = dot(r, unit_g);
-    }
-  }
-  const Floats ab = Floats::load(group.ab), ac = Floats::load(group.ac), bc = Floats::load(group.bc);
+// Computes the squares of a point's distances to sixteen triangles. Every result is the distance to some point of the triangle,
+// to rounding. A point counts as inside only if it is inside by a margin. A point inside by less gets the distance to the nearest
+// edge, which differs by at most that margin.
+RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
+  const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
+    const Floats3 unit = load(axis);
+    return multiply_add(p.x, unit.x, multiply_add(p.y, unit.y, multiply_add(p.z, unit.z, Floats::load(origin))));
+  };
+  const Floats e = along(group.e, group.e_origin), f = along(group.f, group.f_origin), g = along(group.g, group.g_origin);
+  const Floats past_ab = beyond(e, Floats::load(group.half_ab));
+  Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
+
   const Floats ac_e = Floats::load(group.ac_e), ac_f = Floats::load(group.ac_f);
+  const Floats inside_ac = subtract_product(f, ac_e, multiply_add(e, ac_f, Floats::load(group.ac_side)));
+  const Floats past_ac = beyond(multiply_add(e, ac_e, multiply_add(f, ac_f, Floats::load(group.ac_middle))),
+                                Floats::load(group.half_ac));
+  in_plane = least(in_plane, multiply_add(past_ac, past_ac, inside_ac * inside_ac));
+  inside = least(inside, inside_ac);
+
   const Floats bc_e = Floats::load(group.bc_e), bc_f = Floats::load(group.bc_f);
-  for (int i = 0; i < n; ++i) {
-    const Floats past_ab = beyond(e[i], ab);
-    in_plane[i] = multiply_add(past_ab, past_ab, f[i] * f[i]);
+  const Floats inside_bc = subtract_product(e, bc_f, multiply_add(f, bc_e, Floats::load(group.bc_side)));
+  const Floats past_bc = beyond(multiply_add(e, bc_e, multiply_add(f, bc_f, Floats::load(group.bc_middle))),
+                                Floats::load(group.half_bc));
+  in_plane = least(in_plane, multiply_add(past_bc, past_bc, inside_bc * inside_bc));
+  inside = least(inside, inside_bc);
 
-    const Floats inside_ac = subtract_product(f[i], ac_e, e[i] * ac_f);
-    const Floats past_ac = beyond(multiply_add(e[i], ac_e, f[i] * ac_f), ac);
-    in_plane[i] = least(in_plane[i], multiply_add(past_ac, past_ac, inside_ac * inside_ac));
-
-    const Floats eb = e[i] - ab;
-    const Floats inside_bc = subtract_product(eb, bc_f, f[i] * bc_e);
-    const Floats past_bc = beyond(multiply_add(eb, bc_e, f[i] * bc_f), bc);
-    in_plane[i] = least(in_plane[i], multiply_add(past_bc, past_bc, inside_bc * inside_bc));
-
-    in_plane[i] = zero_where_at_least(least(least(f[i], inside_ac), inside_bc), margin, in_plane[i]);
-    distances[i] = multiply_add(g[i], g[i], in_plane[i]);
-  }
+  return multiply_add(g, g, zero_where_at_least(inside, margin, in_plane));
 }
 
 // The extents of 16 boxes along one axis, in the surface's frame.
@@ -76,7 +63,7 @@ RIIS_INLINE Extents placed(const FilterTask &task, const Boxes &boxes, int axis)
 
 bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                 uint16_t *near) {
-  const Floats reach_sq = Floats::all(task.reach_sq);
+  const Floats reach_sq = Floats::all(task.limits.reach_sq);
   Extents box[3];
   for (int i = 0; i < 3; ++i) box[i] = placed(task, boxes, i);
   uint32_t found = 0;
@@ -163,166 +150,210 @@ void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOf
 
 constexpr int halves = nodes_per_leaf / 16;
 
-// Computes squares of bounds for the nodes p of a leaf, in the surface's frame. For every group and every node, computes a lower
-// bound on their distance. For every node, computes an upper bound on its distance to the surface: the distance to the nearest
-// of the groups' corners.
-RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, const Floats3 *p) {
-  Floats best[halves];
-  for (int h = 0; h < halves; ++h) best[h] = Floats::all(task.reach_sq);
+// The positions of nodes in a cluster: 0, 1, 2, ...
+struct Positions {
+  alignas(64) int32_t of_node[nodes_per_cluster] = {};
+  constexpr Positions() {
+    for (int i = 0; i < nodes_per_cluster; ++i) of_node[i] = i;
+  }
+};
+constexpr Positions positions;
+
+RIIS_INLINE uint32_t wanted_in_half(const LeafTask &leaf, int h) { return leaf.wanted >> 16 * h & 0xffff; }
+RIIS_INLINE int32_t first_node_of(const LeafTask &leaf) { return leaf.position * nodes_per_leaf; }
+RIIS_INLINE uint32_t leaf_of(int32_t node) { return static_cast<uint32_t>(node) / nodes_per_leaf; }
+
+// Takes a leaf to the surface's frame. For every group and every node, computes the square of a lower bound on their distance.
+// Lists each node that may be within reach, with the group that has the least bound.
+RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask &cluster, float *lower_bounds) {
+  const int32_t first_node = first_node_of(leaf), n_before = cluster.n_listed;
+  const float *const xyz[3] = {leaf.leaf->x, leaf.leaf->y, leaf.leaf->z};
+  const Floats ratio = Floats::all(task.ratio);
+  Floats3 p[halves];
+  Floats least_bound[halves], first_group[halves];
+  for (int h = 0; h < halves; ++h) {
+    const auto framed = [&](int axis) RIIS_LAMBDA {
+      const Floats x = multiply_add(Floats::load(xyz[axis] + 16 * h), ratio, Floats::all(task.shift[axis]));
+      x.store(cluster.xyz[axis] + first_node + 16 * h);
+      return x;
+    };
+    p[h] = {framed(0), framed(1), framed(2)};
+    least_bound[h] = Floats::all(__builtin_inff());
+    first_group[h] = Floats::all(0);
+  }
   for (int32_t k = 0; k < leaf.n_groups; ++k) {
     const GroupBounds &group = task.bounds[leaf.near_groups[k]];
-    const Floats3 corner = all(group.corner);
+    // A surface has fewer than 2^24 groups, so single precision holds their numbers exactly.
+    const Floats number = Floats::all(static_cast<float>(leaf.near_groups[k]));
     for (int h = 0; h < halves; ++h) {
-      const Floats3 d = p[h] - corner;
-      best[h] = least(best[h], dot(d, d));
       Floats sum = Floats::all(0);
-      for (int i = 0; i < 3; ++i) {
-        const Floats gap = outside(dot(p[h], all(group.axis[i])), Floats::all(group.from[i]), Floats::all(group.to[i]));
+      for (int axis = 0; axis < 3; ++axis) {
+        const Floats gap =
+            outside(dot(p[h], all(group.axis[axis])), Floats::all(group.from[axis]), Floats::all(group.to[axis]));
         sum = multiply_add(gap, gap, sum);
       }
-      sum.store(leaf.lower_bounds + nodes_per_leaf * k + 16 * h);
+      sum.store(lower_bounds + nodes_per_leaf * k + 16 * h);
+      first_group[h] = choose<float, FloatRegister, 16>(sum < least_bound[h], number, first_group[h]);
+      least_bound[h] = least(least_bound[h], sum);
     }
   }
-  for (int h = 0; h < halves; ++h) best[h].store(leaf.best + 16 * h);
-}
-
-// Moves one group to the front: the group with the least sum of bounds to two of the leaf's nodes. So near triangles are found
-// early, and groups farther away need no comparison.
-RIIS_INLINE void nearest_first(const LeafTask &leaf) {
-  int32_t nearest = 0;
-  float least_sum = __builtin_inff();
-  for (int32_t k = 0; k < leaf.n_groups; ++k) {
-    const float *bounds = leaf.lower_bounds + nodes_per_leaf * k;
-    const float sum = bounds[nodes_per_leaf / 3] + bounds[2 * nodes_per_leaf / 3];
-    if (sum < least_sum) least_sum = sum, nearest = k;
-  }
-  if (nearest == 0) return;
-  const int32_t group = leaf.near_groups[0];
-  leaf.near_groups[0] = leaf.near_groups[nearest];
-  leaf.near_groups[nearest] = group;
+  const Floats reach_sq = Floats::all(leaf.limits.reach_sq);
   for (int h = 0; h < halves; ++h) {
-    float *a = leaf.lower_bounds + 16 * h, *b = leaf.lower_bounds + nodes_per_leaf * nearest + 16 * h;
-    const Floats of_a = Floats::load(a);
-    Floats::load(b).store(a);
-    of_a.store(b);
+    const int32_t at = first_node + 16 * h;
+    first_group[h].store(cluster.first_group + at);
+    reach_sq.store(cluster.best + at);
+    const uint32_t near = bits_at_most(least_bound[h], reach_sq) & wanted_in_half(leaf, h);
+    int32_t groups[16];
+    to_integers(first_group[h], groups);
+    compress(near, positions.of_node + at, cluster.node + cluster.n_listed);
+    compress(near, groups, cluster.group + cluster.n_listed);
+    cluster.n_listed += __builtin_popcount(near);
   }
+  cluster.limits[leaf.position] = leaf.limits;
+  leaf.may_be_near = cluster.n_listed > n_before;
 }
 
-RIIS_INLINE uint32_t nodes_near(const FilterTask &task, const LeafTask &leaf, int32_t k) {
-  uint32_t near = 0;
+// Lists nodes of a leaf with groups other than their first, if the group may be as near as the best triangle so far. Begins with
+// the group cluster.next_group. Returns false if the list is full before the last group.
+RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const float *lower_bounds) {
+  const int32_t first_node = first_node_of(leaf);
+  Floats limit[halves], first_group[halves];
   for (int h = 0; h < halves; ++h) {
-    const Floats limit = Floats::load(leaf.best + 16 * h) + Floats::all(task.tolerance);
-    near |= bits_at_most(Floats::load(leaf.lower_bounds + nodes_per_leaf * k + 16 * h), limit) << 16 * h;
+    limit[h] = Floats::load(cluster.best + first_node + 16 * h) + Floats::all(leaf.limits.tolerance);
+    first_group[h] = Floats::load(cluster.first_group + first_node + 16 * h);
   }
-  return near & leaf.wanted;
+  // Local variables, because the compiler must assume that a store to the list changes members.
+  int32_t n = cluster.n_listed, k = cluster.next_group;
+  for (; k < leaf.n_groups && n <= most_listed - nodes_per_leaf; ++k) {
+    const int32_t group = leaf.near_groups[k];
+    const Floats number = Floats::all(static_cast<float>(group));
+    for (int h = 0; h < halves; ++h) {
+      const Floats bound = Floats::load(lower_bounds + nodes_per_leaf * k + 16 * h);
+      const uint32_t near =
+          bits_at_most(bound, limit[h]) & bits_different(number, first_group[h]) & wanted_in_half(leaf, h);
+      compress(near, positions.of_node + first_node + 16 * h, cluster.node + n);
+      fill(group, cluster.group + n);
+      n += __builtin_popcount(near);
+    }
+  }
+  cluster.n_listed = n;
+  cluster.next_group = k;
+  return k == leaf.n_groups;
 }
 
-// A node and a group, with the triangles of the group that were close to the node when both were compared.
-struct Close {
-  float nearest_sq;
-  int32_t group;  // position in the leaf's near_groups
-  uint32_t triangles;
-  int32_t lane;
-};
-
-// Compares a group with the next four nodes of `rest`, or with fewer if fewer are left. Appends the nodes that are close to some
-// of the group's triangles, and returns the number of these nodes.
-RIIS_INLINE int32_t compare(const FilterTask &task, LeafTask &leaf, const float (*xyz)[nodes_per_leaf], int32_t k,
-                            uint32_t *rest, Close *found) {
-  const GroupBounds &bounds = task.bounds[leaf.near_groups[k]];
-  const TriangleGroup &group = task.groups[leaf.near_groups[k]];
-  const uint32_t in_use = (1u << bounds.n) - 1;
-  const Floats margin = Floats::all(task.margin);
-  constexpr int n = 4, n_together = 2;
-  int lanes[n];
-  Floats distances[n];
-#pragma GCC unroll 2
-  for (int i = 0; i < n; i += n_together) {
-    if (!*rest) {
-      // This loop fills lanes that nobody reads. Without it, GCC would set their distances by memset and copy them in pieces,
-      // which is slow.
+// Computes the distances of the listed nodes to their groups, from the given place in the list on.
+RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from) {
+  constexpr int n = 4;
+  const int32_t end = cluster.n_listed, n_batches = (end - from + n - 1) / n;
+  const char *const *ahead = cluster.ahead.line, *const *const last = ahead + cluster.ahead.n;
+  const int32_t lines_per_batch = (cluster.ahead.n + n_batches) / (n_batches + 1);
+  const auto request_lines = [&] {
+    for (int32_t i = 0; i < lines_per_batch && ahead < last; ++i) __builtin_prefetch(*ahead++);
+  };
+  cluster.ahead.n = 0;
+  request_lines();
+  // The last batch repeats the last node.
+  for (int i = 0; i < n - 1 && from < end; ++i) {
+    cluster.node[end + i] = cluster.node[end - 1];
+    cluster.group[end + i] = cluster.group[end - 1];
+  }
+  for (; from < end; from += n) {
+    request_lines();
+    Floats distances[n];
+    const FilterLimits *limits[n];
 #pragma GCC unroll 4
-      for (int j = i; j < n; ++j) {
-        lanes[j] = -1;
-        for (int r = 0; r < Floats::n_registers; ++r) distances[j].part[r] = distances[0].part[r];
-      }
-      break;
+    for (int i = 0; i < n; ++i) {
+      const int32_t node = cluster.node[from + i];
+      limits[i] = cluster.limits + leaf_of(node);
+      const Floats3 p = {Floats::all(cluster.xyz[0][node]), Floats::all(cluster.xyz[1][node]),
+                         Floats::all(cluster.xyz[2][node])};
+      distances[i] = distances_to_group(task.groups[cluster.group[from + i]], p, Floats::all(limits[i]->margin));
+      count(&Counts::pairs, task.bounds[cluster.group[from + i]].n);
     }
-    Floats3 points[n_together];
-    for (int j = 0; j < n_together; ++j) {
-      const int lane = *rest ? __builtin_ctz(*rest) : lanes[i];
-      lanes[i + j] = *rest ? lane : -1;
-      *rest &= *rest - 1;
-      points[j] = {Floats::all(xyz[0][lane]), Floats::all(xyz[1][lane]), Floats::all(xyz[2][lane])};
+    least_lanes(distances, cluster.nearest_sq + from);
+#pragma GCC unroll 4
+    for (int i = 0; i < n; ++i) {
+      const float nearest_sq = cluster.nearest_sq[from + i];
+      float &best = cluster.best[cluster.node[from + i]];
+      best = nearest_sq < best ? nearest_sq : best;
+      cluster.triangles[from + i] =
+          static_cast<uint16_t>(bits_at_most(distances[i], Floats::all(nearest_sq + limits[i]->tolerance)));
     }
-    distances_to_group(group, points, margin, distances + i);
-    count(&Counts::pairs, int64_t{n_together} * bounds.n);
   }
-  float nearest[n];
-  least_lanes(distances, nearest);
-  int32_t n_found = 0;
-  for (int i = 0; i < n && lanes[i] >= 0; ++i) {
-    float &best = leaf.best[lanes[i]];
-    best = nearest[i] < best ? nearest[i] : best;
-    const uint32_t close = bits_at_most(distances[i], Floats::all(best + task.tolerance)) & in_use;
-    found[n_found] = {nearest[i], k, close, lanes[i]};
-    n_found += close != 0;
-  }
-  return n_found;
 }
 
-int32_t filter_leaf(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room) {
-  Floats3 p[halves];
-  alignas(64) float xyz[3][nodes_per_leaf];
-  const Floats ratio = Floats::all(task.ratio);
-  for (int h = 0; h < halves; ++h) {
-    p[h] = {multiply_add(Floats::load(leaf.leaf->x + 16 * h), ratio, Floats::all(task.shift[0])),
-            multiply_add(Floats::load(leaf.leaf->y + 16 * h), ratio, Floats::all(task.shift[1])),
-            multiply_add(Floats::load(leaf.leaf->z + 16 * h), ratio, Floats::all(task.shift[2]))};
-    p[h].x.store(xyz[0] + 16 * h);
-    p[h].y.store(xyz[1] + 16 * h);
-    p[h].z.store(xyz[2] + 16 * h);
+void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
+  cluster.n_listed = 0;
+  float *lower_bounds = cluster.lower_bounds;
+  for (int32_t i = 0; i < cluster.n_leaves; ++i) {
+    begin_leaf(task, cluster.leaf[i], cluster, lower_bounds);
+    lower_bounds += nodes_per_leaf * cluster.leaf[i].n_groups;
   }
-  int32_t k = leaf.next_group;
-  uint32_t rest = leaf.rest;
-  if (k == 0 && rest == 0) {
-    begin_leaf(task, leaf, p);
-    nearest_first(leaf);
-    rest = leaf.n_groups > 0 ? nodes_near(task, leaf, 0) : 0;
+  compare(task, cluster, 0);
+  cluster.next_leaf = cluster.next_group = 0;
+  cluster.next_listed = -1;
+  cluster.is_done = false;
+}
+
+// Lists and compares as many nodes and groups as there is room for.
+RIIS_INLINE void compare_others(const FilterTask &task, ClusterTask &cluster) {
+  const int32_t n_before = cluster.n_listed;
+  const float *lower_bounds = cluster.lower_bounds;
+  for (int32_t i = 0; i < cluster.n_leaves; ++i) {
+    const LeafTask &leaf = cluster.leaf[i];
+    if (i == cluster.next_leaf) {
+      if (leaf.may_be_near && !list_others(leaf, cluster, lower_bounds)) break;
+      ++cluster.next_leaf;
+      cluster.next_group = 0;
+    }
+    lower_bounds += nodes_per_leaf * leaf.n_groups;
   }
-  constexpr int32_t most_at_once = 4, most = 256;
-  Close found[most];
-  const int32_t room_for_found = room / triangles_per_group < most ? room / triangles_per_group : most;
-  int32_t n_found = 0;
-  while (k < leaf.n_groups) {
-    while (rest && n_found + most_at_once <= room_for_found)
-      n_found += compare(task, leaf, xyz, k, &rest, found + n_found);
-    if (rest) break;
-    if (++k < leaf.n_groups) rest = nodes_near(task, leaf, k);
+  compare(task, cluster, n_before);
+  for (int32_t i = 0; i < cluster.n_leaves; ++i) {
+    LeafTask &leaf = cluster.leaf[i];
+    const Floats reach_sq = Floats::all(leaf.limits.reach_sq), tolerance = Floats::all(leaf.limits.tolerance);
+    leaf.found = 0;
+    for (int h = 0; h < halves; ++h) {
+      const int32_t at = first_node_of(leaf) + 16 * h;
+      const Floats best = Floats::load(cluster.best + at), none = Floats::all(-1);
+      const Floats limit = choose<float, FloatRegister, 16>(best < reach_sq, best + tolerance, none);
+      limit.store(cluster.limit + at);
+      leaf.found |= bits_different(limit, none) << 16 * h;
+    }
   }
-  leaf.next_group = k;
-  leaf.rest = rest;
-  // Drops pairs that counted as near only because a nearer triangle had not been found yet.
-  int32_t n = 0;
-  uint32_t nodes = 0;
-  for (int32_t i = 0; i < n_found; ++i) {
-    const Close &close = found[i];
-    if (!(close.nearest_sq <= leaf.best[close.lane] + task.tolerance)) continue;
-    fill(leaf.first_node + close.lane, pairs.node + n);
-    compress(close.triangles, task.bounds[leaf.near_groups[close.group]].triangle, pairs.triangle + n);
-    n += __builtin_popcount(close.triangles);
-    nodes |= 1u << close.lane;
+}
+
+int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room) {
+  if (cluster.next_listed < 0) {
+    compare_others(task, cluster);
+    cluster.next_listed = 0;
   }
-  leaf.found = nodes;
+  // Writes those listed nodes whose group is still near, now that all of the list is compared. The place moves on only after such
+  // a node. This avoids a branch that the processor could not predict. Local variables, as in list_others.
+  const GroupBounds *const bounds = task.bounds;
+  int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
+  const int32_t n_listed = cluster.n_listed;
+  int32_t n = 0, i = cluster.next_listed;
+  for (; i < n_listed && n + triangles_per_group <= room; ++i) {
+    const int32_t node = cluster.node[i];
+    const uint32_t is_near = cluster.nearest_sq[i] <= cluster.limit[node];
+    const uint32_t close = cluster.triangles[i] & (0 - is_near);
+    fill(node, node_of_pair + n);
+    compress(close, bounds[cluster.group[i]].triangle, triangle_of_pair + n);
+    n += __builtin_popcount(close);
+  }
+  cluster.next_listed = i;
+  if (i == n_listed) {
+    cluster.is_done = cluster.next_leaf == cluster.n_leaves;
+    cluster.next_listed = -1;
+    cluster.n_listed = 0;
+  }
   return n;
 }
 
 void group_distances(const TriangleGroup &group, const float *point, float margin, float *distance_sq) {
-  const Floats3 points[1] = {all(point)};
-  Floats distances[1];
-  distances_to_group(group, points, Floats::all(margin), distances);
   alignas(64) float d[16];
-  distances[0].store(d);
+  distances_to_group(group, all(point), Floats::all(margin)).store(d);
   for (int i = 0; i < 16; ++i) distance_sq[i] = d[i];
 }
 
@@ -344,6 +375,6 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
 }  // namespace
 
 const FilterKernels RIIS_KERNELS(filter_kernels) = {
-    near_boxes, select, nearest_groups, competing_groups, filter_leaf, group_distances, rank};
+    near_boxes, select, nearest_groups, competing_groups, begin_cluster, filter_cluster, group_distances, rank};
 
 }  // namespace riis

@@ -17,15 +17,22 @@ constexpr int triangles_per_group = 16, nodes_per_leaf = 32, leaves_per_cluster 
 constexpr int groups_at_once = 8;
 constexpr int nodes_per_cluster = nodes_per_leaf * leaves_per_cluster;
 
-// Up to 16 neighbouring triangles, each in its own frame. The frame's origin is the first corner a. Its axes are the unit
-// vectors e along a-b, f in the triangle's plane, and g across the plane. In (e, f) the first two corners are (0, 0) and (ab,
-// 0). The third corner lies at the distance ac from the first, in the unit direction (ac_e, ac_f), and at the distance bc from
-// the second, in the unit direction (bc_e, bc_f). Lanes without a triangle repeat the first triangle.
+// Up to 16 neighbouring triangles abc, each in its own frame. The frame's axes are the unit vectors e along ab, f in the
+// triangle's plane, and g across the plane. A point p has the coordinates p.e + e_origin, p.f + f_origin and p.g + g_origin, and
+// the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e, ac_f). The coordinate along it is
+// e ac_e + f ac_f + ac_middle, from the middle of ac. The coordinate across it is e ac_f - f ac_e + ac_side. It is positive on
+// the side of the triangle. For bc, the coordinate across is f bc_e - e bc_f + bc_side. Lanes without a triangle repeat the first
+// triangle, except that their g_origin is beyond_limits.
 struct alignas(64) TriangleGroup {
-  float a[3][triangles_per_group], e[3][triangles_per_group], f[3][triangles_per_group], g[3][triangles_per_group];
-  float ab[triangles_per_group], ac[triangles_per_group], bc[triangles_per_group];
-  float ac_e[triangles_per_group], ac_f[triangles_per_group], bc_e[triangles_per_group], bc_f[triangles_per_group];
+  float e[3][triangles_per_group], f[3][triangles_per_group], g[3][triangles_per_group];
+  float e_origin[triangles_per_group], f_origin[triangles_per_group], g_origin[triangles_per_group];
+  float half_ab[triangles_per_group], half_ac[triangles_per_group], half_bc[triangles_per_group];
+  float ac_e[triangles_per_group], ac_f[triangles_per_group], ac_middle[triangles_per_group],
+      ac_side[triangles_per_group];
+  float bc_e[triangles_per_group], bc_f[triangles_per_group], bc_middle[triangles_per_group],
+      bc_side[triangles_per_group];
 };
+constexpr float beyond_limits = 0x1p40f;  // its square is finite, and farther than any limit of a filter
 
 // The coordinates of a group's corners: x, y and z of the first corners, then of the second, then of the third.
 struct alignas(64) GroupCorners {
@@ -59,13 +66,17 @@ struct alignas(64) Boxes {
   float lower[3][16], upper[3][16];
 };
 
-// The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame. The limits are in the
-// surface's frame.
-struct FilterTask {
-  float ratio, shift[3];
+// Limits of a filter, in the surface's frame.
+struct FilterLimits {
   float reach_sq;   // (limit + 2 * error)^2
   float tolerance;  // computed squares of two equal distances differ by at most this
   float margin;     // how far inside a triangle a point must be to count as inside
+};
+
+// The filter's input for a whole search. x * ratio + shift takes the mesh's frame to the surface's frame.
+struct FilterTask {
+  float ratio, shift[3];
+  FilterLimits limits;
   const TriangleGroup *groups;
   const GroupBounds *bounds;
 };
@@ -76,18 +87,46 @@ struct alignas(64) PointsOfBoxes {
   float tolerance[16];  // computed squares of two equal distances from a place in the box differ by at most this
 };
 
-// One leaf and the groups that may be near it. If there are more pairs than room, the leaf is filtered in several calls.
+// One leaf of a cluster, and the groups that may be near it.
 struct LeafTask {
   const Leaf *leaf;
-  int32_t first_node;    // position of its first node in the cluster
-  uint32_t wanted;       // a bit for each node that is searched
-  int32_t *near_groups;  // in any order; the filter changes the order
+  int32_t position;  // of the leaf in its cluster
+  uint32_t wanted;   // a bit for each node that is searched
+  const int32_t *near_groups;
   int32_t n_groups;
-  float *lower_bounds;  // room for nodes_per_leaf * n_groups, aligned
-  int32_t next_group;   // the group to go on with: 0 at first, n_groups when done
-  uint32_t rest;        // a bit for each node that next_group still has to be compared with
-  uint32_t found;       // a bit for each node of the pairs added last
-  alignas(64) float best[nodes_per_leaf];
+  FilterLimits limits;
+  bool may_be_near;  // begin_cluster sets it to false if no node is near any group
+  uint32_t found;    // filter_cluster sets a bit for each node that has pairs, now or in a further call
+};
+
+// Cache lines for later work. The filter requests some after each few distances. Requested all at once, they would fill the
+// processor's queue, and its other loads would wait.
+struct LinesAhead {
+  int32_t n;
+  const char *line[256];
+};
+
+// The leaves of a cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the
+// whole list. Nodes and pairs may be too many for the list and for the caller's arrays. Then the filter goes on in another call.
+constexpr int32_t most_listed = 2 * nodes_per_cluster;
+struct ClusterTask {
+  int32_t n_leaves;
+  LeafTask leaf[leaves_per_cluster];
+  float *lower_bounds;  // room for nodes_per_leaf bounds for each near group of each leaf, aligned
+  LinesAhead ahead;     // each of the two kernels empties it
+  bool is_done;         // filter_cluster sets it in its last call
+
+  // These members belong to the filter. The arrays have room for whole registers. A node is given by its position in the cluster.
+  int32_t next_leaf, next_group;
+  int32_t n_listed, next_listed;
+  int32_t node[most_listed + 16], group[most_listed + 16];
+  float nearest_sq[most_listed + 16];    // the square of the node's distance to the group
+  uint16_t triangles[most_listed + 16];  // the group's triangles that are at this distance, to the tolerance
+  FilterLimits limits[leaves_per_cluster];  // by the leaf's position
+  alignas(64) float xyz[3][nodes_per_cluster];
+  float best[nodes_per_cluster];         // the least of reach_sq and of the squares of all computed distances
+  float limit[nodes_per_cluster];        // how far a node's groups may be, or -1 if none is within reach
+  float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
 // Pairs of a node, given by its position in the cluster, and a triangle. The arrays must have room for 16 more pairs than are
@@ -156,10 +195,12 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
   void (*competing_groups)(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                            const int32_t *candidates, int32_t n_candidates, uint16_t *competes);
-  // Writes at most `room` pairs of a node and a triangle, and returns their number. For every node within the limit, its closest
-  // triangles are among the pairs. Each further call for a leaf continues where the last call ran out of room. Room for 64 pairs
-  // is enough to continue.
-  int32_t (*filter_leaf)(const FilterTask &task, LeafTask &leaf, const PairArrays &pairs, int32_t room);
+  // Compares the nodes of a cluster with the boxes of groups, and each node that may be near with its nearest group.
+  void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
+  // Compares the nodes with the other groups that may be near. Writes at most `room` pairs of a node and a triangle, and returns
+  // their number. For every node within the limit, its closest triangles are among the pairs. Each further call goes on where the
+  // last call stopped, until is_done. Room for triangles_per_group pairs is enough to go on.
+  int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
@@ -187,7 +228,8 @@ struct DecisionKernels {
   // Takes the nodes of a leaf (3, nodes_per_leaf) to the mesh's frame, in single precision, and finds the leaf's box. A
   // coordinate far outside becomes 2 or -2, and NaN becomes -2.
   void (*frame_leaf)(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper);
-  // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame.
+  // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each bounds[k].n
+  // must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
   // Computes the squares of the distances of n pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.
   // Writes up to n + 7 squares.

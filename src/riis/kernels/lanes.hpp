@@ -304,6 +304,40 @@ RIIS_INLINE uint32_t bits_at_most(Floats a, Floats b) {
 #endif
 }
 
+// Returns one bit for each lane, set if a and b differ.
+RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask((__m512)a.part[0], (__m512)b.part[0], _CMP_NEQ_UQ);
+#else
+  return ~bits(a == b) & 0xffff;
+#endif
+}
+
+// Returns how far x is outside the interval -half..half, perhaps with a minus sign.
+RIIS_INLINE Floats beyond(Floats x, Floats half) {
+#if defined(__AVX512DQ__)
+  // One instruction limits the magnitude of x and keeps its sign.
+  count(&Counts::operations, Floats::n);
+  constexpr int lesser_magnitude_with_sign_of_first = 2;
+  const __m512 limited =
+      _mm512_range_ps((__m512)x.part[0], (__m512)half.part[0], lesser_magnitude_with_sign_of_first);
+  return x - Floats{{(FloatRegister)limited}};
+#else
+  Floats magnitude;
+  for (int i = 0; i < Floats::n_registers; ++i)
+    magnitude.part[i] = (FloatRegister)((IntRegister)x.part[i] & (INT32_MAX - IntRegister{}));
+  return greatest(magnitude - half, Floats::all(0));
+#endif
+}
+
+// Converts whole numbers to integers.
+RIIS_INLINE void to_integers(Floats x, int32_t *to) {
+  for (int i = 0; i < Floats::n_registers; ++i) {
+    const IntRegister integers = __builtin_convertvector(x.part[i], IntRegister);
+    __builtin_memcpy(to + i * Floats::per_register, &integers, sizeof integers);
+  }
+}
+
 // Returns 0 where a >= b, and x elsewhere.
 RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #if defined(__AVX512F__)
@@ -349,14 +383,24 @@ RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 // For each of four Floats, writes the least of its lanes.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
-#if defined(RIIS_SSE2)
+#if defined(__AVX512F__)
+  // Each step keeps the lesser of two quarters of a register, or of two lanes of a quarter.
+  constexpr int first_half = 0x44, last_half = 0xee, even = 0x88, odd = 0xdd, neighbours = 0xb1, pairs = 0x4e;
+  const auto halves = [&](int i) __attribute__((always_inline)) {
+    const __m512 a = (__m512)of[i].part[0], b = (__m512)of[i + 1].part[0];
+    return _mm512_min_ps(_mm512_shuffle_f32x4(a, b, first_half), _mm512_shuffle_f32x4(a, b, last_half));
+  };
+  const __m512 first = halves(0), last = halves(2);
+  __m512 least_of =
+      _mm512_min_ps(_mm512_shuffle_f32x4(first, last, even), _mm512_shuffle_f32x4(first, last, odd));
+  least_of = _mm512_min_ps(least_of, _mm512_permute_ps(least_of, neighbours));
+  least_of = _mm512_min_ps(least_of, _mm512_permute_ps(least_of, pairs));
+  constexpr __mmask16 one_of_each_quarter = 0x1111;
+  _mm_storeu_ps(least_lane, _mm512_castps512_ps128(_mm512_maskz_compress_ps(one_of_each_quarter, least_of)));
+#elif defined(RIIS_SSE2)
   __m128 m[4];
   for (int i = 0; i < 4; ++i) {
-#if defined(__AVX512F__)
-    const __m512 whole = (__m512)of[i].part[0];
-    const __m256 half = _mm256_min_ps(_mm512_castps512_ps256(whole), _mm512_extractf32x8_ps(whole, 1));
-    m[i] = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
-#elif defined(__AVX2__)
+#if defined(__AVX2__)
     const __m256 half = _mm256_min_ps((__m256)of[i].part[0], (__m256)of[i].part[1]);
     m[i] = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
 #else

@@ -50,7 +50,7 @@ class ClusterSearch {
     task_.shift[2] = static_cast<float>(placing_.shift.z);
     task_.groups = groups_.groups.data();
     task_.bounds = groups_.bounds.data();
-    limit_within(limit_, task_);
+    limits_within(limit_, task_.limits);
     of_packs_ = task_;
     of_packs_.bounds = groups_.packs.data();
     const auto n_groups = view(groups_.groups).size();
@@ -78,7 +78,7 @@ class ClusterSearch {
         const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
         gap_sq += gap * gap;
       }
-      if (gap_sq <= task_.reach_sq) own_.near_regions.push_back(region);
+      if (gap_sq <= task_.limits.reach_sq) own_.near_regions.push_back(region);
     }
     constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
     const auto n_near = view(own_.near_regions).size();
@@ -99,8 +99,8 @@ class ClusterSearch {
     constexpr std::int64_t few = 128;  // searching this many clusters takes about half a millisecond
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
-      if (i + 1 < n) prefetch_first_leaf(view(items)[i + 1]);
-      search_cluster(view(items)[i], view(own_.threads)[thread], thread);
+      search_cluster(view(items)[i], view(own_.threads)[thread], thread, nullptr,
+                     i + 1 < n ? &view(items)[i + 1] : nullptr);
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -209,16 +209,16 @@ class ClusterSearch {
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
 
-  // Sets those numbers of a filter's task that depend on the limit, in the surface's frame. Returns the filter's error.
-  double limit_within(double limit, FilterTask &task) const {
+  // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
+  double limits_within(double limit, FilterLimits &limits) const {
     const double scale = groups_.frame.scale;
     // The second term covers the rounding of the distances that are decided in double precision. The third covers ties, which
     // may be farther than the closest triangle by this amount.
     const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
-    task.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
-    task.tolerance = filter_tolerance(error, limit + 2 * error);
-    task.margin = static_cast<float>(0.5 * error);
+    limits.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
+    limits.tolerance = filter_tolerance(error, limit + 2 * error);
+    limits.margin = static_cast<float>(0.5 * error);
     return error;
   }
 
@@ -265,12 +265,12 @@ class ClusterSearch {
                                              farthest(point.z, lower.z, upper.z)});
       bounds.of_box[k] = to_farthest + 0x1p-21 * (placing_.ratio + placing_.largest_shift + 6) +
                          2 * scene_.rounding() * groups_.frame.scale;
-      FilterTask task;
-      limit_within(bounds.of_box[k], task);
+      FilterLimits limits;
+      limits_within(bounds.of_box[k], limits);
       points.xyz[0][k] = static_cast<float>(point.x);
       points.xyz[1][k] = static_cast<float>(point.y);
       points.xyz[2][k] = static_cast<float>(point.z);
-      points.tolerance[k] = task.tolerance;
+      points.tolerance[k] = limits.tolerance;
     }
     kernels_.competing_groups(task_, boxes, points, candidates, n_candidates, competes);
     return bounds;
@@ -317,7 +317,7 @@ class ClusterSearch {
   }
 
   void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread,
-                      const UpperBounds *bounds = nullptr) {
+                      const UpperBounds *bounds = nullptr, const ClusterScratch::Item *following = nullptr) {
     const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
@@ -332,17 +332,23 @@ class ClusterSearch {
         near &= ~(1u << bit);
       }
     Pairs pairs{leaves.begin, found_.ties_of(thread)};
+    ClusterTask &task = own.task;
+    task.n_leaves = 0;
+    own.leaf_groups.resize(item.n * static_cast<std::size_t>(__builtin_popcount(near)));
+    std::int32_t *near_groups = own.leaf_groups.data();
     for (; near; near &= near - 1) {
       const int bit = __builtin_ctz(near);
-      const std::uint32_t after = near & (near - 1);
-      if (after) prefetch_leaf(leaves.begin + __builtin_ctz(after));
-      own.leaf_groups.clear();
-      add_marked(candidates, leaf_bits, item.n, bit, own.leaf_groups);
-      if (!bounds)
-        filter_leaf(leaves.begin + bit, task_, own, pairs);
-      else
-        filter_leaf(leaves.begin + bit, task_within(bounds->of_box[bit]), own, pairs);
+      const std::int32_t n_groups =
+          kernels_.select(candidates, leaf_bits, static_cast<std::int32_t>(item.n), bit, near_groups);
+      LeafTask &leaf = task.leaf[task.n_leaves++];
+      leaf = leaf_task(leaves.begin, bit, {near_groups, n_groups});
+      if (bounds) limits_within(std::min(bounds->of_box[bit], limit_), leaf.limits);
+      near_groups += n_groups;
     }
+    task.lower_bounds = own.room_for_bounds(static_cast<std::size_t>(near_groups - own.leaf_groups.data()));
+    task.ahead.n = 0;
+    if (following) request_leaves(*following, task.ahead);
+    filter(own, pairs);
     decide(own, pairs);
     // Every node with pairs is written, but the place moves on only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
@@ -377,62 +383,59 @@ class ClusterSearch {
     });
   }
 
-  // Requests the coordinates of a leaf ahead of the filter.
-  void prefetch_leaf(std::int64_t leaf) const { prefetch(clusters_.leaves.get()[leaf].x, 3 * sizeof(Leaf::x)); }
-  void prefetch_first_leaf(const ClusterScratch::Item &item) const {
-    prefetch_leaf(clusters_.leaves_of(item.cluster).begin + __builtin_ctz(item.near_leaves));
+  // Requests the coordinates of a cluster's near leaves.
+  void request_leaves(const ClusterScratch::Item &item, LinesAhead &ahead) const {
+    const Leaf *const first = &clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin];
+    for (std::uint32_t rest = item.near_leaves; rest; rest &= rest - 1)
+      request(first[__builtin_ctz(rest)].x, 3 * sizeof(Leaf::x), ahead);
   }
 
-  static void prefetch(const void *from, std::size_t size) {
+  static void request(const void *from, std::size_t size, LinesAhead &ahead) {
     constexpr std::size_t line = 64;
-    for (std::size_t at = 0; at < size; at += line) __builtin_prefetch(static_cast<const char *>(from) + at);
+    for (std::size_t at = 0; at < size; at += line)
+      ahead.line[ahead.n++] = static_cast<const char *>(from) + at;
   }
 
   // Returns false if the filter's error is so large that the filter would leave many triangles.
   bool is_separated(double limit) const {
     constexpr double useful = 0x1p-8;
-    FilterTask task;
-    return limit_within(std::min(limit, limit_), task) <= useful;
+    FilterLimits limits;
+    return limits_within(std::min(limit, limit_), limits) <= useful;
   }
 
-  FilterTask task_within(double limit) const {
-    FilterTask task = task_;
-    limit_within(std::min(limit, limit_), task);
-    return task;
-  }
+  struct NearGroups {
+    const std::int32_t *number;
+    std::int32_t n;
+  };
 
-  // Prepares for the first pairs of a leaf. Many leaves near the surface have no pairs, so points and node numbers are requested
-  // only here.
-  void begin_pairs(std::int64_t number, ClusterScratch::Thread &own, const Pairs &pairs) const {
-    prefetch(&clusters_.points.get()[number], sizeof(LeafPoints));
-    prefetch(clusters_.leaves.get()[number].node, sizeof(Leaf::node));
-    std::fill_n(own.closest.begin() + (number - pairs.first_leaf) * nodes_per_leaf, nodes_per_leaf, nothing);
-  }
-
-  void filter_leaf(std::int64_t number, const FilterTask &filter, ClusterScratch::Thread &own, Pairs &pairs) {
-    const Leaf &leaf = clusters_.leaves.get()[number];
-    const int n_nodes = clusters_.n_nodes_of(number);
-    LeafTask task;
-    task.leaf = &leaf;
-    task.first_node = static_cast<std::int32_t>((number - pairs.first_leaf) * nodes_per_leaf);
-    task.wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
+  LeafTask leaf_task(std::int64_t first_leaf, int position, const NearGroups &near) const {
+    const Leaf &leaf = clusters_.leaves.get()[first_leaf + position];
+    const int n_nodes = clusters_.n_nodes_of(first_leaf + position);
+    std::uint32_t wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
     if (request_.node_mask)
       for (int lane = 0; lane < n_nodes; ++lane)
-        if (!request_.node_mask[leaf.node[lane]]) task.wanted &= ~(1u << lane);
-    task.near_groups = own.leaf_groups.data();
-    task.n_groups = static_cast<std::int32_t>(own.leaf_groups.size());
-    task.lower_bounds = own.room_for_bounds(own.leaf_groups.size());
-    task.next_group = 0;
-    task.rest = 0;
-    while (task.next_group < task.n_groups) {
+        if (!request_.node_mask[leaf.node[lane]]) wanted &= ~(1u << lane);
+    return {&leaf, position, wanted, near.number, near.n, task_.limits, true, 0};
+  }
+
+  void filter(ClusterScratch::Thread &own, Pairs &pairs) {
+    ClusterTask &task = own.task;
+    kernels_.begin_cluster(task_, task);
+    // Many leaves near the surface have no pairs, so points and node numbers are requested only here.
+    for (std::int32_t i = 0; i < task.n_leaves; ++i) {
+      const LeafTask &leaf = task.leaf[i];
+      if (!leaf.may_be_near) continue;
+      request(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints), task.ahead);
+      request(leaf.leaf->node, sizeof(Leaf::node), task.ahead);
+      std::fill_n(own.closest.begin() + leaf.position * nodes_per_leaf, nodes_per_leaf, nothing);
+    }
+    while (!task.is_done) {
       constexpr std::int32_t room = ClusterScratch::room_for_pairs, enough = 1024;
       if (room - pairs.n < enough) decide(own, pairs);
-      pairs.n += kernels_.filter_leaf(
-          filter, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
-      std::uint32_t &nodes = pairs.nodes[number - pairs.first_leaf];
-      if (task.found && !nodes) begin_pairs(number, own, pairs);
-      nodes |= task.found;
+      pairs.n += kernels_.filter_cluster(
+          task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
     }
+    for (std::int32_t i = 0; i < task.n_leaves; ++i) pairs.nodes[task.leaf[i].position] = task.leaf[i].found;
   }
 
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {

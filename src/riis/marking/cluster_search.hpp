@@ -30,7 +30,8 @@ struct ClusterScratch {
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
     std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
-    std::vector<std::int32_t> leaf_groups;
+    std::vector<std::int32_t> leaf_groups;  // the near groups of each leaf of a cluster
+    ClusterTask task;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];
     };

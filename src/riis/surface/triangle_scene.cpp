@@ -158,8 +158,9 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   const TriangleGroups &groups = query.in->groups;
   const GroupBounds &bounds = groups.bounds[arguments->primID];
   float distance_sq[triangles_per_group];
+  // In the frame's units, no coordinate of the difference between the point and the surface is larger than query.largest + 1.
   const float error =
-      filter_error(1, 0, query.largest, groups.longest_edge) + static_cast<float>(4 * query.in->rounding);
+      filter_error(1, 0, query.largest + 1, groups.longest_edge) + static_cast<float>(4 * query.in->rounding);
   const float point[3] = {static_cast<float>(query.q.x), static_cast<float>(query.q.y), static_cast<float>(query.q.z)};
   query.kernels->group_distances(groups.groups[arguments->primID], point, error, distance_sq);
   const float reach = arguments->query->radius + 2 * error;
