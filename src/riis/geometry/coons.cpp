@@ -108,7 +108,9 @@ Vector<GridLine> merge_parameters(const Polyline &side0, const Polyline &side1, 
   const Vector<double> t0 = own_parameters(side0), t1 = own_parameters(side1);
   // The tolerance is so small that no two vertices of one side can match the same vertex of the other.
   const double tolerance = std::min(merge_tolerance, 0.49 * std::min(smallest_step(t0), smallest_step(t1)));
-  Vector<GridLine> lines{{0.0, 0.0, 0.0, true, true}};
+  Vector<GridLine> lines;
+  lines.reserve(t0.size() + t1.size());
+  lines.push_back({0.0, 0.0, 0.0, true, true});
   for (std::size_t i = 1, j = 1; i + 1 < t0.size() || j + 1 < t1.size();) {
     // If a side has no further inner vertex, its next parameter counts as infinite.
     const double a = i + 1 < t0.size() ? t0[i] : std::numeric_limits<double>::infinity();

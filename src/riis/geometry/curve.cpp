@@ -22,7 +22,14 @@ class Flattening {
  public:
   // Begins with the curve's first point. `bend` is null if the velocity does not matter.
   Flattening(Vec3 first, double max_error, const VelocityBend *bend, double max_bend)
-      : max_error_(max_error), bend_(bend), max_bend_(max_bend), flattened_{{first}, {0.0}, {}} {}
+      : max_error_(max_error), bend_(bend), max_bend_(max_bend) {
+    constexpr std::size_t usual = 16;  // most curves of a valve have fewer points
+    flattened_.points.reserve(usual);
+    flattened_.t.reserve(usual);
+    flattened_.errors.reserve(usual);
+    flattened_.points.push_back(first);
+    flattened_.t.push_back(0);
+  }
 
   // Adds a part of one piece. The part goes from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {

@@ -33,7 +33,8 @@ class GridMaker {
         n_threads_(n_threads),
         errors_(set.curves.size(), infinity),
         polylines_(set.curves.size()),
-        reversed_(set.curves.size()) {
+        reversed_(set.curves.size()),
+        is_reversed_(set.curves.size(), 0) {
     check_precision(set, max_error);
     // Each curve gets one polyline, which is as exact as the most demanding of its patches requires.
     for (const Patch &patch : set.patches) {
@@ -87,6 +88,7 @@ class GridMaker {
 
   void allow(const Side &side, double share) {
     errors_[side.curve] = std::min(errors_[side.curve], share * max_error_);
+    if (side.reversed) is_reversed_[side.curve] = 1;
   }
 
   template <class Visit>
@@ -110,7 +112,7 @@ class GridMaker {
       polylines_[at] = max_bend_ > 0 && at < set_.rates.size()
                            ? make_polyline(set_.curves[at], errors_[at], set_.rates[at], max_bend_)
                            : make_polyline(set_.curves[at], errors_[at]);
-      reversed_[at] = reversed(polylines_[at]);
+      if (is_reversed_[at]) reversed_[at] = reversed(polylines_[at]);
     });
     for (std::size_t i = first; i < end; ++i) sides_.push_back(sides_of(set_.patches[i]));
   }
@@ -157,6 +159,7 @@ class GridMaker {
   int n_threads_;
   Vector<double> errors_;  // allowed error of each curve; infinity if it needs no polyline
   Vector<Polyline> polylines_, reversed_;
+  Vector<char> is_reversed_;  // 1 for each curve that a patch uses in the opposite direction
   Vector<PatchSides> sides_;
   Vector<ArcLines> lines_;
 };

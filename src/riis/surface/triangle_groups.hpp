@@ -34,7 +34,7 @@ float round_up(double x);
 // `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths up to
 // `longest_edge`.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
-  return static_cast<float>(0x1p-21 * (ratio + shift + 4 * reach + 7 * longest_edge + 3));
+  return static_cast<float>(0x1p-21 * (ratio + shift + 5 * reach + 7 * longest_edge + 3));
 }
 
 // Bounds the difference between the computed squares of two distances that are in fact equal. Both distances are at most

@@ -22,7 +22,11 @@ class QuadGroups {
 
   Grouping make() {
     const Quads all{0, grid_.u.size() - 1, 0, grid_.v.size() - 1};
-    group(all, n_triangles(all));
+    const std::int64_t n = n_triangles(all);
+    made_.order.reserve(static_cast<std::size_t>(n));
+    constexpr std::int64_t fewest_in_group = triangles_per_group / 2;  // in most groups
+    made_.end.reserve(static_cast<std::size_t>(n / fewest_in_group + 1));
+    group(all, n);
     return std::move(made_);
   }
 
