@@ -83,6 +83,36 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
+bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                    uint16_t *near) {
+  const Floats reach_sq = Floats::all(task.limits.reach_sq), one_half = Floats::all(0.5f);
+  Floats middle[3], half[3];
+  for (int i = 0; i < 3; ++i) {
+    const Extents extents = placed(task, boxes, i);
+    middle[i] = one_half * (extents.lower + extents.upper);
+    half[i] = one_half * (extents.upper - extents.lower);
+  }
+  uint32_t found = 0;
+  for (int32_t k = 0; k < n_candidates; ++k) {
+    const GroupBounds &group = task.bounds[candidates[k]];
+    Floats sum = Floats::all(0);
+    for (int i = 0; i < 3; ++i) {
+      const float *const axis = group.axis[i];
+      Floats along = middle[0] * Floats::all(axis[0]), half_along = half[0] * Floats::all(__builtin_fabsf(axis[0]));
+      for (int j = 1; j < 3; ++j) {
+        along = multiply_add(middle[j], Floats::all(axis[j]), along);
+        half_along = multiply_add(half[j], Floats::all(__builtin_fabsf(axis[j])), half_along);
+      }
+      const Floats gap =
+          outside(along, Floats::all(group.from[i]) - half_along, Floats::all(group.to[i]) + half_along);
+      sum = multiply_add(gap, gap, sum);
+    }
+    near[k] = static_cast<uint16_t>(near[k] & bits_at_most(sum, reach_sq));
+    found |= near[k];
+  }
+  return found != 0;
+}
+
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
   // No more numbers are selected than were read, so even a whole register stays within the first n places.
   int32_t n_selected = 0, k = 0;
@@ -241,16 +271,17 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
   return k == leaf.n_groups;
 }
 
-// Computes the distances of the listed nodes to their groups, from the given place in the list on.
-RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from) {
+// Computes the distances of the listed nodes to their groups, from the given place in the list on. Meanwhile, requests the last
+// n_lines lines ahead.
+RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from, int32_t n_lines) {
   constexpr int n = 4;
   const int32_t end = cluster.n_listed, n_batches = (end - from + n - 1) / n;
-  const char *const *ahead = cluster.ahead.line, *const *const last = ahead + cluster.ahead.n;
-  const int32_t lines_per_batch = (cluster.ahead.n + n_batches) / (n_batches + 1);
+  const char *const *ahead = cluster.ahead.line + cluster.ahead.n, *const *const last = ahead - n_lines;
+  const int32_t lines_per_batch = (n_lines + n_batches) / (n_batches + 1);
   const auto request_lines = [&] {
-    for (int32_t i = 0; i < lines_per_batch && ahead < last; ++i) __builtin_prefetch(*ahead++);
+    for (int32_t i = 0; i < lines_per_batch && ahead > last; ++i) __builtin_prefetch(*--ahead);
   };
-  cluster.ahead.n = 0;
+  cluster.ahead.n -= n_lines;
   request_lines();
   // The last batch repeats the last node.
   for (int i = 0; i < n - 1 && from < end; ++i) {
@@ -289,14 +320,19 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
     begin_leaf(task, cluster.leaf[i], cluster, lower_bounds);
     lower_bounds += nodes_per_leaf * cluster.leaf[i].n_groups;
   }
-  compare(task, cluster, 0);
-  cluster.next_leaf = cluster.next_group = 0;
+  cluster.next_leaf = -1;
+  cluster.next_group = 0;
   cluster.next_listed = -1;
   cluster.is_done = false;
 }
 
-// Lists and compares as many nodes and groups as there is room for.
-RIIS_INLINE void compare_others(const FilterTask &task, ClusterTask &cluster) {
+// Compares the nodes with their first groups, unless a call before has done so. Then lists and compares as many nodes and other
+// groups as there is room for.
+RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
+  if (cluster.next_leaf < 0) {
+    compare(task, cluster, 0, cluster.ahead.n / 2);
+    cluster.next_leaf = 0;
+  }
   const int32_t n_before = cluster.n_listed;
   const float *lower_bounds = cluster.lower_bounds;
   for (int32_t i = 0; i < cluster.n_leaves; ++i) {
@@ -308,7 +344,7 @@ RIIS_INLINE void compare_others(const FilterTask &task, ClusterTask &cluster) {
     }
     lower_bounds += nodes_per_leaf * leaf.n_groups;
   }
-  compare(task, cluster, n_before);
+  compare(task, cluster, n_before, cluster.ahead.n);
   for (int32_t i = 0; i < cluster.n_leaves; ++i) {
     LeafTask &leaf = cluster.leaf[i];
     const Floats reach_sq = Floats::all(leaf.limits.reach_sq), tolerance = Floats::all(leaf.limits.tolerance);
@@ -325,7 +361,7 @@ RIIS_INLINE void compare_others(const FilterTask &task, ClusterTask &cluster) {
 
 int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room) {
   if (cluster.next_listed < 0) {
-    compare_others(task, cluster);
+    compare_all(task, cluster);
     cluster.next_listed = 0;
   }
   // Writes those listed nodes whose group is still near, now that all of the list is compared. The place moves on only after such
@@ -375,6 +411,6 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
 }  // namespace
 
 const FilterKernels RIIS_KERNELS(filter_kernels) = {
-    near_boxes, select, nearest_groups, competing_groups, begin_cluster, filter_cluster, group_distances, rank};
+    near_boxes, near_own_boxes, select, nearest_groups, competing_groups, begin_cluster, filter_cluster, group_distances, rank};
 
 }  // namespace riis

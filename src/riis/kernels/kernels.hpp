@@ -99,7 +99,7 @@ struct LeafTask {
   uint32_t found;    // filter_cluster sets a bit for each node that has pairs, now or in a further call
 };
 
-// Cache lines for later work. The filter requests some after each few distances. Requested all at once, they would fill the
+// Cache lines for the decision. The filter requests some after each few distances. Requested all at once, they would fill the
 // processor's queue, and its other loads would wait.
 struct LinesAhead {
   int32_t n;
@@ -113,7 +113,7 @@ struct ClusterTask {
   int32_t n_leaves;
   LeafTask leaf[leaves_per_cluster];
   float *lower_bounds;  // room for nodes_per_leaf bounds for each near group of each leaf, aligned
-  LinesAhead ahead;     // each of the two kernels empties it
+  LinesAhead ahead;     // filter_cluster empties it
   bool is_done;         // filter_cluster sets it in its last call
 
   // These members belong to the filter. The arrays have room for whole registers. A node is given by its position in the cluster.
@@ -185,6 +185,9 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
+  // Clears the bits of boxes that are out of the reach of a group's box along its own axes. Returns false if no box is left.
+  bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
+                         uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns how many there are. `to` must have
   // room for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
@@ -195,9 +198,9 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box in which the group may be nearer than the box's point.
   void (*competing_groups)(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                            const int32_t *candidates, int32_t n_candidates, uint16_t *competes);
-  // Compares the nodes of a cluster with the boxes of groups, and each node that may be near with its nearest group.
+  // Compares the nodes of a cluster with the boxes of groups.
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
-  // Compares the nodes with the other groups that may be near. Writes at most `room` pairs of a node and a triangle, and returns
+  // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and returns
   // their number. For every node within the limit, its closest triangles are among the pairs. Each further call goes on where the
   // last call stopped, until is_done. Room for triangles_per_group pairs is enough to go on.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);

@@ -191,8 +191,14 @@ class ClusterSearch {
         add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
     if (n == 0) return;
     own.leaf_bits.resize(first + n);
-    if (kernels_.near_boxes(task_, view(clusters_.clusters)[cluster], own.near_groups.data() + first,
-                            static_cast<std::int32_t>(n), own.leaf_bits.data() + first)) {
+    const Boxes &leaves = view(clusters_.clusters)[cluster];
+    const std::int32_t *const near_groups = own.near_groups.data() + first;
+    std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
+    const auto n_near = static_cast<std::int32_t>(n);
+    // Many groups are near a cluster if they are smaller than its leaves. Then their own axes make little difference.
+    constexpr std::size_t many = 32;
+    if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
+        (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
       own.items.push_back({cluster, first, n, 0, near_leaves(own.leaf_bits.data() + first, n)});
     } else {
       own.near_groups.resize(first);
@@ -346,8 +352,6 @@ class ClusterSearch {
       near_groups += n_groups;
     }
     task.lower_bounds = own.room_for_bounds(static_cast<std::size_t>(near_groups - own.leaf_groups.data()));
-    task.ahead.n = 0;
-    if (following) request_leaves(*following, task.ahead);
     filter(own, pairs);
     decide(own, pairs);
     // Every node with pairs is written, but the place moves on only after a node within the limit.
@@ -359,6 +363,7 @@ class ClusterSearch {
     FoundNode *next = found.data() + n_before;
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
+      if (following) request_leaf(*following, i);
       const Leaf &of_leaf = clusters_.leaves.get()[leaf];
       const ClosestTriangle *const of_nodes = own.closest.data() + nodes_per_leaf * i;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
@@ -383,17 +388,20 @@ class ClusterSearch {
     });
   }
 
-  // Requests the coordinates of a cluster's near leaves.
-  void request_leaves(const ClusterScratch::Item &item, LinesAhead &ahead) const {
-    const Leaf *const first = &clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin];
-    for (std::uint32_t rest = item.near_leaves; rest; rest &= rest - 1)
-      request(first[__builtin_ctz(rest)].x, 3 * sizeof(Leaf::x), ahead);
-  }
-
-  static void request(const void *from, std::size_t size, LinesAhead &ahead) {
+  // Calls visit(address) for each cache line of an array.
+  template <class Visit>
+  static void for_each_line(const void *from, std::size_t size, const Visit &visit) {
     constexpr std::size_t line = 64;
-    for (std::size_t at = 0; at < size; at += line)
-      ahead.line[ahead.n++] = static_cast<const char *>(from) + at;
+    for (std::size_t at = 0; at < size; at += line) visit(static_cast<const char *>(from) + at);
+  }
+  static void request_later(const void *from, std::size_t size, LinesAhead &ahead) {
+    for_each_line(from, size, [&](const char *line) { ahead.line[ahead.n++] = line; });
+  }
+  // Requests the coordinates of a cluster's leaf if it is near.
+  void request_leaf(const ClusterScratch::Item &item, std::int64_t position) const {
+    if (item.near_leaves >> position & 1)
+      for_each_line(clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin + position].x, 3 * sizeof(Leaf::x),
+                    [](const char *line) { __builtin_prefetch(line); });
   }
 
   // Returns false if the filter's error is so large that the filter would leave many triangles.
@@ -421,12 +429,13 @@ class ClusterSearch {
   void filter(ClusterScratch::Thread &own, Pairs &pairs) {
     ClusterTask &task = own.task;
     kernels_.begin_cluster(task_, task);
+    task.ahead.n = 0;
     // Many leaves near the surface have no pairs, so points and node numbers are requested only here.
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;
-      request(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints), task.ahead);
-      request(leaf.leaf->node, sizeof(Leaf::node), task.ahead);
+      request_later(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints), task.ahead);
+      request_later(leaf.leaf->node, sizeof(Leaf::node), task.ahead);
       std::fill_n(own.closest.begin() + leaf.position * nodes_per_leaf, nodes_per_leaf, nothing);
     }
     while (!task.is_done) {

@@ -75,8 +75,10 @@ class Ordering {
   // Writes the nodes of each bin in ascending order.
   void write(NodeList &within, NodeList &marked) {
     parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
-      const OrderScratch::Counts &first = view(scratch_.first)[bin];
-      if (view(scratch_.first)[bin + 1].n_within == first.n_within) return;
+      const OrderScratch::Counts &first = view(scratch_.first)[bin], &next = view(scratch_.first)[bin + 1];
+      // The next bin's part is requested now, because a thread writes it in a random order.
+      if (bin + 1 < bins_.n()) request({next.n_within, view(scratch_.first)[bin + 2].n_within}, within);
+      if (next.n_within == first.n_within) return;
       NodeRanks &ranks = view(scratch_.ranks)[thread];
       write_bin(bin, first.n_within, ranks, within, [](const FoundNode &) { return true; });
       if (limit_is_wider_)
@@ -90,6 +92,18 @@ class Ordering {
     constexpr std::int64_t few = 4096;
     return n_within < few ? 1 : n_threads;
   }
+  template <class Number>
+  static void request(const Range &range, const std::vector<Number> &numbers) {
+    constexpr auto per_line = static_cast<std::int64_t>(64 / sizeof(Number));
+    for (std::int64_t i = range.begin; i < range.end; i += per_line) __builtin_prefetch(numbers.data() + i, 1);
+  }
+  static void request(const Range &range, const NodeList &list) {
+    request(range, list.node_id);
+    request(range, list.distance);
+    request(range, list.triangle_id);
+    request(range, list.leaflet_id);
+  }
+
   bool is_marked(const FoundNode &found) const { return found.distance <= half_thickness_; }
 
   void make_room(const FoundNodes &found) {
@@ -126,7 +140,12 @@ class Ordering {
       sum += n[bin].n_within;
     }
     FoundNode *const nodes = list.nodes.data();
-    for (const FoundNode &node : found) nodes[end[bins_.bin_of(node)]++] = node;
+    constexpr std::ptrdiff_t ahead = 8;  // nodes that fill two cache lines
+    for (const FoundNode &node : found) {
+      FoundNode *const to = nodes + end[bins_.bin_of(node)]++;
+      *to = node;
+      __builtin_prefetch(to + ahead, 1);
+    }
   }
 
   template <class Visit>
