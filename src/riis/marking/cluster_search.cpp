@@ -211,6 +211,8 @@ class ClusterSearch {
   struct Pairs {
     std::int64_t first_leaf;
     Ties *ties;  // or null
+    const ClusterScratch::Item *following;
+    std::uint32_t next_near;
     std::int32_t n = 0;
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
@@ -337,7 +339,7 @@ class ClusterSearch {
         query_nodes(leaves.begin + bit, own, thread);
         near &= ~(1u << bit);
       }
-    Pairs pairs{leaves.begin, found_.ties_of(thread)};
+    Pairs pairs{leaves.begin, found_.ties_of(thread), following, following ? following->near_leaves : 0};
     ClusterTask &task = own.task;
     task.n_leaves = 0;
     own.leaf_groups.resize(item.n * static_cast<std::size_t>(__builtin_popcount(near)));
@@ -354,6 +356,7 @@ class ClusterSearch {
     task.lower_bounds = own.room_for_bounds(static_cast<std::size_t>(near_groups - own.leaf_groups.data()));
     filter(own, pairs);
     decide(own, pairs);
+    while (pairs.next_near) request_next_leaf(pairs);
     // Every node with pairs is written, but the place moves on only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
@@ -363,7 +366,6 @@ class ClusterSearch {
     FoundNode *next = found.data() + n_before;
     for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
       const std::int64_t i = leaf - leaves.begin;
-      if (following) request_leaf(*following, i);
       const Leaf &of_leaf = clusters_.leaves.get()[leaf];
       const ClosestTriangle *const of_nodes = own.closest.data() + nodes_per_leaf * i;
       for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
@@ -398,9 +400,11 @@ class ClusterSearch {
     for_each_line(from, size, [&](const char *line) { ahead.line[ahead.n++] = line; });
   }
   // Requests the coordinates of a cluster's leaf if it is near.
-  void request_leaf(const ClusterScratch::Item &item, std::int64_t position) const {
-    if (item.near_leaves >> position & 1)
-      for_each_line(clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin + position].x, 3 * sizeof(Leaf::x),
+  void request_next_leaf(Pairs &pairs) const {
+    if (!pairs.next_near) return;
+    const std::int64_t position = __builtin_ctz(pairs.next_near);
+    pairs.next_near &= pairs.next_near - 1;
+    for_each_line(clusters_.leaves.get()[clusters_.leaves_of(pairs.following->cluster).begin + position].x, 3 * sizeof(Leaf::x),
                     [](const char *line) { __builtin_prefetch(line); });
   }
 
@@ -448,8 +452,13 @@ class ClusterSearch {
   }
 
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {
-    kernels_.decide(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(),
-                    clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(), own.pair_decided.data());
+    constexpr std::int32_t at_once = 16;
+    for (std::int32_t i = 0; i < pairs.n; i += at_once) {
+      if (pairs.following) request_next_leaf(pairs);
+      kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
+                      clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(),
+                      own.pair_decided.data() + i);
+    }
     if (pairs.ties) {
       take_closest_and_ties(own, pairs);
     } else {
