@@ -365,11 +365,33 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #endif
 }
 
+#if defined(__AVX2__) && !defined(__AVX512F__)
+// For each set of eight lanes, the numbers of its lanes, in ascending order. The rest is 0.
+struct LanesOfSets {
+  alignas(64) uint8_t lane[256][8] = {};
+  constexpr LanesOfSets() {
+    for (int set = 0; set < 256; ++set)
+      for (int i = 0, n = 0; i < 8; ++i)
+        if (set >> i & 1) lane[set][n++] = static_cast<uint8_t>(i);
+  }
+};
+constexpr LanesOfSets lanes_of_sets;
+#endif
+
 // Takes 16 integers, and copies the integers whose bits are set, without gaps. It may write to all 16 places, even if it copies
 // fewer.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
+#elif defined(__AVX2__)
+  for (int half = 0; half < 2; ++half) {
+    const uint32_t set = lanes >> 8 * half & 0xff;
+    const __m256i order =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i *>(lanes_of_sets.lane[set])));
+    const __m256i of_half = _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from + 8 * half));
+    _mm256_storeu_si256(reinterpret_cast<__m256i *>(to), _mm256_permutevar8x32_epi32(of_half, order));
+    to += __builtin_popcount(set);
+  }
 #else
   for (; lanes; lanes &= lanes - 1) *to++ = from[__builtin_ctz(lanes)];
 #endif
