@@ -45,17 +45,23 @@ class GridMaker {
     for (std::size_t i = 0; i < tightness.size(); ++i) errors_[i] *= tightness[i];
   }
 
-  // Makes the grids. Counts the triangles after each step, before anything large is allocated.
-  Vector<QuadGrid> make() {
+  // Makes the grids, and passes each grid to `finish` on the thread that made it. Counts the triangles after each step, before
+  // anything large is allocated.
+  template <class Made, class Finish>
+  Vector<Made> make(const Finish &finish) {
     const std::size_t n_patches = set_.patches.size();
     lines_.resize(n_patches);
     double n_at_least = 0;
     for (std::size_t first = 0; first < n_patches; first += patches_at_once) {
       const std::size_t end = std::min(first + patches_at_once, n_patches);
       make_polylines(first, end);
-      for_each_patch(first, end, [&](std::size_t i) {
-        if (set_.patches[i].bulge != 0) lines_[i] = arc_lines(set_.patches[i], sides_[i]);
-      });
+      const auto is_of_arcs = [&](std::size_t i) { return set_.patches[i].bulge != 0; };
+      bool has_arcs = false;
+      for (std::size_t i = first; i < end; ++i) has_arcs = has_arcs || is_of_arcs(i);
+      if (has_arcs)
+        for_each_patch(first, end, [&](std::size_t i) {
+          if (is_of_arcs(i)) lines_[i] = arc_lines(set_.patches[i], sides_[i]);
+        });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
     // Two patches of arcs may meet along an arc, which both cut into rows. So all patches of arcs have the same number of rows.
@@ -65,9 +71,9 @@ class GridMaker {
     double n = 0;
     for (std::size_t i = 0; i < n_patches; ++i) n += n_triangles(i, n_rows);
     check_count(n, max_error_);
-    Vector<QuadGrid> grids(n_patches);
-    for_each_patch(0, n_patches, [&](std::size_t i) { grids[i] = grid(i, static_cast<std::size_t>(n_rows)); });
-    return grids;
+    Vector<Made> made(n_patches);
+    for_each_patch(0, n_patches, [&](std::size_t i) { made[i] = finish(grid(i, static_cast<std::size_t>(n_rows))); });
+    return made;
   }
 
  private:
@@ -166,9 +172,15 @@ class GridMaker {
 
 }  // namespace
 
-Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness, int n_threads,
-                            bool keeps_lines) {
-  return GridMaker(set, max_error, tightness, n_threads, keeps_lines).make();
+Vector<QuadGrid> make_grids(const PatchSet &set, double max_error) {
+  return GridMaker(set, max_error, {}, 1, false).make<QuadGrid>([](QuadGrid grid) { return grid; });
+}
+
+Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
+                                         int n_threads) {
+  return GridMaker(set, max_error, tightness, n_threads, true).make<LevelledGrid>([max_error](QuadGrid grid) {
+    return with_levels(std::move(grid), max_error);
+  });
 }
 
 void check_precision(const PatchSet &set, double max_error) {

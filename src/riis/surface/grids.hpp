@@ -6,6 +6,7 @@
 
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
+#include "surface/quads.hpp"
 #include "valve/patches.hpp"
 
 namespace riis {
@@ -28,10 +29,12 @@ inline constexpr double bend_share = 0.008;
 double rows_for(double offset, double max_error);
 
 // Makes one grid for each patch, in the order of the patches, before any image is placed. Keeps each curve within its share of
-// max_error times its tightness. An empty `tightness` means 1 for all curves. Grids keep their lines if `keeps_lines` is true.
-// Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
-Vector<QuadGrid> make_grids(const PatchSet &set, double max_error, const Vector<double> &tightness = {},
-                            int n_threads = 1, bool keeps_lines = false);
+// max_error. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
+Vector<QuadGrid> make_grids(const PatchSet &set, double max_error);
+// Does the same, keeps each grid's lines, and gives each quad its level. A curve's share is multiplied by its tightness. An empty
+// `tightness` means 1 for all curves.
+Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
+                                         int n_threads);
 
 // Checks the precision of a set. Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large
 // for max_error.

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <utility>
 
-#include "parallel/parallel_for.hpp"
 #include "parallel/range.hpp"
 #include "surface/grids.hpp"
 #include "surface/pieces.hpp"
@@ -104,15 +103,6 @@ void join(const Vector<Piece> &pieces, const Vector<Grouping> &groups, Grouping 
   }
 }
 
-Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulation &how,
-                                         const Vector<double> &tightness) {
-  Vector<QuadGrid> grids = make_grids(set, how.max_error, tightness, how.n_threads, true);
-  Vector<LevelledGrid> levelled(grids.size());
-  parallel_for(view(grids).size(), how.n_threads,
-               [&](std::int64_t i, int) { view(levelled)[i] = with_levels(std::move(view(grids)[i]), how.max_error); });
-  return levelled;
-}
-
 // Makes the triangles of these grids. Returns the patches that miss triangles.
 Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                                    TriangleSet &triangles) {
@@ -134,7 +124,7 @@ TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked,
   const Triangulation how = checked(set, asked);
   Vector<LevelledGrid> grids;
   with_finer_curves(set, "", [&](const Vector<double> &tightness) {
-    grids = make_levelled_grids(set, how, tightness);
+    grids = make_levelled_grids(set, how.max_error, tightness, how.n_threads);
     return make_triangles(set, how, grids, memory);
   });
   finish(set, std::move(grids), memory);
