@@ -443,9 +443,8 @@ static void lower_bounds_and_boxes_lose_nothing(void **state) {
       assert_int_equal(any_near, expect_near);
       free_case(&c);
     }
-    printf(
-        "%s: %lld near nodes and groups, %lld far, %lld of boxes left out; bounds are wrong by %.3f of the error\n",
-        kernels_name(set), (long long)n_near, (long long)n_far, (long long)n_cleared, below);
+    printf("%s: %lld near nodes and groups, %lld far, %lld of boxes left out; bounds are wrong by %.3f of the error\n",
+           kernels_name(set), (long long)n_near, (long long)n_far, (long long)n_cleared, below);
     assert_true(is_more(n_near, 10000) && is_more(n_cleared, 10000));
   }
 }
@@ -504,7 +503,8 @@ static void no_pair_that_matters_is_lost(void **state) {
       free_case(&c);
     }
     printf(
-        "%s: %lld nodes, %lld of them with ties; %lld of %lld pairs are left; went on %lld times, %lld lists were full\n",
+        "%s: %lld nodes, %lld of them with ties; %lld of %lld pairs are left; went on %lld times, %lld lists were "
+        "full\n",
         kernels_name(set), (long long)n_closest, (long long)n_ties, (long long)n_left, (long long)n_all,
         (long long)n_resumed, (long long)n_full);
     assert_true(is_more(n_closest, 10000) && is_more(n_ties, 1000) && is_more(n_resumed, 500) && n_full > 0 &&

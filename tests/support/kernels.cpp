@@ -71,7 +71,8 @@ struct Filter {
     task.bounds = bounds.data();
     cluster.n_leaves = kernel_leaves;
     for (int i = 0; i < kernel_leaves; ++i)
-      cluster.leaf[i] = {&leaf, positions[i], filter.wanted, near_groups.data(), filter.n_groups, task.limits, false, 0};
+      cluster.leaf[i] = {&leaf,           positions[i], filter.wanted, near_groups.data(),
+                         filter.n_groups, task.limits,  false,         0};
     cluster.lower_bounds = lower_bounds.data()->x;
     request_lines();
   }

@@ -30,21 +30,22 @@ RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Flo
     const Floats3 unit = load(axis);
     return multiply_add(p.x, unit.x, multiply_add(p.y, unit.y, multiply_add(p.z, unit.z, Floats::load(origin))));
   };
-  const Floats e = along(group.e, group.e_origin), f = along(group.f, group.f_origin), g = along(group.g, group.g_origin);
+  const Floats e = along(group.e, group.e_origin), f = along(group.f, group.f_origin),
+               g = along(group.g, group.g_origin);
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
   const Floats ac_e = Floats::load(group.ac_e), ac_f = Floats::load(group.ac_f);
   const Floats inside_ac = subtract_product(f, ac_e, multiply_add(e, ac_f, Floats::load(group.ac_side)));
-  const Floats past_ac = beyond(multiply_add(e, ac_e, multiply_add(f, ac_f, Floats::load(group.ac_middle))),
-                                Floats::load(group.half_ac));
+  const Floats past_ac =
+      beyond(multiply_add(e, ac_e, multiply_add(f, ac_f, Floats::load(group.ac_middle))), Floats::load(group.half_ac));
   in_plane = least(in_plane, multiply_add(past_ac, past_ac, inside_ac * inside_ac));
   inside = least(inside, inside_ac);
 
   const Floats bc_e = Floats::load(group.bc_e), bc_f = Floats::load(group.bc_f);
   const Floats inside_bc = subtract_product(e, bc_f, multiply_add(f, bc_e, Floats::load(group.bc_side)));
-  const Floats past_bc = beyond(multiply_add(e, bc_e, multiply_add(f, bc_f, Floats::load(group.bc_middle))),
-                                Floats::load(group.half_bc));
+  const Floats past_bc =
+      beyond(multiply_add(e, bc_e, multiply_add(f, bc_f, Floats::load(group.bc_middle))), Floats::load(group.half_bc));
   in_plane = least(in_plane, multiply_add(past_bc, past_bc, inside_bc * inside_bc));
   inside = least(inside, inside_bc);
 
@@ -103,8 +104,7 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
         along = multiply_add(middle[j], Floats::all(axis[j]), along);
         half_along = multiply_add(half[j], Floats::all(__builtin_fabsf(axis[j])), half_along);
       }
-      const Floats gap =
-          outside(along, Floats::all(group.from[i]) - half_along, Floats::all(group.to[i]) + half_along);
+      const Floats gap = outside(along, Floats::all(group.from[i]) - half_along, Floats::all(group.to[i]) + half_along);
       sum = multiply_add(gap, gap, sum);
     }
     near[k] = static_cast<uint16_t>(near[k] & bits_at_most(sum, reach_sq));
@@ -410,7 +410,8 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
 
 }  // namespace
 
-const FilterKernels RIIS_KERNELS(filter_kernels) = {
-    near_boxes, near_own_boxes, select, nearest_groups, competing_groups, begin_cluster, filter_cluster, group_distances, rank};
+const FilterKernels RIIS_KERNELS(filter_kernels) = {near_boxes,     near_own_boxes,   select,
+                                                    nearest_groups, competing_groups, begin_cluster,
+                                                    filter_cluster, group_distances,  rank};
 
 }  // namespace riis

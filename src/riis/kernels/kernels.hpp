@@ -120,8 +120,8 @@ struct ClusterTask {
   int32_t next_leaf, next_group;
   int32_t n_listed, next_listed;
   int32_t node[most_listed + 16], group[most_listed + 16];
-  float nearest_sq[most_listed + 16];    // the square of the node's distance to the group
-  uint16_t triangles[most_listed + 16];  // the group's triangles that are at this distance, to the tolerance
+  float nearest_sq[most_listed + 16];       // the square of the node's distance to the group
+  uint16_t triangles[most_listed + 16];     // the group's triangles that are at this distance, to the tolerance
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of the squares of all computed distances

@@ -319,8 +319,7 @@ RIIS_INLINE Floats beyond(Floats x, Floats half) {
   // One instruction limits the magnitude of x and keeps its sign.
   count(&Counts::operations, Floats::n);
   constexpr int lesser_magnitude_with_sign_of_first = 2;
-  const __m512 limited =
-      _mm512_range_ps((__m512)x.part[0], (__m512)half.part[0], lesser_magnitude_with_sign_of_first);
+  const __m512 limited = _mm512_range_ps((__m512)x.part[0], (__m512)half.part[0], lesser_magnitude_with_sign_of_first);
   return x - Floats{{(FloatRegister)limited}};
 #else
   Floats magnitude;
@@ -413,8 +412,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     return _mm512_min_ps(_mm512_shuffle_f32x4(a, b, first_half), _mm512_shuffle_f32x4(a, b, last_half));
   };
   const __m512 first = halves(0), last = halves(2);
-  __m512 least_of =
-      _mm512_min_ps(_mm512_shuffle_f32x4(first, last, even), _mm512_shuffle_f32x4(first, last, odd));
+  __m512 least_of = _mm512_min_ps(_mm512_shuffle_f32x4(first, last, even), _mm512_shuffle_f32x4(first, last, odd));
   least_of = _mm512_min_ps(least_of, _mm512_permute_ps(least_of, neighbours));
   least_of = _mm512_min_ps(least_of, _mm512_permute_ps(least_of, pairs));
   constexpr __mmask16 one_of_each_quarter = 0x1111;

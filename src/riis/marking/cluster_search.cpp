@@ -100,7 +100,7 @@ class ClusterSearch {
     const auto n = view(items).size();
     const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
       search_cluster(view(items)[i], view(own_.threads)[thread], thread, nullptr,
-                     i + 1 < n ? &view(items)[i + 1] : nullptr);
+                     i + 1 < n ? leaves_ahead(view(items)[i + 1]) : LeavesAhead{nullptr, 0});
     });
     n_threads_ = std::max(n_threads_, n_ran);
   }
@@ -206,13 +206,35 @@ class ClusterSearch {
     }
   }
 
+  // Calls visit(address) for each cache line of an array.
+  template <class Visit>
+  static void for_each_line(const void *from, std::size_t size, const Visit &visit) {
+    constexpr std::size_t line = 64;
+    for (std::size_t at = 0; at < size; at += line) visit(static_cast<const char *>(from) + at);
+  }
+
+  // The near leaves of the next cluster. Their coordinates are requested one leaf at a time (see LinesAhead).
+  struct LeavesAhead {
+    const Leaf *first;
+    std::uint32_t near;
+
+    void request_one() {
+      if (near == 0) return;
+      for_each_line(first[__builtin_ctz(near)].x, 3 * sizeof(Leaf::x),
+                    [](const char *line) { __builtin_prefetch(line); });
+      near &= near - 1;
+    }
+  };
+  LeavesAhead leaves_ahead(const ClusterScratch::Item &item) const {
+    return {&clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin], item.near_leaves};
+  }
+
   // The pairs of node and triangle in a cluster that the filter did not dismiss. They are stored until double precision decides
   // them.
   struct Pairs {
     std::int64_t first_leaf;
     Ties *ties;  // or null
-    const ClusterScratch::Item *following;
-    std::uint32_t next_near;
+    LeavesAhead ahead;
     std::int32_t n = 0;
     std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
   };
@@ -325,7 +347,7 @@ class ClusterSearch {
   }
 
   void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread,
-                      const UpperBounds *bounds = nullptr, const ClusterScratch::Item *following = nullptr) {
+                      const UpperBounds *bounds = nullptr, const LeavesAhead &ahead = {nullptr, 0}) {
     const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
@@ -339,7 +361,7 @@ class ClusterSearch {
         query_nodes(leaves.begin + bit, own, thread);
         near &= ~(1u << bit);
       }
-    Pairs pairs{leaves.begin, found_.ties_of(thread), following, following ? following->near_leaves : 0};
+    Pairs pairs{leaves.begin, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
     task.n_leaves = 0;
     own.leaf_groups.resize(item.n * static_cast<std::size_t>(__builtin_popcount(near)));
@@ -349,14 +371,14 @@ class ClusterSearch {
       const std::int32_t n_groups =
           kernels_.select(candidates, leaf_bits, static_cast<std::int32_t>(item.n), bit, near_groups);
       LeafTask &leaf = task.leaf[task.n_leaves++];
-      leaf = leaf_task(leaves.begin, bit, {near_groups, n_groups});
+      leaf = leaf_task(leaves.begin, bit, near_groups, n_groups);
       if (bounds) limits_within(std::min(bounds->of_box[bit], limit_), leaf.limits);
       near_groups += n_groups;
     }
     task.lower_bounds = own.room_for_bounds(static_cast<std::size_t>(near_groups - own.leaf_groups.data()));
     filter(own, pairs);
     decide(own, pairs);
-    while (pairs.next_near) request_next_leaf(pairs);
+    while (pairs.ahead.near) pairs.ahead.request_one();
     // Every node with pairs is written, but the place moves on only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
@@ -390,24 +412,6 @@ class ClusterSearch {
     });
   }
 
-  // Calls visit(address) for each cache line of an array.
-  template <class Visit>
-  static void for_each_line(const void *from, std::size_t size, const Visit &visit) {
-    constexpr std::size_t line = 64;
-    for (std::size_t at = 0; at < size; at += line) visit(static_cast<const char *>(from) + at);
-  }
-  static void request_later(const void *from, std::size_t size, LinesAhead &ahead) {
-    for_each_line(from, size, [&](const char *line) { ahead.line[ahead.n++] = line; });
-  }
-  // Requests the coordinates of a cluster's leaf if it is near.
-  void request_next_leaf(Pairs &pairs) const {
-    if (!pairs.next_near) return;
-    const std::int64_t position = __builtin_ctz(pairs.next_near);
-    pairs.next_near &= pairs.next_near - 1;
-    for_each_line(clusters_.leaves.get()[clusters_.leaves_of(pairs.following->cluster).begin + position].x, 3 * sizeof(Leaf::x),
-                    [](const char *line) { __builtin_prefetch(line); });
-  }
-
   // Returns false if the filter's error is so large that the filter would leave many triangles.
   bool is_separated(double limit) const {
     constexpr double useful = 0x1p-8;
@@ -415,31 +419,31 @@ class ClusterSearch {
     return limits_within(std::min(limit, limit_), limits) <= useful;
   }
 
-  struct NearGroups {
-    const std::int32_t *number;
-    std::int32_t n;
-  };
-
-  LeafTask leaf_task(std::int64_t first_leaf, int position, const NearGroups &near) const {
+  LeafTask leaf_task(std::int64_t first_leaf, int position, const std::int32_t *near_groups,
+                     std::int32_t n_groups) const {
     const Leaf &leaf = clusters_.leaves.get()[first_leaf + position];
     const int n_nodes = clusters_.n_nodes_of(first_leaf + position);
     std::uint32_t wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
     if (request_.node_mask)
       for (int lane = 0; lane < n_nodes; ++lane)
         if (!request_.node_mask[leaf.node[lane]]) wanted &= ~(1u << lane);
-    return {&leaf, position, wanted, near.number, near.n, task_.limits, true, 0};
+    return {&leaf, position, wanted, near_groups, n_groups, task_.limits, true, 0};
   }
 
+  // Filters the leaves of own.task, and prepares `closest` for their nodes.
   void filter(ClusterScratch::Thread &own, Pairs &pairs) {
     ClusterTask &task = own.task;
     kernels_.begin_cluster(task_, task);
     task.ahead.n = 0;
+    const auto request = [&](const void *from, std::size_t size) {
+      for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
+    };
     // Many leaves near the surface have no pairs, so points and node numbers are requested only here.
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;
-      request_later(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints), task.ahead);
-      request_later(leaf.leaf->node, sizeof(Leaf::node), task.ahead);
+      request(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints));
+      request(leaf.leaf->node, sizeof(Leaf::node));
       std::fill_n(own.closest.begin() + leaf.position * nodes_per_leaf, nodes_per_leaf, nothing);
     }
     while (!task.is_done) {
@@ -452,9 +456,9 @@ class ClusterSearch {
   }
 
   void decide(ClusterScratch::Thread &own, Pairs &pairs) {
-    constexpr std::int32_t at_once = 16;
+    constexpr std::int32_t at_once = 16;  // between two requests
     for (std::int32_t i = 0; i < pairs.n; i += at_once) {
-      if (pairs.following) request_next_leaf(pairs);
+      pairs.ahead.request_one();
       kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
                       clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(),
                       own.pair_decided.data() + i);
