@@ -200,6 +200,9 @@ void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq)
 /* Each of up to 16 boxes contains one node. Sets near(n_groups): an entry has one bit for each box, which is 1 if the group may
  * be near the box. Returns the kernel's result. */
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near);
+/* Box k contains the nodes 2 k and 2 k + 1. Clears bits of near(n_groups), for the groups' own boxes. Returns the kernel's
+ * result. */
+int kernels_near_own_boxes(int set, const kernel_filter *filter, uint16_t *near);
 
 /* Gets the samples of a surface that measures distances by sampling. Returns their number n. The surface owns xyz(3, n). Their
  * order decides between equally near samples. */

@@ -74,14 +74,26 @@ struct Filter {
       cluster.leaf[i] = {&leaf,           positions[i], filter.wanted, near_groups.data(),
                          filter.n_groups, task.limits,  false,         0};
     cluster.lower_bounds = lower_bounds.data()->x;
-    request_lines();
-  }
-  void request_lines() {
-    cluster.ahead.n = 2;
-    cluster.ahead.line[0] = reinterpret_cast<const char *>(leaf.x);
-    cluster.ahead.line[1] = reinterpret_cast<const char *>(leaf.y);
+    cluster.ahead.n = 0;
+    for (const float *axis : {leaf.x, leaf.y, leaf.z})
+      cluster.ahead.line[cluster.ahead.n++] = reinterpret_cast<const char *>(axis);
   }
 };
+
+// Makes a box of each n_together nodes.
+Boxes boxes_of(const kernel_filter &filter, int n_together) {
+  Boxes boxes;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 16; ++k) {
+      float &lower = boxes.lower[i][k], &upper = boxes.upper[i][k];
+      lower = __builtin_inff(), upper = -__builtin_inff();
+      for (int node = n_together * k; node < std::min(n_together * (k + 1), filter.n_nodes); ++node) {
+        lower = std::min(lower, filter.nodes[3 * node + i]);
+        upper = std::max(upper, filter.nodes[3 * node + i]);
+      }
+    }
+  return boxes;
+}
 
 constexpr std::int32_t untouched = -77;
 
@@ -289,8 +301,7 @@ int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kerne
   const auto size = static_cast<std::size_t>(room) + 16;
   std::uint32_t nodes[kernel_leaves] = {};
   of(set).begin_cluster(of_filter.task, cluster);
-  bool is_right = cluster.ahead.n == 0;
-  of_filter.request_lines();
+  bool is_right = true;
   for (*n_calls = 0; is_right && !cluster.is_done; ++*n_calls) {
     std::vector<std::int32_t> node(size + 16, untouched), triangle(size + 16, untouched);
     const std::int32_t n = of(set).filter_cluster(of_filter.task, cluster, {node.data(), triangle.data()}, room);
@@ -320,12 +331,13 @@ void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq)
 
 int kernels_near_boxes(int set, const kernel_filter *filter, uint16_t *near) {
   const Filter of_filter(*filter);
-  Boxes boxes;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 16; ++k) {
-      boxes.lower[i][k] = k < filter->n_nodes ? filter->nodes[3 * k + i] : __builtin_inff();
-      boxes.upper[i][k] = k < filter->n_nodes ? filter->nodes[3 * k + i] : -__builtin_inff();
-    }
+  const Boxes boxes = boxes_of(*filter, 1);
   return of(set).near_boxes(of_filter.task, boxes, of_filter.near_groups.data(), filter->n_groups, near);
+}
+
+int kernels_near_own_boxes(int set, const kernel_filter *filter, uint16_t *near) {
+  const Filter of_filter(*filter);
+  const Boxes boxes = boxes_of(*filter, 2);
+  return of(set).near_own_boxes(of_filter.task, boxes, of_filter.near_groups.data(), filter->n_groups, near);
 }
 }
