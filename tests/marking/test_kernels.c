@@ -522,7 +522,7 @@ static void no_pair_that_matters_is_lost(void **state) {
         "full\n",
         kernels_name(set), (long long)n_closest, (long long)n_ties, (long long)n_left, (long long)n_all,
         (long long)n_resumed, (long long)n_full);
-    assert_true(is_more(n_closest, 10000) && is_more(n_ties, 1000) && is_more(n_resumed, 500) && is_more(n_full, 50) &&
+    assert_true(is_more(n_closest, 10000) && is_more(n_ties, 1000) && is_more(n_resumed, 500) && is_more(n_full, 20) &&
                 n_left < n_all);
   }
 }

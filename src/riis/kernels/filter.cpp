@@ -84,23 +84,28 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
+// A box reaches along an axis as far as its half sides together, times the components of the axis.
 bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                     uint16_t *near) {
   const Floats reach_sq = Floats::all(task.limits.reach_sq), one_half = Floats::all(0.5f);
   Floats middle[3], half[3];
+  float largest_shift = 0;
   for (int i = 0; i < 3; ++i) {
     const Extents extents = placed(task, boxes, i);
     middle[i] = one_half * (extents.lower + extents.upper);
     half[i] = one_half * (extents.upper - extents.lower);
+    const float shift = __builtin_fabsf(task.shift[i]);
+    largest_shift = shift > largest_shift ? shift : largest_shift;
   }
+  const Floats rounding = Floats::all(0x1p-19f * (task.ratio + largest_shift + 1));  // docs/theory.md, section 8
   uint32_t found = 0;
   for (int32_t k = 0; k < n_candidates; ++k) {
     const GroupBounds &group = task.bounds[candidates[k]];
     Floats sum = Floats::all(0);
     for (int i = 0; i < 3; ++i) {
       const float *const axis = group.axis[i];
-      Floats along = middle[0] * Floats::all(axis[0]), half_along = half[0] * Floats::all(__builtin_fabsf(axis[0]));
-      for (int j = 1; j < 3; ++j) {
+      Floats along = Floats::all(0), half_along = rounding;
+      for (int j = 0; j < 3; ++j) {
         along = multiply_add(middle[j], Floats::all(axis[j]), along);
         half_along = multiply_add(half[j], Floats::all(__builtin_fabsf(axis[j])), half_along);
       }
