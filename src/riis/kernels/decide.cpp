@@ -311,8 +311,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision, and the origin that makes the coordinate of `middle` zero. The origin belongs to the rounded
-// axis, so the axis' rounding matters only for the distance from `middle`.
+// Stores an axis in single precision, and the origin that makes the coordinate of `middle` zero. The origin belongs to the
+// rounded axis, so the rounding of the axis matters only for the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {

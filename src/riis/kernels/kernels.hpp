@@ -200,9 +200,9 @@ struct FilterKernels {
                            const int32_t *candidates, int32_t n_candidates, uint16_t *competes);
   // Compares the nodes of a cluster with the boxes of groups.
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
-  // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and returns
-  // their number. For every node within the limit, its closest triangles are among the pairs. Each further call goes on where the
-  // last call stopped, until is_done. Room for triangles_per_group pairs is enough to go on.
+  // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and
+  // returns their number. For every node within the limit, its closest triangles are among the pairs. Each further call goes on
+  // where the last call stopped, until is_done. Room for triangles_per_group pairs is enough to go on.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.
@@ -231,8 +231,8 @@ struct DecisionKernels {
   // Takes the nodes of a leaf (3, nodes_per_leaf) to the mesh's frame, in single precision, and finds the leaf's box. A
   // coordinate far outside becomes 2 or -2, and NaN becomes -2.
   void (*frame_leaf)(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper);
-  // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each bounds[k].n
-  // must be set.
+  // Makes the frames and the bounds of up to eight groups of triangles from their corners in the surface's frame. Each
+  // bounds[k].n must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
   // Computes the squares of the distances of n pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.
   // Writes up to n + 7 squares.
