@@ -106,7 +106,7 @@ struct LinesAhead {
   const char *line[256];
 };
 
-// The leaves of a cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the
+// Leaves of one cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the
 // whole list. Nodes and pairs may be too many for the list and for the caller's arrays. Then the filter goes on in another call.
 constexpr int32_t most_listed = 2 * nodes_per_cluster;
 struct ClusterTask {
