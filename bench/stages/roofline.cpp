@@ -59,6 +59,14 @@ bool measured_near_boxes(const riis::FilterTask &task, const riis::Boxes &boxes,
   return is_near;
 }
 
+bool measured_near_own_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
+                             std::int32_t n_candidates, std::uint16_t *near) {
+  const bool is_near = measured.kernels->near_own_boxes(task, boxes, candidates, n_candidates, near);
+  measured.regions_end = Clock::now();
+  ++measured.n_boxes;
+  return is_near;
+}
+
 void measured_begin_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster) {
   const auto start = Clock::now();
   measured.kernels->begin_cluster(task, cluster);
@@ -87,6 +95,7 @@ riis::Kernels measuring(const riis::Kernels &kernels) {
   measured.kernels = &kernels;
   riis::Kernels with_clocks = kernels;
   with_clocks.near_boxes = measured_near_boxes;
+  with_clocks.near_own_boxes = measured_near_own_boxes;
   with_clocks.begin_cluster = measured_begin_cluster;
   with_clocks.filter_cluster = measured_filter_cluster;
   with_clocks.decide = measured_decide;
@@ -146,6 +155,17 @@ bool counted_near_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, 
   return riis::filter_kernels_counted.near_boxes(task, boxes, candidates, n_candidates, near);
 }
 
+bool counted_near_own_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
+                            std::int32_t n_candidates, std::uint16_t *near) {
+  const CountsOf counts(counted->in_boxes);
+  counted->boxes.add(boxes);
+  for (std::int32_t k = 0; k < n_candidates; ++k) {
+    const riis::GroupBounds &bounds = task.bounds[candidates[k]];
+    counted->boxes.add(bounds.axis, sizeof bounds.axis + sizeof bounds.from + sizeof bounds.to);
+  }
+  return riis::filter_kernels_counted.near_own_boxes(task, boxes, candidates, n_candidates, near);
+}
+
 void counted_begin_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster) {
   const CountsOf counts(counted->in_filter);
   for (std::int32_t i = 0; i < cluster.n_leaves; ++i) {
@@ -183,6 +203,7 @@ void counted_decide(std::int32_t n, const std::int32_t *point, const std::int32_
 riis::Kernels counting() {
   riis::Kernels kernels{riis::filter_kernels_counted, riis::decision_kernels_counted};
   kernels.near_boxes = counted_near_boxes;
+  kernels.near_own_boxes = counted_near_own_boxes;
   kernels.begin_cluster = counted_begin_cluster;
   kernels.filter_cluster = counted_filter_cluster;
   kernels.decide = counted_decide;

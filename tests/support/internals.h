@@ -182,18 +182,19 @@ double kernels_error(double ratio, double shift, double reach, double longest_ed
 typedef struct kernel_pair {
   int32_t node, triangle; /* triangle: 16 * group + position in the group */
 } kernel_pair;
+enum { kernel_leaves = 2 };
 typedef struct kernel_filter {
   double ratio, shift[3], limit;
-  uint32_t wanted; /* one bit for each node that takes part */
+  uint32_t wanted[kernel_leaves]; /* for each leaf, one bit for each node that takes part */
   int n_groups;
   const kernel_group *const *groups;
   int n_nodes;
   const float *nodes;
 } kernel_filter;
-enum { kernel_leaves = 2 };
-/* Filters a cluster that has the nodes twice, in two of its leaves. In the second leaf, a node's number is larger by 32. Returns
- * all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that this took.
- * The caller frees the pairs. */
+/* Filters a cluster that has the nodes in two leaves. In the second leaf, a node's number is larger by 32, the limit is half, and
+ * the groups are in the opposite order. Between both leaves are a leaf without wanted nodes and a leaf without groups. Returns all
+ * pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that this took. The
+ * caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Gives the squares of the lower bounds by groups, lower_sq(32, n_groups). */
 void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq);

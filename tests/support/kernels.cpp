@@ -34,7 +34,7 @@ const Kernels &of(int set) {
 struct Filter {
   std::vector<TriangleGroup> groups;
   std::vector<GroupBounds> bounds;
-  std::vector<std::int32_t> near_groups;
+  std::vector<std::int32_t> near_groups, reversed_groups;
   std::vector<Leaf> lower_bounds;  // in a Leaf, because the kernel needs a Leaf's alignment
   Leaf leaf;
   FilterTask task;
@@ -42,8 +42,7 @@ struct Filter {
 
   static constexpr int positions[kernel_leaves] = {3, 14};
 
-  explicit Filter(const kernel_filter &filter)
-      : lower_bounds(static_cast<std::size_t>(kernel_leaves * filter.n_groups)) {
+  explicit Filter(const kernel_filter &filter) : lower_bounds(static_cast<std::size_t>(3 * filter.n_groups)) {
     for (int i = 0; i < filter.n_groups; ++i) {
       groups.push_back(filter.groups[i]->group);
       bounds.push_back(filter.groups[i]->bounds);
@@ -63,16 +62,22 @@ struct Filter {
     }
     double longest_edge = 0;
     for (const GroupBounds &group : bounds) longest_edge = std::max<double>(longest_edge, group.longest_edge);
-    const double error = filter_error(filter.ratio, shift, filter.limit, longest_edge),
-                 reach = filter.limit + 2 * error;
+    const auto limits_within = [&](double limit) -> FilterLimits {
+      const double error = filter_error(filter.ratio, shift, limit, longest_edge), reach = limit + 2 * error;
+      return {static_cast<float>(reach * reach), filter_tolerance(error, reach), static_cast<float>(0.5 * error)};
+    };
     task.ratio = static_cast<float>(filter.ratio);
-    task.limits = {static_cast<float>(reach * reach), filter_tolerance(error, reach), static_cast<float>(0.5 * error)};
+    task.limits = limits_within(filter.limit);
     task.groups = groups.data();
     task.bounds = bounds.data();
-    cluster.n_leaves = kernel_leaves;
-    for (int i = 0; i < kernel_leaves; ++i)
-      cluster.leaf[i] = {&leaf,           positions[i], filter.wanted, near_groups.data(),
-                         filter.n_groups, task.limits,  false,         0};
+    reversed_groups.assign(near_groups.rbegin(), near_groups.rend());
+    const std::int32_t *const groups_of_first = near_groups.data(), *const of_second = reversed_groups.data();
+    const FilterLimits half = limits_within(0.5 * filter.limit);
+    cluster.n_leaves = 4;
+    cluster.leaf[0] = {&leaf, positions[0], filter.wanted[0], groups_of_first, filter.n_groups, task.limits, false, 0};
+    cluster.leaf[1] = {&leaf, 7, 0, groups_of_first, filter.n_groups, task.limits, false, 0};
+    cluster.leaf[2] = {&leaf, 8, UINT32_MAX, groups_of_first, 0, task.limits, false, 0};
+    cluster.leaf[3] = {&leaf, positions[1], filter.wanted[1], of_second, filter.n_groups, half, false, 0};
     cluster.lower_bounds = lower_bounds.data()->x;
     cluster.ahead.n = 0;
     for (const float *axis : {leaf.x, leaf.y, leaf.z})
@@ -316,7 +321,8 @@ int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kerne
     for (std::size_t i = size; i < node.size(); ++i)
       is_right = is_right && node[i] == untouched && triangle[i] == untouched;
   }
-  for (int i = 0; i < kernel_leaves; ++i) is_right = is_right && nodes[i] == cluster.leaf[i].found;
+  const std::uint32_t found_in[kernel_leaves] = {cluster.leaf[0].found, cluster.leaf[3].found};
+  for (int i = 0; i < kernel_leaves; ++i) is_right = is_right && nodes[i] == found_in[i];
   if (!is_right) return -1;
   *pairs = static_cast<kernel_pair *>(std::malloc((found.size() + 1) * sizeof(kernel_pair)));
   std::copy(found.begin(), found.end(), *pairs);

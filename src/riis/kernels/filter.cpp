@@ -257,7 +257,7 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
     limit[h] = Floats::load(cluster.best + first_node + 16 * h) + Floats::all(leaf.limits.tolerance);
     first_group[h] = Floats::load(cluster.first_group + first_node + 16 * h);
   }
-  // Local variables, because the compiler must assume that a store to the list changes members.
+  // These are local variables, because the compiler must assume that a store to the list changes members.
   int32_t n = cluster.n_listed, k = cluster.next_group;
   for (; k < leaf.n_groups && n <= most_listed - nodes_per_leaf; ++k) {
     const int32_t group = leaf.near_groups[k];
@@ -370,7 +370,7 @@ int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairA
     cluster.next_listed = 0;
   }
   // Writes those listed nodes whose group is still near, now that all of the list is compared. The place moves on only after such
-  // a node. This avoids a branch that the processor could not predict. Local variables, as in list_others.
+  // a node. This avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
   const int32_t n_listed = cluster.n_listed;

@@ -95,8 +95,8 @@ struct LeafTask {
   const int32_t *near_groups;
   int32_t n_groups;
   FilterLimits limits;
-  bool may_be_near;  // begin_cluster sets it to false if no node is near any group
-  uint32_t found;    // filter_cluster sets a bit for each node that has pairs, now or in a further call
+  bool may_be_near;  // begin_cluster sets it to true if a wanted node may be near a group, and else to false
+  uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
 // Cache lines for the decision. The filter requests some after each few distances. Requested all at once, they would fill the
@@ -125,7 +125,7 @@ struct ClusterTask {
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of the squares of all computed distances
-  float limit[nodes_per_cluster];        // how far a node's groups may be, or -1 if none is within reach
+  float limit[nodes_per_cluster];        // the square of how far a node's groups may be, or -1 if none is within reach
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
@@ -186,6 +186,7 @@ struct FilterKernels {
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
   // Clears the bits of boxes that are out of the reach of a group's box along its own axes. Returns false if no box is left.
+  // `near` comes from near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
   // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns how many there are. `to` must have

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/errors.hpp"
@@ -199,7 +200,7 @@ class ClusterSearch {
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
-      own.items.push_back({cluster, first, n, 0, near_leaves(own.leaf_bits.data() + first, n)});
+      own.items.push_back({cluster, first, n, 0, near_leaves(leaf_bits, n)});
     } else {
       own.near_groups.resize(first);
       own.leaf_bits.resize(first);
@@ -353,7 +354,7 @@ class ClusterSearch {
   }
 
   void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread,
-                      const UpperBounds *bounds = nullptr, const LeavesAhead &ahead = {nullptr, 0}) {
+                      const UpperBounds *bounds, const LeavesAhead &ahead) {
     const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
     const std::int32_t *candidates = from.near_groups.data() + item.first;
     const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
@@ -369,22 +370,23 @@ class ClusterSearch {
       }
     Pairs pairs{leaves.begin, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
-    own.leaf_groups.resize(item.n * static_cast<std::size_t>(__builtin_popcount(near)));
+    // The bounds of so many pairs of a leaf and a group take 8 kB, and so stay in the processor's first cache.
+    constexpr std::size_t many = 64;
+    std::int32_t *const leaf_groups = own.room_for_groups(many + item.n);
     while (near) {
-      // The bounds of so many leaves and groups take 8 kB, and so stay in the processor's first cache.
-      constexpr std::ptrdiff_t many = 64;
       task.n_leaves = 0;
-      std::int32_t *near_groups = own.leaf_groups.data();
-      for (; near && near_groups - own.leaf_groups.data() < many; near &= near - 1) {
+      std::size_t n_listed = 0;
+      for (; near && n_listed < many; near &= near - 1) {
         const int bit = __builtin_ctz(near);
+        std::int32_t *const near_groups = leaf_groups + n_listed;
         const std::int32_t n_groups =
             kernels_.select(candidates, leaf_bits, static_cast<std::int32_t>(item.n), bit, near_groups);
         LeafTask &leaf = task.leaf[task.n_leaves++];
         leaf = leaf_task(leaves.begin, bit, near_groups, n_groups);
         if (bounds) limits_within(std::min(bounds->of_box[bit], limit_), leaf.limits);
-        near_groups += n_groups;
+        n_listed += static_cast<std::size_t>(n_groups);
       }
-      task.lower_bounds = own.room_for_bounds(static_cast<std::size_t>(near_groups - own.leaf_groups.data()));
+      task.lower_bounds = own.room_for_bounds(n_listed);
       filter(own, pairs);
     }
     decide(own, pairs);
@@ -445,6 +447,7 @@ class ClusterSearch {
     ClusterTask &task = own.task;
     kernels_.begin_cluster(task_, task);
     task.ahead.n = 0;
+    static_assert(leaves_per_cluster * (sizeof(LeafPoints) + sizeof(Leaf::node)) <= 64 * std::size(LinesAhead{}.line));
     const auto request = [&](const void *from, std::size_t size) {
       for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
     };

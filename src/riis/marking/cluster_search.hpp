@@ -30,7 +30,7 @@ struct ClusterScratch {
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
     std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
-    std::vector<std::int32_t> leaf_groups;  // the near groups of each leaf of a cluster
+    std::vector<std::int32_t> leaf_groups;  // the near groups of leaves that are filtered together
     ClusterTask task;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];
@@ -43,6 +43,10 @@ struct ClusterScratch {
     std::int64_t region = -1;                // the region whose groups `bits` has, in a search for every distance
     std::int64_t n_queries = 0;
 
+    std::int32_t *room_for_groups(std::size_t n_groups) {
+      if (leaf_groups.size() < n_groups) leaf_groups.resize(n_groups + n_groups / 2);
+      return leaf_groups.data();
+    }
     float *room_for_bounds(std::size_t n_groups) {
       if (lower_bounds.size() < n_groups) lower_bounds.resize(n_groups + n_groups / 2);
       return lower_bounds.data()->of_node;

@@ -92,6 +92,7 @@ class Ordering {
     constexpr std::int64_t few = 4096;
     return n_within < few ? 1 : n_threads;
   }
+
   template <class Number>
   static void request(const Range &range, const std::vector<Number> &numbers) {
     constexpr auto per_line = static_cast<std::int64_t>(64 / sizeof(Number));
