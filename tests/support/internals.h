@@ -192,9 +192,9 @@ typedef struct kernel_filter {
   const float *nodes;
 } kernel_filter;
 /* Filters a cluster that has the nodes in two leaves. In the second leaf, a node's number is larger by 32, the limit is half, and
- * the groups are in the opposite order. Between both leaves are a leaf without wanted nodes and a leaf without groups. Returns all
- * pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that this took. The
- * caller frees the pairs. */
+ * the groups are in the opposite order. Between both leaves are a leaf without wanted nodes and a leaf without groups. Returns
+ * all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that this took.
+ * The caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Gives the squares of the lower bounds by groups, lower_sq(32, n_groups). */
 void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq);
