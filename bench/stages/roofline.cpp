@@ -51,17 +51,11 @@ struct Measured {
 };
 Measured measured;
 
-bool measured_near_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
-                         std::int32_t n_candidates, std::uint16_t *near) {
-  const bool is_near = measured.kernels->near_boxes(task, boxes, candidates, n_candidates, near);
-  measured.regions_end = Clock::now();
-  ++measured.n_boxes;
-  return is_near;
-}
-
-bool measured_near_own_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
-                             std::int32_t n_candidates, std::uint16_t *near) {
-  const bool is_near = measured.kernels->near_own_boxes(task, boxes, candidates, n_candidates, near);
+// `near` is one of the two kernels that compare boxes.
+template <auto near>
+bool measured_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
+                    std::int32_t n_candidates, std::uint16_t *bits) {
+  const bool is_near = (measured.kernels->*near)(task, boxes, candidates, n_candidates, bits);
   measured.regions_end = Clock::now();
   ++measured.n_boxes;
   return is_near;
@@ -94,8 +88,8 @@ void measured_decide(std::int32_t n, const std::int32_t *point, const std::int32
 riis::Kernels measuring(const riis::Kernels &kernels) {
   measured.kernels = &kernels;
   riis::Kernels with_clocks = kernels;
-  with_clocks.near_boxes = measured_near_boxes;
-  with_clocks.near_own_boxes = measured_near_own_boxes;
+  with_clocks.near_boxes = measured_boxes<&riis::FilterKernels::near_boxes>;
+  with_clocks.near_own_boxes = measured_boxes<&riis::FilterKernels::near_own_boxes>;
   with_clocks.begin_cluster = measured_begin_cluster;
   with_clocks.filter_cluster = measured_filter_cluster;
   with_clocks.decide = measured_decide;

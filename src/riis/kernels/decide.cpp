@@ -524,20 +524,20 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     put_axis(f, middle, group.f, group.f_origin, from);
     put_axis(g, middle, group.g, group.g_origin, from);
     sum = sum + (e.length * c_f) * g;
-    const Direction along_ac = direction({c_e, c_f, zero}, {one, zero, zero});
-    const Doubles half_ac = one_half * along_ac.length;
-    put(half_ac, group.half_ac + from);
-    put(along_ac.unit.x, group.ac_e + from);
-    put(along_ac.unit.y, group.ac_f + from);
-    put(half_ab * along_ac.unit.x - half_ac, group.ac_middle + from);
-    put(half_ab * along_ac.unit.y, group.ac_side + from);
-    const Direction along_bc = direction({c_e - e.length, c_f, zero}, {one, zero, zero});
-    const Doubles half_bc = one_half * along_bc.length;
-    put(half_bc, group.half_bc + from);
-    put(along_bc.unit.x, group.bc_e + from);
-    put(along_bc.unit.y, group.bc_f + from);
-    put(zero - (half_ab * along_bc.unit.x + half_bc), group.bc_middle + from);
-    put(half_ab * along_bc.unit.y, group.bc_side + from);
+    // Stores the edge that goes by `along` from the place `start` on ab to the third corner. Places on ab count from its middle.
+    const auto put_edge = [&](Doubles start, Doubles3 along, float *unit_e, float *unit_f, float *to_middle,
+                              float *side, float *half_length) RIIS_LAMBDA {
+      const Direction edge = direction(along, {one, zero, zero});
+      const Doubles half_edge = one_half * edge.length;
+      put(edge.unit.x, unit_e + from);
+      put(edge.unit.y, unit_f + from);
+      put(zero - (start * edge.unit.x + half_edge), to_middle + from);
+      put(half_ab * edge.unit.y, side + from);
+      put(half_edge, half_length + from);
+    };
+    put_edge(zero - half_ab, {c_e, c_f, zero}, group.ac_e, group.ac_f, group.ac_middle, group.ac_side, group.half_ac);
+    put_edge(half_ab, {c_e - e.length, c_f, zero}, group.bc_e, group.bc_f, group.bc_middle, group.bc_side,
+             group.half_bc);
   }
   normal[0] = sum_of(sum.x), normal[1] = sum_of(sum.y), normal[2] = sum_of(sum.z);
 }

@@ -35,20 +35,19 @@ RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Flo
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
-  const Floats ac_e = Floats::load(group.ac_e), ac_f = Floats::load(group.ac_f);
-  const Floats inside_ac = subtract_product(f, ac_e, multiply_add(e, ac_f, Floats::load(group.ac_side)));
-  const Floats past_ac =
-      beyond(multiply_add(e, ac_e, multiply_add(f, ac_f, Floats::load(group.ac_middle))), Floats::load(group.half_ac));
-  in_plane = least(in_plane, multiply_add(past_ac, past_ac, inside_ac * inside_ac));
-  inside = least(inside, inside_ac);
-
-  const Floats bc_e = Floats::load(group.bc_e), bc_f = Floats::load(group.bc_f);
-  const Floats inside_bc = subtract_product(e, bc_f, multiply_add(f, bc_e, Floats::load(group.bc_side)));
-  const Floats past_bc =
-      beyond(multiply_add(e, bc_e, multiply_add(f, bc_f, Floats::load(group.bc_middle))), Floats::load(group.half_bc));
-  in_plane = least(in_plane, multiply_add(past_bc, past_bc, inside_bc * inside_bc));
-  inside = least(inside, inside_bc);
-
+  // Takes an edge into account, given by its direction, the place of its middle, its place across and its half length.
+  const auto offer_edge = [&](Floats x, Floats y, const float *unit_x, const float *unit_y, const float *middle,
+                              const float *side, const float *half) RIIS_LAMBDA {
+    const Floats to_x = Floats::load(unit_x), to_y = Floats::load(unit_y);
+    const Floats inside_edge = subtract_product(y, to_x, multiply_add(x, to_y, Floats::load(side)));
+    const Floats past_edge =
+        beyond(multiply_add(x, to_x, multiply_add(y, to_y, Floats::load(middle))), Floats::load(half));
+    in_plane = least(in_plane, multiply_add(past_edge, past_edge, inside_edge * inside_edge));
+    inside = least(inside, inside_edge);
+  };
+  offer_edge(e, f, group.ac_e, group.ac_f, group.ac_middle, group.ac_side, group.half_ac);
+  // The triangle is on the other side of bc, so the axes change places.
+  offer_edge(f, e, group.bc_f, group.bc_e, group.bc_middle, group.bc_side, group.half_bc);
   return multiply_add(g, g, zero_where_at_least(inside, margin, in_plane));
 }
 

@@ -93,6 +93,7 @@ class Ordering {
     return n_within < few ? 1 : n_threads;
   }
 
+  // Requests a range of a result from memory, before it is written.
   template <class Number>
   static void request(const Range &range, const std::vector<Number> &numbers) {
     constexpr auto per_line = static_cast<std::int64_t>(64 / sizeof(Number));
