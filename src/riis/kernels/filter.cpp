@@ -83,7 +83,7 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// A box reaches along an axis as far as its half sides together, times the components of the axis.
+// Along an axis, a box reaches this far from its middle: the sum of its half sides, each times its component of the axis.
 bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                     uint16_t *near) {
   const Floats reach_sq = Floats::all(task.limits.reach_sq), one_half = Floats::all(0.5f);
