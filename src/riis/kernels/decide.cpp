@@ -13,10 +13,22 @@ struct Doubles3 {
 };
 
 // Gathers a point from each of eight addresses.
-RIIS_INLINE Doubles3 gather_points(const double *const *from, int64_t offset) {
-  Doubles3 p;
-  gather_three(from, offset, p.x, p.y, p.z);
-  return p;
+template <class Address>
+RIIS_INLINE Doubles3 gather_point(const Address &address) {
+  Doubles xyz[1][3];
+  gather_points(address, xyz);
+  return {xyz[0][0], xyz[0][1], xyz[0][2]};
+}
+
+// The corners of eight triangles.
+struct Corners {
+  Doubles3 a, b, c;
+};
+template <class Address>
+RIIS_INLINE Corners gather_corners(const Address &address) {
+  Doubles xyz[3][3];
+  gather_points(address, xyz);
+  return {{xyz[0][0], xyz[0][1], xyz[0][2]}, {xyz[1][0], xyz[1][1], xyz[1][2]}, {xyz[2][0], xyz[2][1], xyz[2][2]}};
 }
 
 RIIS_INLINE Doubles3 operator+(Doubles3 a, Doubles3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -55,8 +67,20 @@ RIIS_INLINE Doubles root(Doubles a) {
   return r;
 }
 
-RIIS_INLINE Doubles least(Doubles a, Doubles b) { return choose(a < b, a, b); }
-RIIS_INLINE Doubles greatest(Doubles a, Doubles b) { return choose(b < a, a, b); }
+// Returns 1 / sqrt(a), right to a few units in the last place. `a` must be a normal positive number. The last bits depend on the
+// instruction set, so no result that a caller sees may depend on them.
+RIIS_INLINE Doubles inverse_root(Doubles a) {
+#if defined(__AVX512F__)
+  // Newton's method doubles the 14 bits of the estimate twice. It takes less time than a root and a division.
+  count(&Counts::operations, Doubles::n);
+  Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
+  const Doubles half = Doubles::all(0.5) * a;
+  for (int i = 0; i < 2; ++i) r = r * (Doubles::all(1.5) - half * r * r);
+  return r;
+#else
+  return Doubles::all(1) / root(a);
+#endif
+}
 
 struct Weights {
   Doubles b, c;
@@ -71,9 +95,9 @@ RIIS_INLINE Doubles::Mask inside(Weights w) {
   return both(both(w.b >= zero, w.c >= zero), w.b + w.c <= Doubles::all(1));
 }
 
+// If the edge has no length, the parameter is 0, as in the scalar code.
 RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
-  const Doubles t = dot(r, edge) / dot(edge, edge), zero = Doubles::all(0), one = Doubles::all(1);
-  return choose(t > zero, choose(t < one, t, one), zero);
+  return least(greatest(dot(r, edge) / dot(edge, edge), Doubles::all(0)), Doubles::all(1));
 }
 
 // The closest points on eight triangles. If a caller reads only `distance_sq`, the compiler leaves out the other members.
@@ -83,7 +107,8 @@ struct ClosestPoints {
 };
 
 template <bool wants_point>
-RIIS_INLINE ClosestPoints closest_points(Doubles3 p, Doubles3 a, Doubles3 b, Doubles3 c) {
+RIIS_INLINE ClosestPoints closest_points(Doubles3 p, const Corners &corners) {
+  const Doubles3 a = corners.a, b = corners.b, c = corners.c;
   const Doubles3 ab = b - a, ac = c - a, bc = c - b, ap = p - a, bp = p - b;
   const Doubles t_ab = segment_parameter(ap, ab), t_ac = segment_parameter(ap, ac), t_bc = segment_parameter(bp, bc);
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
@@ -91,9 +116,11 @@ RIIS_INLINE ClosestPoints closest_points(Doubles3 p, Doubles3 a, Doubles3 b, Dou
   const auto offer = [&](Doubles3 point, Doubles3 weights, Doubles::Mask where) RIIS_LAMBDA {
     const Doubles3 difference = p - point;
     const Doubles distance_sq = dot(difference, difference);
-    const Doubles::Mask is_better = both(where, distance_sq < best.distance_sq);
-    best.distance_sq = choose(is_better, distance_sq, best.distance_sq);
-    if constexpr (wants_point) {
+    if constexpr (!wants_point) {
+      best.distance_sq = choose(where, least(distance_sq, best.distance_sq), best.distance_sq);
+    } else {
+      const Doubles::Mask is_better = both(where, distance_sq < best.distance_sq);
+      best.distance_sq = choose(is_better, distance_sq, best.distance_sq);
       best.point = choose(is_better, point, best.point);
       best.weights = choose(is_better, weights, best.weights);
     }
@@ -124,23 +151,29 @@ RIIS_INLINE ClosestPoints closest_points(Doubles3 p, Doubles3 a, Doubles3 b, Dou
 void decide(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
             double *distance_sq) {
   for (int32_t first = 0; first < n; first += Doubles::n) {
-    const double *p[Doubles::n], *t[Doubles::n];
-    for (int lane = 0; lane < Doubles::n; ++lane) {
-      const int32_t pair = first + lane < n ? first + lane : first;
-      p[lane] = points + 3 * point[pair];
-      t[lane] = corners + int64_t{9} * triangle[pair];
+    const int32_t *of_point = point + first, *of_triangle = triangle + first;
+    int32_t last_points[Doubles::n], last_triangles[Doubles::n];
+    if (first + Doubles::n > n) {
+      for (int lane = 0; lane < Doubles::n; ++lane) {
+        const int32_t pair = first + lane < n ? first + lane : first;
+        last_points[lane] = point[pair];
+        last_triangles[lane] = triangle[pair];
+      }
+      of_point = last_points;
+      of_triangle = last_triangles;
     }
-    const Doubles answers =
-        closest_points<false>(gather_points(p, 0), gather_points(t, 0), gather_points(t, 3), gather_points(t, 6))
-            .distance_sq;
+    const Corners of_lanes =
+        gather_corners([&](int lane) RIIS_LAMBDA { return corners + int64_t{9} * of_triangle[lane]; });
+    const Doubles3 p = gather_point([&](int lane) RIIS_LAMBDA { return points + int64_t{3} * of_point[lane]; });
+    const Doubles answers = closest_points<false>(p, of_lanes).distance_sq;
     __builtin_memcpy(distance_sq + first, answers.part, sizeof answers.part);
   }
 }
 
 void locate(const PointsAndTriangles &pairs, PointsOnTriangles &located) {
-  const auto corner = [&](int i) RIIS_LAMBDA { return gather_points(pairs.corners, 3 * i); };
+  const Corners corners = gather_corners([&](int lane) RIIS_LAMBDA { return pairs.corners[lane]; });
   const Doubles3 point = {Doubles::load(pairs.point[0]), Doubles::load(pairs.point[1]), Doubles::load(pairs.point[2])};
-  const ClosestPoints closest = closest_points<true>(point, corner(0), corner(1), corner(2));
+  const ClosestPoints closest = closest_points<true>(point, corners);
   const auto store = [](Doubles3 v, double(*to)[pairs_at_once]) RIIS_LAMBDA {
     v.x.store(to[0]);
     v.y.store(to[1]);
@@ -230,14 +263,11 @@ void take_corners(const double *vertices, const int64_t *vertex_id, int64_t n, d
 
 // The corners of up to eight triangles, looked up by the ids of their vertices. Lanes without a triangle repeat the first
 // triangle.
-struct Corners {
-  Doubles3 a, b, c;
-};
 RIIS_INLINE Corners corners_by_id(const double *vertices, const int64_t *vertex_id, int32_t n) {
-  const double *of_lane[3][Doubles::n];
-  for (int lane = 0; lane < Doubles::n; ++lane)
-    for (int k = 0; k < 3; ++k) of_lane[k][lane] = vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k];
-  return {gather_points(of_lane[0], 0), gather_points(of_lane[1], 0), gather_points(of_lane[2], 0)};
+  const auto corner = [&](int k) RIIS_LAMBDA {
+    return gather_point([&](int lane) RIIS_LAMBDA { return vertices + 3 * vertex_id[(lane < n ? 3 * lane : 0) + k]; });
+  };
+  return {corner(0), corner(1), corner(2)};
 }
 
 void place_points(const PlacedBy &by, const double *points, int64_t n, double *placed) {
@@ -298,6 +328,17 @@ void frame_group(const PlainFrame &frame, const double *corners, const int32_t *
 
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
 
+// Widens to double precision. GCC's own conversion does that in two halves, and puts them together.
+RIIS_INLINE DoubleRegister widened(HalfRegister x) {
+#if defined(__AVX512F__)
+  return (DoubleRegister)_mm512_cvtps_pd((__m256)x);
+#elif defined(__AVX2__)
+  return (DoubleRegister)_mm256_cvtps_pd((__m128)x);
+#else
+  return __builtin_convertvector(x, DoubleRegister);
+#endif
+}
+
 RIIS_INLINE void put(Doubles x, float *to) {
   for (int i = 0; i < Doubles::n_registers; ++i) {
     const HalfRegister single = __builtin_convertvector(x.part[i], HalfRegister);
@@ -316,8 +357,7 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
-    for (DoubleRegister &part : x.part)
-      part = __builtin_convertvector(__builtin_convertvector(part, HalfRegister), DoubleRegister);
+    for (DoubleRegister &part : x.part) part = widened(__builtin_convertvector(part, HalfRegister));
     return x;
   };
   put(Doubles::all(0) - dot(middle, Doubles3{rounded(axis.x), rounded(axis.y), rounded(axis.z)}), origin + from);
@@ -331,10 +371,10 @@ struct Direction {
 };
 
 RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
-  const Doubles length = root(dot(v, v)), tiny = Doubles::all(1e-30);
-  const Doubles::Mask has_one = length > tiny;
-  const Doubles inverse = Doubles::all(1) / choose(has_one, length, Doubles::all(1));
-  return {choose(has_one, inverse * v, otherwise), choose(has_one, length, Doubles::all(0))};
+  const Doubles square = dot(v, v);
+  const Doubles::Mask has_one = square > Doubles::all(1e-60);
+  const Doubles inverse = inverse_root(choose(has_one, square, Doubles::all(1)));
+  return {choose(has_one, inverse * v, otherwise), choose(has_one, square * inverse, Doubles::all(0))};
 }
 
 constexpr int halves = triangles_per_group / Doubles::n;
@@ -401,9 +441,9 @@ RIIS_INLINE double sum_of(Doubles x) {
 
 // Scales vectors to length 1. Vectors without a length do not change. Returns the lanes that have a length.
 RIIS_INLINE Doubles::Mask normalize(Doubles3 &a) {
-  const Doubles length = root(dot(a, a));
-  const Doubles::Mask has_one = length > Doubles::all(1e-12);
-  a = choose(has_one, (Doubles::all(1) / choose(has_one, length, Doubles::all(1))) * a, a);
+  const Doubles square = dot(a, a);
+  const Doubles::Mask has_one = square > Doubles::all(1e-24);
+  a = choose(has_one, inverse_root(choose(has_one, square, Doubles::all(1))) * a, a);
   return has_one;
 }
 
@@ -556,6 +596,10 @@ void make_groups(const GroupCorners *corners, int32_t n, TriangleGroup *groups, 
   alignas(64) float rounded[groups_at_once][9][triangles_per_group];
   alignas(64) double across[3][groups_at_once] = {}, along[3][groups_at_once] = {};
   for (int32_t g = 0; g < n; ++g) {
+    // The frames of fine triangles do not fit in the cache. So the memory of the next group is requested here.
+    if (g + 1 < n)
+      for (__SIZE_TYPE__ at = 0; at < sizeof *groups; at += 64)
+        __builtin_prefetch(reinterpret_cast<const char *>(groups + g + 1) + at, 1);
     double normal[3];
     make_frames(corners[g], groups[g], rounded[g], normal);
     for (int32_t i = bounds[g].n; i < triangles_per_group; ++i) groups[g].g_origin[i] = beyond_limits;

@@ -68,6 +68,32 @@ RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
 #endif
 }
 
+// Returns a < b ? a : b. So b is returned if one of the numbers is NaN.
+RIIS_INLINE DoubleRegister least(DoubleRegister a, DoubleRegister b) {
+#if defined(__AVX512F__)
+  return (DoubleRegister)_mm512_min_pd((__m512d)a, (__m512d)b);
+#elif defined(__AVX2__)
+  return (DoubleRegister)_mm256_min_pd((__m256d)a, (__m256d)b);
+#elif defined(RIIS_SSE2)
+  return (DoubleRegister)_mm_min_pd((__m128d)a, (__m128d)b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+// Returns a > b ? a : b.
+RIIS_INLINE DoubleRegister greatest(DoubleRegister a, DoubleRegister b) {
+#if defined(__AVX512F__)
+  return (DoubleRegister)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif defined(__AVX2__)
+  return (DoubleRegister)_mm256_max_pd((__m256d)a, (__m256d)b);
+#elif defined(RIIS_SSE2)
+  return (DoubleRegister)_mm_max_pd((__m128d)a, (__m128d)b);
+#else
+  return a > b ? a : b;
+#endif
+}
+
 // Returns a * b + c, rounded only once if the instruction set can do that.
 RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
@@ -150,34 +176,64 @@ struct Lanes {
 typedef Lanes<float, FloatRegister, 16> Floats;
 typedef Lanes<double, DoubleRegister, 8> Doubles;
 
-// Gathers three neighbouring numbers from each address. The function loads each address once, and transposes in registers.
-RIIS_INLINE void gather_three(const double *const *from, int64_t offset, Doubles &x, Doubles &y, Doubles &z) {
 #if defined(__AVX512F__)
-  __m512d r[4];
-  for (int i = 0; i < 4; ++i)
-    r[i] = _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_maskz_loadu_pd(7, from[i] + offset)),
-                              _mm256_maskz_loadu_pd(7, from[i + 4] + offset), 1);
-  const __m512d xz01 = _mm512_unpacklo_pd(r[0], r[1]), xz23 = _mm512_unpacklo_pd(r[2], r[3]);
-  const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-  x.part[0] = (DoubleRegister)_mm512_permutex2var_pd(xz01, low, xz23);
-  y.part[0] =
-      (DoubleRegister)_mm512_permutex2var_pd(_mm512_unpackhi_pd(r[0], r[1]), low, _mm512_unpackhi_pd(r[2], r[3]));
-  z.part[0] = (DoubleRegister)_mm512_permutex2var_pd(xz01, high, xz23);
+typedef __m512d Row;  // four neighbouring numbers for a lane, and four for the fourth lane after it
+RIIS_INLINE Row unpack_low(Row a, Row b) { return _mm512_unpacklo_pd(a, b); }
+RIIS_INLINE Row unpack_high(Row a, Row b) { return _mm512_unpackhi_pd(a, b); }
+RIIS_INLINE Row low_halves(Row a, Row b) {
+  return _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), b);
+}
+RIIS_INLINE Row high_halves(Row a, Row b) {
+  return _mm512_permutex2var_pd(a, _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15), b);
+}
 #elif defined(__AVX2__)
-  const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
-  for (int i = 0; i < Doubles::n_registers; ++i) {
-    const double *const *const f = from + 4 * i;
-    const __m256d r0 = _mm256_maskload_pd(f[0] + offset, three), r1 = _mm256_maskload_pd(f[1] + offset, three),
-                  r2 = _mm256_maskload_pd(f[2] + offset, three), r3 = _mm256_maskload_pd(f[3] + offset, three);
-    const __m256d xz01 = _mm256_unpacklo_pd(r0, r1), xz23 = _mm256_unpacklo_pd(r2, r3);
-    x.part[i] = (DoubleRegister)_mm256_permute2f128_pd(xz01, xz23, 0x20);
-    y.part[i] = (DoubleRegister)_mm256_permute2f128_pd(_mm256_unpackhi_pd(r0, r1), _mm256_unpackhi_pd(r2, r3), 0x20);
-    z.part[i] = (DoubleRegister)_mm256_permute2f128_pd(xz01, xz23, 0x31);
+typedef __m256d Row;  // four neighbouring numbers for a lane
+RIIS_INLINE Row unpack_low(Row a, Row b) { return _mm256_unpacklo_pd(a, b); }
+RIIS_INLINE Row unpack_high(Row a, Row b) { return _mm256_unpackhi_pd(a, b); }
+RIIS_INLINE Row low_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0x20); }
+RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0x31); }
+#endif
+
+// Gathers n points for each of eight lanes. The coordinates of a lane's points follow each other at address(lane). No other number
+// is read.
+template <int n, class Address>
+RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
+#if defined(__AVX2__)
+  // A row has four numbers: the three of a point and the one behind them. The last point has no number behind it, so its row begins
+  // with the number before the point. A single point has neither, so a mask leaves out the fourth number.
+  constexpr int last = n - 1;
+  const auto load = [](const double *from, int k) __attribute__((always_inline)) {
+    if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
+    return _mm256_loadu_pd(from + (k < last ? 3 * k : 3 * last - 1));
+  };
+  for (int part = 0; part < Doubles::n_registers; ++part) {
+    Row rows[n][4];
+    // Uses each address at once, because a processor has too few registers to keep all of them.
+    for (int i = 0; i < 4; ++i) {
+#if defined(__AVX512F__)
+      const double *const from = address(i), *const later = address(i + 4);
+      for (int k = 0; k < n; ++k)
+        rows[k][i] = _mm512_insertf64x4(_mm512_castpd256_pd512(load(from, k)), load(later, k), 1);
+#else
+      const double *const from = address(4 * part + i);
+      for (int k = 0; k < n; ++k) rows[k][i] = load(from, k);
+#endif
+    }
+    for (int k = 0; k < n; ++k) {
+      const Row(&r)[4] = rows[k];
+      const Row even01 = unpack_low(r[0], r[1]), even23 = unpack_low(r[2], r[3]);
+      const Row odd01 = unpack_high(r[0], r[1]), odd23 = unpack_high(r[2], r[3]);
+      const bool begins_before = n > 1 && k == last;
+      xyz[k][0].part[part] = (DoubleRegister)(begins_before ? low_halves(odd01, odd23) : low_halves(even01, even23));
+      xyz[k][1].part[part] = (DoubleRegister)(begins_before ? high_halves(even01, even23) : low_halves(odd01, odd23));
+      xyz[k][2].part[part] = (DoubleRegister)(begins_before ? high_halves(odd01, odd23) : high_halves(even01, even23));
+    }
   }
 #else
-  x = Doubles::gather(from, offset);
-  y = Doubles::gather(from, offset + 1);
-  z = Doubles::gather(from, offset + 2);
+  const double *from[Doubles::n];
+  for (int lane = 0; lane < Doubles::n; ++lane) from[lane] = address(lane);
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < 3; ++i) xyz[k][i] = Doubles::gather(from, 3 * k + i);
 #endif
 }
 
