@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <limits>
 
@@ -31,6 +32,21 @@ struct Placing {
         shift(frame.scale * (nodes.centre - frame.centre)),
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
 };
+
+// The order of closest triangles (is_closer) as one number. Its first 64 bits are those of the square of the distance. Squares are
+// not negative, so their bits have the same order. Its last 64 bits are the triangle, or the largest number without a triangle.
+__extension__ typedef unsigned __int128 Rank;
+Rank rank_of(const ClosestTriangle &closest) {
+  std::uint64_t square;
+  std::memcpy(&square, &closest.distance_sq, sizeof square);
+  return static_cast<Rank>(square) << 64 | static_cast<std::uint64_t>(closest.triangle);
+}
+ClosestTriangle of_rank(Rank rank) {
+  const auto square = static_cast<std::uint64_t>(rank >> 64);
+  ClosestTriangle closest{0, static_cast<std::int64_t>(rank)};
+  std::memcpy(&closest.distance_sq, &square, sizeof square);
+  return closest;
+}
 
 class ClusterSearch {
  public:
@@ -479,13 +495,20 @@ class ClusterSearch {
     if (pairs.ties) {
       take_closest_and_ties(own, pairs);
     } else {
-      for (std::size_t i = 0; i < static_cast<std::size_t>(pairs.n); ++i) {
-        ClosestTriangle &best = view(own.closest)[own.pair_nodes[i]];
-        if (is_closer(own.pair_decided[i], own.pair_triangles[i], best))
-          best = {own.pair_decided[i], own.pair_triangles[i]};
-      }
+      take_closest(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(), own.pair_decided.data(),
+                   own.closest.data());
     }
     pairs.n = 0;
+  }
+
+  // Lets each pair compete with its node's closest triangle so far. No processor can predict which one is closer, so there are no
+  // branches.
+  static void take_closest(std::int32_t n, const std::int32_t *node, const std::int32_t *triangle,
+                           const double *decided, ClosestTriangle *closest) {
+    for (std::int32_t i = 0; i < n; ++i) {
+      ClosestTriangle &best = closest[node[i]];
+      best = of_rank(std::min(rank_of({decided[i], triangle[i]}), rank_of(best)));
+    }
   }
 
   // This function is not inlined, so that the code for a search without ties can use all registers.
