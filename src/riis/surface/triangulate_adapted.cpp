@@ -74,9 +74,10 @@ class QuadGroups {
     constexpr std::size_t farthest = 4;
     const std::size_t middle = along_u ? i : j, size = along_u ? i1 - i0 : j1 - j0;
     const auto n_groups = [](std::int64_t n_held) { return (n_held + triangles_per_group - 1) / triangles_per_group; };
+    const std::int64_t fewest_possible = n_groups(n);
     std::size_t best = middle;
     std::int64_t n_before_best = 0, fewest = n;
-    for (std::size_t off = 0; off <= std::min(farthest, size / 4); ++off)
+    for (std::size_t off = 0; off <= std::min(farthest, size / 4) && fewest > fewest_possible; ++off)
       for (const std::size_t cut : {middle - off, middle + off}) {
         const std::int64_t n_before = n_triangles(before(cut)), n_needed = n_groups(n_before) + n_groups(n - n_before);
         if (n_needed < fewest) fewest = n_needed, best = cut, n_before_best = n_before;
@@ -93,12 +94,21 @@ class QuadGroups {
 
 // Joins the groups of all pieces, after the pieces' triangles were moved together.
 void join(const Vector<Piece> &pieces, const Vector<Grouping> &groups, Grouping &joined) {
+  const auto append = [](const Vector<std::int32_t> &numbers, std::int64_t difference, Vector<std::int32_t> &to) {
+    const auto first = to.insert(to.end(), numbers.begin(), numbers.end());
+    std::for_each(first, to.end(), [difference](std::int32_t &n) { n += static_cast<std::int32_t>(difference); });
+  };
+  std::size_t n_grouped = 0, n_groups = 0;
+  for (const Grouping &of_piece : groups) {
+    n_grouped += of_piece.order.size();
+    n_groups += of_piece.end.size();
+  }
+  joined.order.reserve(n_grouped);
+  joined.end.reserve(n_groups);
   std::int64_t n = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto n_grouped = static_cast<std::int32_t>(joined.order.size());
-    for (const std::int32_t triangle : groups[i].order)
-      joined.order.push_back(static_cast<std::int32_t>(triangle - pieces[i].first_triangle + n));
-    for (const std::int32_t end : groups[i].end) joined.end.push_back(n_grouped + end);
+    append(groups[i].end, view(joined.order).size(), joined.end);
+    append(groups[i].order, n - pieces[i].first_triangle, joined.order);
     n += pieces[i].n_triangles;
   }
 }
