@@ -15,9 +15,10 @@ bool is_logging() noexcept;
 
 void log_message(std::int32_t level, const Message &message) noexcept;
 
+// Composes the message only if there is a log function.
 template <class... Parts>
 void log_message(std::int32_t level, const Parts &...parts) noexcept {
-  log_message(level, Message(parts...));
+  if (is_logging()) log_message(level, Message(parts...));
 }
 
 // Sets the log function; NULL means silence. Any thread may call the functions of this file.

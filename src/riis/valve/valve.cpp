@@ -112,6 +112,11 @@ Valve::Valve(const ValveKind &kind, PatchSet patches) : kind_(&kind), state_{{},
   state_.values.reserve(kind.parameters.size());
   for (const ParameterSpec &spec : kind.parameters) state_.values.push_back(spec.default_values);
   state_.is_set.assign(kind.parameters.size(), 0);
+  for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
+    const std::string_view name = kind.parameters[i].name;
+    if (name == "root_radius" || name == "radius") radius_ = i;
+    if (without_leaflet(name) == "translation") translations_.push_back(i);
+  }
 }
 
 std::uint64_t Valve::next_revision() {
@@ -223,18 +228,14 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
 }
 
 Valve::Disc Valve::disc() const {
-  constexpr std::string_view shift = "translation";
-  Disc disc{0, 0, 0};
+  Disc disc{radius_ ? state_.values[*radius_][0] : 0, 0, 0};
   double n_shifts = 0, z = 0;
-  for (std::size_t i = 0; i < kind_->parameters.size(); ++i) {
-    const std::string_view name = kind_->parameters[i].name;
-    const std::array<double, 3> &value = state_.values[i];
-    if (name == "root_radius" || name == "radius") disc.radius = value[0];
-    if (without_leaflet(name) != shift) continue;
+  for (const std::size_t i : translations_) {
+    const std::array<double, 3> &shift = state_.values[i];
     ++n_shifts;
-    disc.x += (value[0] - disc.x) / n_shifts;
-    disc.y += (value[1] - disc.y) / n_shifts;
-    z += (value[2] - z) / n_shifts;
+    disc.x += (shift[0] - disc.x) / n_shifts;
+    disc.y += (shift[1] - disc.y) / n_shifts;
+    z += (shift[2] - z) / n_shifts;
   }
   if (!warp_ || disc.radius == 0) return disc;
   const BlendedWarp warp(warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening());

@@ -177,6 +177,9 @@ class Valve {
   };
 
   const ValveKind *kind_;
+  // The positions of the parameters that define the disc. Each time step needs them, and a search by name is slow.
+  std::optional<std::size_t> radius_;
+  Vector<std::size_t> translations_;
   ValveState state_;
   std::optional<ValveState> open_;
   std::optional<Warp> warp_;
