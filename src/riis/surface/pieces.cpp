@@ -158,7 +158,7 @@ class PieceTriangles {
   const LevelledGrid &levelled_;
   bool flip_normals_;
   TriangleSet &set_;
-  std::int64_t next_id_ = piece_.first_triangle;
+  std::int64_t next_id_ = piece_.first_id;
 };
 
 // Returns the patches that miss triangles (is_missed).
@@ -209,15 +209,18 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
 
 Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles)
     : set_(set), how_(how), grids_(grids), triangles_(triangles) {
+  std::int64_t n_ids = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
     const auto &images = set.patches[i].images;
     for (std::size_t k = 0; k < images.size(); ++k) {
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
-      pieces_.push_back({i, &images[k], twin, seam, n_vertices_, n_triangles_});
-      n_triangles_ += grids[i].n_triangles;
+      pieces_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
+      // At a seam, equal vertices may be placed with another image, and then differ by rounding.
+      room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
+      n_ids += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;
-      check_count(static_cast<double>(n_triangles_), how.max_error);
+      check_count(static_cast<double>(n_ids), how.max_error);
     }
   }
 }
@@ -268,9 +271,7 @@ void Pieces::place_vertices_of(const Piece &piece) {
 void Pieces::make_room_for_triangles() {
   triangles_.connectivity = 0;
   triangles_.n_zero_area = 0;
-  triangles_.grouping.order.clear();
-  triangles_.grouping.end.clear();
-  resize_triangles(n_triangles_, triangles_);
+  resize_triangles(room_, triangles_);
 }
 
 Vector<std::int32_t> Pieces::add_triangles_of(Piece &piece) {

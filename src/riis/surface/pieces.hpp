@@ -21,6 +21,7 @@ struct Piece {
   const PatchImage *twin;  // the image at the other side of the seam; null without a seam
   const Seam *seam;
   std::int64_t first_vertex, first_triangle;
+  std::int64_t first_id;         // the first triangle_id, which also counts triangles without area
   std::int64_t n_triangles = 0;  // triangles that have an area; the range may have room for more
   Vector<LeftOut> left_out{};    // the triangles without area
   bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
@@ -39,6 +40,8 @@ class Pieces {
   Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
 
   const Vector<Piece> &all() const { return pieces_; }
+  // The number of triangles that all pieces have room for.
+  std::int64_t room() const { return room_; }
   // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
 
@@ -75,7 +78,7 @@ class Pieces {
   TriangleSet &triangles_;
   Vector<Piece> pieces_;
   Vector<PatchVertices> of_patches_;
-  std::int64_t n_triangles_ = 0, n_vertices_ = 0;  // upper bounds
+  std::int64_t n_vertices_ = 0, room_ = 0;
 };
 
 // Returns whether a triangle was left out and nothing in the set stands for it.

@@ -93,6 +93,22 @@ void count(const Level &level, LevelledGrid &made) {
   if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
+// Counts the triangles with two equal corners. Most are along a side of the patch that is a point, so only quads at the sides are
+// counted.
+void count_collapsed(LevelledGrid &made) {
+  const QuadGrid &grid = made.grid;
+  const std::size_t n_u = grid.u.size() - 1, n_v = grid.v.size() - 1;
+  const auto equal = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+  for (std::size_t j = 0; j < n_v; ++j)
+    for (std::size_t i = 0; i < n_u; i += j == 0 || j + 1 == n_v || i + 1 == n_u ? 1 : n_u - 1) {
+      if (made.levels[j * n_u + i] != 0) continue;
+      const Quad quad = quad_of(grid, i, j);
+      const bool is_one_point = equal(quad.p00, quad.p11);
+      made.n_collapsed += is_one_point || equal(quad.p00, quad.p10) || equal(quad.p10, quad.p11);
+      made.n_collapsed += is_one_point || equal(quad.p00, quad.p01) || equal(quad.p01, quad.p11);
+    }
+}
+
 }  // namespace
 
 double split_error(const Quad &q) {
@@ -115,6 +131,7 @@ LevelledGrid with_levels(QuadGrid grid, double max_error) {
     made.levels.push_back(level.level);
     count(level, made);
   });
+  count_collapsed(made);
   return made;
 }
 

@@ -46,6 +46,7 @@ struct LevelledGrid {
   QuadGrid grid;
   Vector<int> levels;
   std::int64_t n_triangles = 0;  // for one image, including triangles that turn out to have no area
+  std::int64_t n_collapsed = 0;  // of these, triangles at the sides that have two equal corners, so surely no area
   std::int64_t n_vertices = 0;
   double error_bound = 0;  // bounds the distance between the triangles and the smooth patch
 };

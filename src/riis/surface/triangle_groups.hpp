@@ -52,8 +52,8 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order, the last perhaps of fewer. Only their boxes along the coordinate axes
-  // and their corners are set, and a pack has the corner of one of its groups.
+  // Packs of groups_per_pack neighbouring groups in order, the last perhaps of fewer. Only their boxes along the coordinate axes,
+  // their longest edges and their corners are set, and a pack has the corner of one of its groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
   // True if each group has the same triangles as before and the groups are not much larger. Then structures built over the
@@ -70,11 +70,19 @@ struct TriangleGroups {
   }
 
  private:
-  void enclose(int n_threads);
+  // What the threads find about a pack.
+  struct OfPack {
+    double size;    // the sum of the extents of its groups' boxes
+    bool are_same;  // whether each group has the same triangles as before
+  };
+
+  // Makes the groups and packs. Returns whether all groups have the same triangles as before.
+  bool enclose(const Grouping &grouping, int n_threads);
   void enclose_pack(const Range &range);
   double size() const;
 
-  Grouping grouping_;
+  std::vector<OfPack> of_packs_;
+  Grouping by_place_;  // the groups by position, if the set has none of its own
   bool is_by_place_ = false;
   double size_at_first_ = 0;  // the size when are_as_before was last false
 };

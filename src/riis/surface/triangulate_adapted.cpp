@@ -13,20 +13,22 @@
 namespace riis {
 namespace {
 
-// Groups the triangles of a piece by the piece's quads.
+// Groups the triangles of a piece by the piece's quads. Writes the triangles to `order`, group by group. Each triangle is in one
+// group.
 class QuadGroups {
  public:
-  QuadGroups(const QuadGrid &grid, const Vector<std::int32_t> &first_of_quad, const TriangleSet &set)
-      : grid_(grid), first_of_quad_(first_of_quad), set_(set) {}
+  QuadGroups(const QuadGrid &grid, const Vector<std::int32_t> &first_of_quad, const TriangleSet &set,
+             std::int32_t *order)
+      : grid_(grid), first_of_quad_(first_of_quad), set_(set), order_(order) {}
 
-  Grouping make() {
+  // Returns the end of each group. `order` begins at 0.
+  Vector<std::int32_t> make() {
     const Quads all{0, grid_.u.size() - 1, 0, grid_.v.size() - 1};
     const std::int64_t n = n_triangles(all);
-    made_.order.reserve(static_cast<std::size_t>(n));
     constexpr std::int64_t fewest_in_group = triangles_per_group / 2;  // in most groups
-    made_.end.reserve(static_cast<std::size_t>(n / fewest_in_group + 1));
+    ends_.reserve(static_cast<std::size_t>(n / fewest_in_group + 1));
     group(all, n);
-    return std::move(made_);
+    return std::move(ends_);
   }
 
  private:
@@ -56,14 +58,18 @@ class QuadGroups {
     if (n <= triangles_per_group) {
       for (std::size_t j = j0; j < j1; ++j) {
         const Range row = triangles_of_row(quads, j);
-        for (std::int64_t t = row.begin; t < row.end; ++t) made_.order.push_back(static_cast<std::int32_t>(t));
+        for (std::int64_t t = row.begin; t < row.end; ++t) order_[n_ordered_++] = static_cast<std::int32_t>(t);
       }
-      made_.end.push_back(static_cast<std::int32_t>(made_.order.size()));
+      ends_.push_back(n_ordered_);
       return;
     }
     if (i1 - i0 == 1 && j1 - j0 == 1) {
       const Range row = triangles_of_row(quads, j0);
-      group_by_place(set_, static_cast<std::int32_t>(row.begin), static_cast<std::int32_t>(row.end), made_);
+      Grouping of_quad;
+      group_by_place(set_, static_cast<std::int32_t>(row.begin), static_cast<std::int32_t>(row.end), of_quad);
+      for (const std::int32_t end : of_quad.end) ends_.push_back(n_ordered_ + end);
+      std::copy(of_quad.order.begin(), of_quad.order.end(), order_ + n_ordered_);
+      n_ordered_ += static_cast<std::int32_t>(of_quad.order.size());
       return;
     }
     const std::size_t i = (i0 + i1) / 2, j = (j0 + j1) / 2;
@@ -89,42 +95,46 @@ class QuadGroups {
   const QuadGrid &grid_;
   const Vector<std::int32_t> &first_of_quad_;
   const TriangleSet &set_;
-  Grouping made_;
+  std::int32_t *const order_;
+  std::int32_t n_ordered_ = 0;
+  Vector<std::int32_t> ends_;
 };
 
-// Joins the groups of all pieces, after the pieces' triangles were moved together.
-void join(const Vector<Piece> &pieces, const Vector<Grouping> &groups, Grouping &joined) {
-  const auto append = [](const Vector<std::int32_t> &numbers, std::int64_t difference, Vector<std::int32_t> &to) {
-    const auto first = to.insert(to.end(), numbers.begin(), numbers.end());
-    std::for_each(first, to.end(), [difference](std::int32_t &n) { n += static_cast<std::int32_t>(difference); });
-  };
-  std::size_t n_grouped = 0, n_groups = 0;
-  for (const Grouping &of_piece : groups) {
-    n_grouped += of_piece.order.size();
-    n_groups += of_piece.end.size();
-  }
-  joined.order.reserve(n_grouped);
-  joined.end.reserve(n_groups);
-  std::int64_t n = 0;
+// Joins the groups of all pieces, after the pieces' triangles were moved together. `ends` has the ends of each piece's groups.
+void join(const Vector<Piece> &pieces, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
+  std::int32_t n = 0;
+  joined.end.clear();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    append(groups[i].end, view(joined.order).size(), joined.end);
-    append(groups[i].order, n - pieces[i].first_triangle, joined.order);
-    n += pieces[i].n_triangles;
+    const auto moved_by = static_cast<std::int32_t>(pieces[i].first_triangle - n);
+    const auto from = joined.order.begin() + pieces[i].first_triangle;
+    if (moved_by != 0)
+      std::transform(from, from + pieces[i].n_triangles, joined.order.begin() + n,
+                     [moved_by](std::int32_t triangle) { return triangle - moved_by; });
+    for (const std::int32_t end : ends[i]) joined.end.push_back(n + end);
+    n += static_cast<std::int32_t>(pieces[i].n_triangles);
   }
+  joined.order.resize(static_cast<std::size_t>(n));
 }
 
 // Makes the triangles of these grids. Returns the patches that miss triangles.
 Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                                    TriangleSet &triangles) {
   Pieces pieces(set, how, grids, triangles);
-  Vector<Grouping> groups(pieces.all().size());
+  Vector<Vector<std::int32_t>> ends(pieces.all().size());
+  resize(triangles.grouping.order, pieces.room());
   Vector<std::size_t> vanished = pieces.make_triangles([&](std::int64_t i, const Vector<std::int32_t> &first_of_quad) {
-    const QuadGrid &grid = grids[view(pieces.all())[i].patch].grid;
-    view(groups)[i] = QuadGroups(grid, first_of_quad, triangles).make();
+    const Piece &piece = view(pieces.all())[i];
+    view(ends)[i] = QuadGroups(grids[piece.patch].grid, first_of_quad, triangles,
+                               triangles.grouping.order.data() + piece.first_triangle)
+                        .make();
+    const auto id = triangles.triangle_id.begin() + piece.first_triangle;
+    std::iota(id, id + piece.n_triangles, piece.first_triangle);
   });
   if (!vanished.empty()) return vanished;
-  join(pieces.all(), groups, triangles.grouping);
-  std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
+  join(pieces.all(), ends, triangles.grouping);
+  // Gaps between the pieces have been closed, so the ids may have gaps.
+  if (triangles.n_triangles() < pieces.room())
+    std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
   return vanished;
 }
 

@@ -130,6 +130,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
     Pieces pieces(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(pieces);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
+    memory.grouping.order.clear();
+    memory.grouping.end.clear();
     group_by_place(memory, 0, static_cast<std::int32_t>(memory.n_triangles()), memory.grouping);
   }
   finish(set, std::move(grids), memory);  // takes `set`, not `patches`, because curves that `set` shares are not rims
