@@ -194,13 +194,13 @@ RIIS_INLINE Row low_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0
 RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0x31); }
 #endif
 
-// Gathers n points for each of eight lanes. The coordinates of a lane's points follow each other at address(lane). No other number
-// is read.
+// Gathers n points for each of eight lanes. The coordinates of a lane's points follow each other at address(lane). No other
+// number is read.
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // A row has four numbers: the three of a point and the one behind them. The last point has no number behind it, so its row begins
-  // with the number before the point. A single point has neither, so a mask leaves out the fourth number.
+  // A row has four numbers: the three of a point and the one behind them. The last point has no number behind it, so its row
+  // begins with the number before the point. A single point has neither, so a mask leaves out the fourth number.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));

@@ -33,8 +33,8 @@ struct Placing {
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
 };
 
-// The order of closest triangles (is_closer) as one number. Its first 64 bits are those of the square of the distance. Squares are
-// not negative, so their bits have the same order. Its last 64 bits are the triangle, or the largest number without a triangle.
+// The order of closest triangles (is_closer) as one number. Its first 64 bits are those of the square of the distance. Squares
+// are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest number if there is none.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
