@@ -177,7 +177,7 @@ typedef Lanes<float, FloatRegister, 16> Floats;
 typedef Lanes<double, DoubleRegister, 8> Doubles;
 
 #if defined(__AVX512F__)
-typedef __m512d Row;  // four neighbouring numbers for a lane, and four for the fourth lane after it
+typedef __m512d Row;  // four neighbouring numbers for lane i, and four for lane i + 4
 RIIS_INLINE Row unpack_low(Row a, Row b) { return _mm512_unpacklo_pd(a, b); }
 RIIS_INLINE Row unpack_high(Row a, Row b) { return _mm512_unpackhi_pd(a, b); }
 RIIS_INLINE Row low_halves(Row a, Row b) {
@@ -187,7 +187,7 @@ RIIS_INLINE Row high_halves(Row a, Row b) {
   return _mm512_permutex2var_pd(a, _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15), b);
 }
 #elif defined(__AVX2__)
-typedef __m256d Row;  // four neighbouring numbers for a lane
+typedef __m256d Row;  // four neighbouring numbers for one lane
 RIIS_INLINE Row unpack_low(Row a, Row b) { return _mm256_unpacklo_pd(a, b); }
 RIIS_INLINE Row unpack_high(Row a, Row b) { return _mm256_unpackhi_pd(a, b); }
 RIIS_INLINE Row low_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 0x20); }
@@ -199,8 +199,8 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // A row has four numbers: the three of a point and the one behind them. The last point has no number behind it, so its row
-  // begins with the number before the point. A single point has neither, so a mask leaves out the fourth number.
+  // For each lane, a row has the three numbers of a point and the one behind them. The last point has no number behind it, so its
+  // row begins with the number before the point. A single point has neither, so a mask leaves out the fourth number.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));

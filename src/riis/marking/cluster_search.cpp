@@ -33,8 +33,10 @@ struct Placing {
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
 };
 
-// The order of closest triangles (is_closer) as one number. Its first 64 bits are those of the square of the distance. Squares
-// are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest number if there is none.
+#if defined(__SIZEOF_INT128__)
+// The order of closest triangles (is_closer) as one number, if squares of distances are finite. Its first 64 bits are those of
+// the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest
+// number if there is none.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -47,6 +49,7 @@ ClosestTriangle of_rank(Rank rank) {
   std::memcpy(&closest.distance_sq, &square, sizeof square);
   return closest;
 }
+#endif
 
 class ClusterSearch {
  public:
@@ -502,12 +505,16 @@ class ClusterSearch {
   }
 
   // Lets each pair compete with its node's closest triangle so far. No processor can predict which one is closer, so there are no
-  // branches.
+  // branches where numbers of 128 bits exist.
   static void take_closest(std::int32_t n, const std::int32_t *node, const std::int32_t *triangle,
                            const double *decided, ClosestTriangle *closest) {
     for (std::int32_t i = 0; i < n; ++i) {
       ClosestTriangle &best = closest[node[i]];
+#if defined(__SIZEOF_INT128__)
       best = of_rank(std::min(rank_of({decided[i], triangle[i]}), rank_of(best)));
+#else
+      if (is_closer(decided[i], triangle[i], best)) best = {decided[i], triangle[i]};
+#endif
     }
   }
 

@@ -216,7 +216,8 @@ Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<Level
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
       pieces_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
-      // At a seam, equal vertices may be placed with another image, and then differ by rounding.
+      // At a seam, one of two equal vertices may be placed with another image. Then they differ by rounding, and their triangle
+      // may need room.
       room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
       n_ids += grids[i].n_triangles;
       n_vertices_ += grids[i].n_vertices;

@@ -120,7 +120,7 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
     enclose(by_place_, n_threads);
     are_same = false;
   }
-  // Finds the longest edge only here, because it does not depend on the groups.
+  // Finds the longest edge only here, after the last grouping.
   longest_edge = 0;
   for (const GroupBounds &pack : packs) longest_edge = std::max(longest_edge, pack.longest_edge);
   are_as_before = are_same && size() <= much * size_at_first_;

@@ -19,8 +19,6 @@ namespace riis {
 // end of each group.
 struct Grouping {
   Vector<std::int32_t> order, end;
-
-  bool operator==(const Grouping &other) const { return order == other.order && end == other.end; }
 };
 
 // The vertices of a patch of a valve. They begin at `first` and end before the first vertex of the next patch.

@@ -132,7 +132,7 @@ Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how
   });
   if (!vanished.empty()) return vanished;
   join(pieces.all(), ends, triangles.grouping);
-  // Gaps between the pieces have been closed, so the ids may have gaps.
+  // Triangles were moved down to close gaps, but kept their ids.
   if (triangles.n_triangles() < pieces.room())
     std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
   return vanished;
