@@ -138,26 +138,20 @@ class CountsOf {
   riis::Counts before_;
 };
 
-bool counted_near_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
-                        std::int32_t n_candidates, std::uint16_t *near) {
+// `near` is one of the two kernels that compare boxes.
+template <auto near>
+bool counted_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
+                   std::int32_t n_candidates, std::uint16_t *bits) {
   const CountsOf counts(counted->in_boxes);
   counted->boxes.add(boxes);
   for (std::int32_t k = 0; k < n_candidates; ++k) {
     const riis::GroupBounds &bounds = task.bounds[candidates[k]];
-    counted->boxes.add(&bounds, sizeof bounds.lower + sizeof bounds.upper);
+    if constexpr (near == &riis::FilterKernels::near_own_boxes)
+      counted->boxes.add(bounds.axis, sizeof bounds.axis + sizeof bounds.from + sizeof bounds.to);
+    else
+      counted->boxes.add(&bounds, sizeof bounds.lower + sizeof bounds.upper);
   }
-  return riis::filter_kernels_counted.near_boxes(task, boxes, candidates, n_candidates, near);
-}
-
-bool counted_near_own_boxes(const riis::FilterTask &task, const riis::Boxes &boxes, const std::int32_t *candidates,
-                            std::int32_t n_candidates, std::uint16_t *near) {
-  const CountsOf counts(counted->in_boxes);
-  counted->boxes.add(boxes);
-  for (std::int32_t k = 0; k < n_candidates; ++k) {
-    const riis::GroupBounds &bounds = task.bounds[candidates[k]];
-    counted->boxes.add(bounds.axis, sizeof bounds.axis + sizeof bounds.from + sizeof bounds.to);
-  }
-  return riis::filter_kernels_counted.near_own_boxes(task, boxes, candidates, n_candidates, near);
+  return (riis::filter_kernels_counted.*near)(task, boxes, candidates, n_candidates, bits);
 }
 
 void counted_begin_cluster(const riis::FilterTask &task, riis::ClusterTask &cluster) {
@@ -196,8 +190,8 @@ void counted_decide(std::int32_t n, const std::int32_t *point, const std::int32_
 
 riis::Kernels counting() {
   riis::Kernels kernels{riis::filter_kernels_counted, riis::decision_kernels_counted};
-  kernels.near_boxes = counted_near_boxes;
-  kernels.near_own_boxes = counted_near_own_boxes;
+  kernels.near_boxes = counted_boxes<&riis::FilterKernels::near_boxes>;
+  kernels.near_own_boxes = counted_boxes<&riis::FilterKernels::near_own_boxes>;
   kernels.begin_cluster = counted_begin_cluster;
   kernels.filter_cluster = counted_filter_cluster;
   kernels.decide = counted_decide;

@@ -12,12 +12,14 @@ struct Doubles3 {
   Doubles x, y, z;
 };
 
+RIIS_INLINE Doubles3 as_point(const Doubles (&xyz)[3]) { return {xyz[0], xyz[1], xyz[2]}; }
+
 // Gathers a point from each of eight addresses.
 template <class Address>
 RIIS_INLINE Doubles3 gather_point(const Address &address) {
   Doubles xyz[1][3];
   gather_points(address, xyz);
-  return {xyz[0][0], xyz[0][1], xyz[0][2]};
+  return as_point(xyz[0]);
 }
 
 // The corners of eight triangles.
@@ -28,7 +30,7 @@ template <class Address>
 RIIS_INLINE Corners gather_corners(const Address &address) {
   Doubles xyz[3][3];
   gather_points(address, xyz);
-  return {{xyz[0][0], xyz[0][1], xyz[0][2]}, {xyz[1][0], xyz[1][1], xyz[1][2]}, {xyz[2][0], xyz[2][1], xyz[2][2]}};
+  return {as_point(xyz[0]), as_point(xyz[1]), as_point(xyz[2])};
 }
 
 RIIS_INLINE Doubles3 operator+(Doubles3 a, Doubles3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }

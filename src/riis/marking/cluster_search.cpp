@@ -49,6 +49,14 @@ ClosestTriangle of_rank(Rank rank) {
   std::memcpy(&closest.distance_sq, &square, sizeof square);
   return closest;
 }
+// No processor can predict which one is closer, so this has no branch.
+ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
+  return of_rank(std::min(rank_of(a), rank_of(b)));
+}
+#else
+ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
+  return is_closer(a.distance_sq, a.triangle, b) ? a : b;
+}
 #endif
 
 class ClusterSearch {
@@ -504,17 +512,12 @@ class ClusterSearch {
     pairs.n = 0;
   }
 
-  // Lets each pair compete with its node's closest triangle so far. No processor can predict which one is closer, so there are no
-  // branches where numbers of 128 bits exist.
+  // Lets each pair compete with its node's closest triangle so far.
   static void take_closest(std::int32_t n, const std::int32_t *node, const std::int32_t *triangle,
                            const double *decided, ClosestTriangle *closest) {
     for (std::int32_t i = 0; i < n; ++i) {
       ClosestTriangle &best = closest[node[i]];
-#if defined(__SIZEOF_INT128__)
-      best = of_rank(std::min(rank_of({decided[i], triangle[i]}), rank_of(best)));
-#else
-      if (is_closer(decided[i], triangle[i], best)) best = {decided[i], triangle[i]};
-#endif
+      best = closer_of({decided[i], triangle[i]}, best);
     }
   }
 

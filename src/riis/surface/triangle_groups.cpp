@@ -83,6 +83,12 @@ void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end
   });
 }
 
+void group_all_by_place(const TriangleSet &set, Grouping &grouping) {
+  grouping.order.clear();
+  grouping.end.clear();
+  group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), grouping);
+}
+
 void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
   const std::int64_t n = set.n_triangles();
   resize(corners, 9 * n);
@@ -108,15 +114,10 @@ void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, in
   // If the number of triangles is the same, the triangles have probably only moved. So groups by position are kept until they
   // become much larger.
   const bool is_kept = is_by_place && was_by_place && view(by_place_.order).size() == set.n_triangles();
-  const auto group_anew = [&] {
-    by_place_.order.clear();
-    by_place_.end.clear();
-    group_by_place(set, 0, static_cast<std::int32_t>(set.n_triangles()), by_place_);
-  };
-  if (is_by_place && !is_kept) group_anew();
+  if (is_by_place && !is_kept) group_all_by_place(set, by_place_);
   bool are_same = enclose(is_by_place ? by_place_ : set.grouping, n_threads);
   if (is_kept && size() > much * size_at_first_) {
-    group_anew();
+    group_all_by_place(set, by_place_);
     enclose(by_place_, n_threads);
     are_same = false;
   }

@@ -130,9 +130,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
     Pieces pieces(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(pieces);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
-    memory.grouping.order.clear();
-    memory.grouping.end.clear();
-    group_by_place(memory, 0, static_cast<std::int32_t>(memory.n_triangles()), memory.grouping);
+    group_all_by_place(memory, memory.grouping);
   }
   finish(set, std::move(grids), memory);  // takes `set`, not `patches`, because curves that `set` shares are not rims
   return memory;
@@ -226,7 +224,7 @@ Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, 
     made.images.push_back({(is_first ? 0 : made.images.back().end) + piece.n_triangles,
                            !is_first && have_same_triangles(*(&piece - 1), piece)});
   }
-  group_by_place(triangles, 0, static_cast<std::int32_t>(triangles.n_triangles()), made.grouping);
+  group_all_by_place(triangles, made.grouping);
   made.vertex_id = std::move(triangles.vertex_id);
   made.triangle_id = std::move(triangles.triangle_id);
   made.leaflet_id = std::move(triangles.leaflet_id);
