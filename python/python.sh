@@ -133,9 +133,13 @@ python_needs_environment() {
 # Packages that ./run view --check needs besides the program's.
 view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-core procps)
 
-# view [MESH...]: shows a valve in a mesh. view --check: uses the page in a browser, and first makes the environment if it is
-# missing, as in a bare Debian.
-view() {
+# ./run view [MESH]
+#   Shows a valve in a mesh, in a browser (docs/view.md), with the environment of ./run python.
+# ./run view --check
+#   Uses that page in Chromium without a window: it loads, moves, clicks landmarks, plays, writes and opens again, and gives bad
+#   input. It leaves a picture of each step in out/view, compares the marks with those of the copied command, and prints the time
+#   of a move, in five minutes. If there is no environment, as in ./run debian13 view --check, it first makes one.
+run_view() {
   if [[ ${1:-} != --check ]]; then
     python_needs_environment view
     exec "$python_folder/fresh/bin/python" -m riis view "$@"
@@ -169,8 +173,11 @@ python_manylinux() {
   say "the wheels: $(echo out/wheels/*.whl)"
 }
 
-# fit_study [N [FIRST]]: fits N random patients, from the seed FIRST on, each on one thread.
-fit_study() {
+# ./run fit-study [N [FIRST]]
+#   Fits N random patients (300) with riis.fit, from the seed FIRST (7000) on, each on one thread, in the environment of ./run
+#   python. It prints the tables of docs/python.md, the undetermined sizes of whole valves, and the report of each fit that is
+#   wrong and not flagged.
+run_fit_study() {
   local n=${1:-300} first=${2:-7000}
   [[ $n =~ ^[1-9][0-9]*$ && $first =~ ^[0-9]+$ && $# -le 2 ]] || {
     echo "./run fit-study: '$*' is not a number of patients, or that and the first seed" >&2
@@ -205,8 +212,17 @@ python_make_here() {
   step "install it into a fresh environment" python_environment "$(python_of_packages)" built
 }
 
-# python_package [tests|fit|inverse|tutorial|manylinux]
-python_package() {
+# ./run python [tests]
+#   Builds the wheel of the Python package (docs/python.md), installs it into a fresh environment, and tests it there, also
+#   together with scikit-learn. It runs the notebooks, and prints the cost of the Python layer for a million nodes. tests leaves
+#   out the notebooks and the cost. Build tools and Python packages come from PyPI.
+# ./run python tutorial | inverse | fit
+#   Uses the environment of ./run python. tutorial runs only the notebooks, and leaves them in out/python. inverse finds 20 valves
+#   from noisy velocities of Stokes flows (docs/theory.md). fit prints how well riis.fit recovers known valves.
+# ./run python manylinux
+#   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. It needs Docker, and leaves the
+#   wheels in out/wheels.
+run_python() {
   local status=0 cost=1
   case $* in
     '') ;;

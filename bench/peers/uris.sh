@@ -1,8 +1,6 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# ./run uris: exports each kind of valve for svMultiPhysics with triangles of several sizes and reads the files back. It prints
-# the error of marks by the middles of triangles. The script `run` reads this file, which uses $build, $n_jobs, install_missing,
-# step and say of `run`.
+# ./run uris, which reads this file. The steps use $build, $n_jobs, install_missing, step and say of `run`.
 
 # Largest edges, cm. The half thickness is 0.1. "none" means the triangles that the library makes.
 uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
@@ -147,7 +145,12 @@ uris_solver() {
   done
 }
 
-uris() {
+# ./run uris [drop | solver PROGRAM]
+#   Exports every kind of valve for svMultiPhysics with triangles of several sizes, and reads the files back. It prints the errors
+#   of that solver's marks, as the table of docs/export.md. drop prints the drop that the solver will have across a flat valve
+#   instead, in meshes by gmsh. solver runs PROGRAM, an svmultiphysics, with closed valves, and prints its drop beside the
+#   forecast.
+run_uris() {
   local kind edge blocks
   if [[ (${1-} == drop && $# == 1) || (${1-} == solver && $# == 2) ]]; then
     [[ $1 == drop || -x $2 ]] || { echo "./run uris solver: '$2' is not a program" >&2; exit 2; }

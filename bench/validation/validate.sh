@@ -14,8 +14,14 @@ validate_compile() {
     cmake --build "$flow_build/validation" --parallel "$n_jobs"
 }
 
-# validate [--short | --page | --all]
-validate() {
+# ./run validate [--short | --page | --all]
+#   Compares flows computed with K with known solutions: Stokes flow through a hole and past a disc, plates that close a channel
+#   or move in it, plane jets. It leaves the rows in out/validate, and writes them into docs/validation.md, in less than 20
+#   minutes. It fails if a row misses its bar, and is skipped if the distribution lacks libhypre-dev. --short takes coarse grids,
+#   in less than five minutes, and leaves everything in out/validate_short. --page computes nothing, and writes the page again
+#   from out/validate/rows.json. --all first computes open leaflets in OpenFOAM, as walls in body-fitted meshes and as obstacles
+#   of riis, in hours, and renews bench/validation/all.json.
+run_validate() {
   local out=out/validate words=(--page docs/validation.md) python status=0
   case $* in
     '' | --all) ;;

@@ -8,8 +8,12 @@ dealii_packages=(gcc g++ cmake ninja-build mold libembree-dev libtbb-dev libdeal
   python3-numpy python3-matplotlib)
 dealii_here=$PWD/examples/dealii
 
-# dealii [--short]
-dealii() {
+# ./run dealii [--short]
+#   Runs valves in deal.II, a finite element library, on meshes that follow the leaflets: a closed plate, whose drop has a closed
+#   form, a plate that moves, and a trileaflet valve that beats. It compares 1, 2 and 4 ranks, checks a restart and bad input, and
+#   leaves tables and pictures in out/dealii. --short leaves out 4 ranks, most plates and the beat. It is skipped if the
+#   distribution lacks libdeal.ii-dev.
+run_dealii() {
   local short='' python out=$PWD/out/dealii ranks=(1 2 4)
   case $* in
     '') ;;

@@ -87,9 +87,12 @@ demo_openings_picture() {
     -frames:v 1 out/openings.png
 }
 
-demo_pictures() {
+# The command demo runs this command and the next under a virtual display.
+run_demo_pictures() {
   of_each_valve demo_states && demo_openings_picture
 }
+
+run_demo_beats() { of_each_valve demo_beat; }
 
 # demo_beat VALVE: makes a movie of one heartbeat with 24 frames, its first picture, the moving surface, and the orifice over
 # time.
@@ -193,7 +196,10 @@ Meshes and surfaces, for ParaView: out/*.vtu, out/*.vtp. Full tables: $logs/*.lo
 TEXT
 }
 
-demo() {
+# ./run demo
+#   Builds the program, and meshes an aortic root and a mitral tube. It marks the valves in these meshes at five openings, and
+#   through a heartbeat for movies. It also times the steps of a moving valve. It leaves meshes, pictures and movies in out/.
+run_demo() {
   packages=("${demo_packages[@]}")
   install_missing
   step "compile the program, mesh an aortic root and a mitral tube meanwhile" demo_parts

@@ -9,8 +9,13 @@ heart_least_opening=0.35                                     # of the regurgitan
 # shellcheck source=examples/left_heart/coupled/coupled.sh
 . "$heart_here/coupled/coupled.sh"
 
-# heart [--resume] [--all] [--short] | [--resume] --coupled [--short]
-heart() {
+# ./run heart [--resume] [--all] [--short], ./run heart [--resume] --coupled [--short]
+#   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
+#   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
+#   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
+#   --short has one beat in a coarse mesh. With --coupled the pressures of the flow open the valves, and the wall moves by its
+#   elastance. --resume goes on with a run that was cut off. It is left out like openfoam.
+run_heart() {
   local python name of_keep=
   [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }
   heart_fine=2.2 heart_coarse=4.5 heart_half_thickness=1.8e-3 heart_beats=3 heart_only='' heart_diseases=()

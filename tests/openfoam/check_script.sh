@@ -32,31 +32,31 @@ ends() {
 }
 
 # Faulty words on the command line end the script before anything is installed.
-ends 2 "./run openfoam: '--shrot' is not an option" openfoam --shrot
-ends 2 "./run openfoam: '--short --size' is not an option" openfoam --short --size
-ends 2 "./run openfoam: '' is not a size of edges in centimetres, such as 0.1" openfoam --size
-ends 2 "./run openfoam: '1.6' is not a size of edges" openfoam --size 1.6
-ends 2 "./run openfoam: '0.00' is not a size of edges" openfoam --size 0.00
-ends 2 "./run openfoam: '0.1 0.2' is not a size of edges" openfoam --size 0.1 0.2
+ends 2 "./run openfoam: '--shrot' is not an option" run_openfoam --shrot
+ends 2 "./run openfoam: '--short --size' is not an option" run_openfoam --short --size
+ends 2 "./run openfoam: '' is not a size of edges in centimetres, such as 0.1" run_openfoam --size
+ends 2 "./run openfoam: '1.6' is not a size of edges" run_openfoam --size 1.6
+ends 2 "./run openfoam: '0.00' is not a size of edges" run_openfoam --size 0.00
+ends 2 "./run openfoam: '0.1 0.2' is not a size of edges" run_openfoam --size 0.1 0.2
 
 # --headers compiles the plug-in that fits the headers, and ends where the compiler ends.
-ends 2 "./run openfoam: '' lacks src/finiteVolume or src/meshTools" openfoam --headers
-ends 2 "./run openfoam: '/nowhere' lacks src/finiteVolume or src/meshTools" openfoam --headers /nowhere
+ends 2 "./run openfoam: '' lacks src/finiteVolume or src/meshTools" run_openfoam --headers
+ends 2 "./run openfoam: '/nowhere' lacks src/finiteVolume or src/meshTools" run_openfoam --headers /nowhere
 fake_cxx() { [[ "$*" != *"$refused_file" ]] && printf '%s\n' "$*" >>"$work/compiled"; }
 mkdir -p "$work"/{com,foundation}/src/{OpenFOAM,OSspecific/POSIX,finiteVolume,meshTools}/lnInclude "$work/com/META-INFO"
 mkdir -p "$work/foundation/src/finiteVolume/cfdTools/general/fvModels"
 echo api=2312 >"$work/com/META-INFO/api-info"
 CXX=fake_cxx refused_file=none
-ends 0 "compiled, and neither linked nor run: examples/openfoam/plugin/riisWindkessel.C" openfoam --headers "$work/com"
+ends 0 "compiled, and neither linked nor run: examples/openfoam/plugin/riisWindkessel.C" run_openfoam --headers "$work/com"
 (($(grep -c -- '-D OPENFOAM=2312 .*openfoam/plugin/riis[A-Za-z]*\.C$' "$work/compiled") == 7)) ||
   problem "--headers compiled other files: $(<"$work/compiled")"
 rm "$work/compiled"
 ends 0 "compiled, and neither linked nor run: examples/openfoam/plugin/foundation/riisModel.C" \
-  openfoam --headers "$work/foundation"
+  run_openfoam --headers "$work/foundation"
 [[ $(<"$work/compiled") == *plugin/foundation/riisModel.C && $(<"$work/compiled") != *OPENFOAM=* ]] ||
   problem "--headers compiled other files for the Foundation: $(<"$work/compiled")"
 refused_file=riisLaw.C
-ends 1 "riisValve.C" openfoam --headers "$work/com"
+ends 1 "riisValve.C" run_openfoam --headers "$work/com"
 unset CXX
 
 # A run with bad input must stop with the expected message, and leave no time folder.

@@ -66,7 +66,7 @@ shell() {
     IFS= read -r -n 40 first <"$file" 2>/dev/null || true
     if [[ $first =~ ^\#!.*[/\ ](ba|da)?sh$ ]]; then
       scripts+=("$file")
-    elif [[ $file == *.sh ]] && ! grep -qsF -- "shellcheck source=$file" "${files[@]}"; then
+    elif [[ $file == *.sh ]] && ! grep -qsE -- "(shellcheck source=|^\. )$file( |\$)" "${files[@]}"; then
       echo "$file has no #!, and no script reads it" >&2
       status=1
     fi

@@ -1,0 +1,70 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# ./run bench, which reads this file. It uses $build, $plot_packages and functions of `run`.
+
+# Further competitors for ./run bench. If they are missing, they are left out with a message.
+bench_packages=(libcgal-dev libopenvdb-dev libmetis-dev "${plot_packages[@]}")
+# Packages that ./run bench peers needs to install packages from PyPI. open3d's wheel needs the last two.
+peers_packages=(python3-venv libusb-1.0-0 libgl1)
+
+# ./run bench [short | full]
+#   Builds and measures everything: in a short variant in a few minutes, or on meshes of full size with all numbers of threads in
+#   twenty. It leaves the results in out/bench/*.json, and writes their numbers into docs/performance.md.
+# ./run bench report
+#   Measures nothing, and writes the numbers of out/bench/*.json into docs/performance.md.
+# ./run bench search | marking | roofline | peers
+#   search measures the searches on all sizes, beside the paper's tables. marking measures a time step and its competitors, such
+#   as CGAL's tree, and the making of an adjacency. roofline prints time, operations and bytes of each stage for each marked node,
+#   beside the machine's limits. peers measures CGAL, VTK, OpenVDB and, from PyPI, libigl, open3d, fcpw and point-cloud-utils.
+# ./run bench costs [measures] | leaks | moving | busy | ranks | scale [N [N [leaks]]]
+#   costs prints the cost of each call, or only those of measures. leaks prints how fine a mesh must be, as docs/meshes.md. moving
+#   compares velocity, fields and resistance with a plain time step. busy measures steps beside two busy processes. ranks prints
+#   the cost on each rank of a mesh that METIS partitions, as docs/solvers.md. scale marks millions of nodes in pieces, as
+#   docs/scale.md.
+# ./run bench accuracy | proof
+#   accuracy measures the errors of distances by triangles, samples and minimisation, and fails if one is larger than promised.
+#   proof compares marks of a million nodes with a loop over triangles, by every instruction set and 1 to 4 threads. It watches
+#   the memory of 10,000 time steps, and of 5,000 small markings by each search on a busy machine.
+# ./run bench baseline FILE, ./run bench --compare FILE [--factor F]
+#   baseline keeps the guarded times with the machine's description in the file, such as bench/baselines/epyc-2.json. --compare
+#   measures them again, and fails if one is longer by more than the factor 1.3, or F. Times are divided by a calibration's.
+# ./run bench --benchmark_...
+#   Runs Google Benchmark itself with these words, such as --benchmark_filter=mark.
+run_bench() {
+  local what=${1:-short} python
+  python=$(python_of_packages)
+  (($# == 0)) || shift
+  case $what in
+    short | full | search | marking | roofline | accuracy | peers | report | costs | leaks | moving | busy | ranks | scale | \
+      proof)
+      if [[ ! $what =~ ^(costs|leaks|moving|busy|ranks|scale)$ ]] && (($# > 0)); then
+        refuse "'$what $*' has an argument too many"
+      fi
+      ;;
+    baseline | --compare) (($# > 0)) || refuse "the argument FILE of $what is missing" ;;
+    --*) ;;
+    *) refuse "'$what' is not a part of the benchmarks" ;;
+  esac
+  [[ $what != peers ]] || bench_packages+=("${peers_packages[@]}")
+  install_missing "${bench_packages[@]}"
+  [[ $what == report ]] || build
+  case $what in
+    costs) "$build/bench/riis_costs" "$@" ;;
+    leaks) "$build/bench/riis_bench_leaks" "$@" ;;
+    moving) "$build/bench/riis_bench_moving" "$@" ;;
+    busy) "$build/bench/riis_bench_busy" "$@" ;;
+    ranks) "$build/bench/riis_bench_ranks" "$@" ;;
+    scale) "$build/bench/riis_bench_scale" "$@" ;;
+    proof)
+      "$build/bench/riis_prove_marking"
+      printf '\n'
+      "$build/bench/riis_prove_memory"
+      printf '\n'
+      OMP_WAIT_POLICY=passive "$build/bench/riis_prove_search_memory"
+      ;;
+    report) "$python" -B bench/report/report.py ;;
+    --compare) "$python" -B bench/report/study.py compare "$@" ;;
+    --*) "$build/bench/riis_bench" "$what" "$@" ;;
+    *) "$python" -B bench/report/study.py "$what" "$@" ;;
+  esac
+}
