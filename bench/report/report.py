@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes docs/performance.md and out/bench/details.md from the JSON in out/bench and the prose in *.template.md.
+"""Writes the numbers of the JSON in out/bench into docs/performance.md, and makes out/bench/details.md.
 
 This script computes every number of the pages from the JSON. A ratio is always between two times of the same run."""
 
@@ -8,12 +8,14 @@ import argparse
 import json
 import os
 import sys
+import tempfile
 
 import gbench
 from report_accuracy import accuracy_values
-from report_text import Template, figure, grouped, number, plural, table
+from report_text import Template, figure, fill_in_place, grouped, number, plural, table, without_marks
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+PAGE = os.path.join(HERE, "..", "..", "docs", "performance.md")
 VALVES = ("aortic", "mitral")
 SIZES = (110, 260, 500, 1000, 1480)  # thousands of nodes, in the order of the paper's rows
 METHODS = ("triangles", "sampling", "minimisation")
@@ -55,7 +57,7 @@ class Data:
 
     def run_values(self, name):
         run = self.run(name)
-        return run and {"date": run["date"], "command": run["command"], "load": f"{run['load_before']:.1f}"}
+        return run and {"date": run["date"], "command": f"`{run['command']}`", "load": f"{run['load_before']:.1f}"}
 
 
 def machine_table(data):
@@ -191,18 +193,16 @@ def sampled_values(data):
 def searches_values(data, plots):
     if not data.searches:
         return None
+    valves = {
+        valve: {
+            "Valve": valve.capitalize(), "paper_table": table_of_paper(data, valve), "queried": queried_values(data, valve),
+            "threads_table": table_of_threads(data, valve),
+        }
+        for valve in VALVES
+    }  # fmt: skip
     return {
-        "run": data.run_values("searches"),
-        "sampled": sampled_values(data),
-        "valves": [
-            {
-                "Valve": valve.capitalize(), "paper_table": table_of_paper(data, valve), "queried": queried_values(data, valve),
-                "threads_table": table_of_threads(data, valve),
-            }
-            for valve in VALVES
-        ],
-        "searches_plot": plots.get("searches", ""),
-        "threads_plot": plots.get("threads", ""),
+        "run": data.run_values("searches"), "sampled": sampled_values(data), **valves, "valves": list(valves.values()),
+        "searches_plot": plots.get("searches"), "threads_plot": plots.get("threads"),
         "other_table": table_of_other_searches(data),
     }  # fmt: skip
 
@@ -349,9 +349,14 @@ def design_values(data):
 
 
 def few_processors(data):
-    """Returns the number of the machine's processors if it is too small for 4 to 16 threads."""
+    """Returns a sentence if the machine has too few processors for 4 to 16 threads."""
     n = data.machine["machine"]["processors"] if data.machine else 0
-    return str(n) if 0 < n < 4 else ""
+    if not 0 < n < 4:
+        return ""
+    return (
+        f"This machine has {plural(n, 'processor')}. So 4 to 16 threads with a processor each were not measured,\n"
+        "and neither were 4 to 16 ranks."
+    )
 
 
 def marking_values(data):
@@ -372,10 +377,13 @@ def marking_values(data):
         "pair_ns": f"{pair_ns(data):.2f}",
         "marked_ns": grouped(round(1e6 * data.marking["times"]["step, 1 thread"]["least_ms"] / counts["marked"])),
         "few_processors": few_processors(data),
-        "are_a_million": counts["nodes"] > 9e5,
+        "smaller": "" if counts["nodes"] > 9e5 else " (this mesh is smaller, so a missed bar says little)",
         "times_table": table(["what", "least, ms", "median, ms", "turns"], rows),
         "bars_table": bars_table(data.marking["bars"]),
-        "left_out": [{"text": text} for text in data.marking.get("left_out", [])],
+        "missed_text": "\n\n".join(
+            data.marking.get("left_out", [])
+            + ["`./run bench marking` prints the reasons for missed bars." if missed else "All bars are met."]
+        ),
         "has_missed": bool(missed),
         "query_ns": f"{query_ns(data):.0f}",
         "floor": floor_values(data),
@@ -456,6 +464,12 @@ def roofline_values(data):
 
 # ------------------------------------------------------------------------------------------------------------------- peers
 
+PYTHON_PEERS = (
+    "`./run bench peers` also measures packages from PyPI. This command was not run here.",
+    "The packages of PyPI have a version in their name. `bench/peers/peers.py` measured these packages right\n"
+    "after the libraries, in a process of their own on one processor. Their arrays were made before the\n"
+    "measurement. libigl and point-cloud-utils make their tree in every call.",
+)
 BOUNDED = ("CGAL", "VTK, vtkStatic", "OpenVDB", "fcpw")
 
 
@@ -502,18 +516,17 @@ def peers_values(data, plots):
     return {
         "run": data.run_values("peers"),
         "nodes": grouped(data.peers["aortic"]["nodes"]),
-        "valves": [
-            {
-                "Valve": valve.capitalize(),
+        **{
+            valve: {
                 "triangles": grouped(data.peers[valve]["triangles"]),
                 "peers_table": peers_table(data, valve),
                 "peers_bars_table": bars_table(data.peers[valve]["bars"]),
             }
             for valve in VALVES
-        ],
-        "peers_plot": plots.get("peers", ""),
-        "has_python_peers": bool(data.python_peers),
-        "left_out": [{"name": name, "why": why} for name, why in sorted(left_out.items())],
+        },
+        "peers_plot": plots.get("peers"),
+        "python_text": PYTHON_PEERS[bool(data.python_peers)],
+        "left_out_text": "\n\n".join(f"Left out: {name} ({why})." for name, why in sorted(left_out.items())),
     }
 
 
@@ -694,23 +707,26 @@ def values_of_page(data, plots):
     }
 
 
-def template(*names):
-    """Returns the prose of the given pages, one after the other."""
-    texts = []
-    for name in names:
-        with open(os.path.join(HERE, f"{name}.template.md"), encoding="utf-8") as file:
-            texts.append(file.read())
-    return Template("\n".join(texts))
+# The heading of the page's section, and the part of details.template.md, that ./run bench PART prints.
+PRINTED = {
+    "search": ("## The paper's tables", "searches"), "marking": ("## A time step", "marking"), "roofline": (None, "roofline"),
+    "peers": ("## Others", None),
+}  # fmt: skip
+
+
+def section_of(path, heading):
+    """Returns the section of a page with this heading, as its readers see it."""
+    with open(path, encoding="utf-8") as file:
+        after = without_marks(file.read()).partition(heading + "\n")[2]
+    return heading + "\n" + after.partition("\n## ")[0]
 
 
 def main(arguments):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", default=os.path.join("out", "bench"), help="the folder of the JSON (%(default)s)")
-    parser.add_argument("--page", default=os.path.join("docs", "performance.md"), help="the page to write (%(default)s)")
+    parser.add_argument("--page", default=PAGE, help="the page to write, with the text of docs/performance.md (%(default)s)")
     parser.add_argument("--details", help="the page of all other measurements to write (details.md beside the JSON)")
-    parser.add_argument(
-        "--print", choices=("search", "marking", "roofline", "peers"), help="print that section in place of writing the page"
-    )
+    parser.add_argument("--print", choices=sorted(PRINTED), help="print that section in place of writing the page")
     parser.add_argument(
         "--figures", metavar="FOLDER", help="only draw the plots of the figures' page there, with plots.json for it"
     )
@@ -719,16 +735,23 @@ def main(arguments):
     if options.figures:
         write_figures(data, options.figures)
         return 0
+    with open(os.path.join(HERE, "details.template.md"), encoding="utf-8") as file:
+        details = Template(file.read())
     if options.print:
-        part = {"search": "searches"}.get(options.print, options.print)
-        print(template("performance", "details").fill(values_of_page(data, {}), only=part))
+        heading, part = PRINTED[options.print]
+        with tempfile.NamedTemporaryFile() as page:
+            fill_in_place(PAGE, values_of_page(data, {}), page.name)
+            print((section_of(page.name, heading) if heading else "") + details.fill(values_of_page(data, {}), only=part))
         return 0
     values = values_of_page(data, images_for_page(data, os.path.dirname(options.page) or "."))
-    for name, path in ("performance", options.page), ("details", options.details or os.path.join(options.data, "details.md")):
-        os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(template(name).fill(values))
-        print(f"==> wrote {path}")
+    left = fill_in_place(PAGE, values, options.page)
+    if left:
+        print(f"==> {options.page}: these values of earlier runs stay: {', '.join(left)}")
+    print(f"==> wrote {options.page}")
+    path = options.details or os.path.join(options.data, "details.md")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(details.fill(values))
+    print(f"==> wrote {path}")
     return 0
 
 

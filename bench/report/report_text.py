@@ -67,6 +67,39 @@ def _filled(parts, scopes):
     return "".join(text)
 
 
+_PLACE = re.compile(r"<!--=([\w.]+)-->(\n?)(.*?)<!--/-->", re.DOTALL)
+
+
+def fill_in_place(path, values, to=None):
+    """Writes the values between their marks in a page, or in a copy of the page.
+
+    The mark `<!--=a.b-->` begins the place of values["a"]["b"], and `<!--/-->` ends it. A mark on a line of its own begins a
+    block such as a table. No other mark begins a line, because Markdown would then take the line for HTML. A place without a
+    value, or with the value None, keeps its text. Returns the names of these places."""
+    left = []
+
+    def put(found):
+        value = values
+        for name in found[1].split("."):
+            value = value.get(name) if isinstance(value, dict) else None
+        if value is None:
+            left.append(found[1])
+            return found[0]
+        text = str(value).strip()
+        return f"<!--={found[1]}-->" + (f"\n\n{text}\n\n" if found[2] else text) + "<!--/-->"
+
+    with open(path, encoding="utf-8") as file:
+        page = _PLACE.sub(put, file.read())
+    with open(to or path, "w", encoding="utf-8") as file:
+        file.write(page)
+    return left
+
+
+def without_marks(text):
+    """Returns a page as its readers see it."""
+    return re.sub(r"^<!--(=[\w.]+|/)-->\n\n|<!--(=[\w.]+|/)-->", "", text, flags=re.MULTILINE)
+
+
 def wrapped(text):
     """Wraps paragraphs and list items as on all pages, leaves tables and similar blocks unchanged, and puts one empty line
     between blocks."""

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The program of ./run validate: it computes the rows, draws the plots, and writes docs/validation.md. rows.py describes a row.
+"""The program of ./run validate: it computes the rows, draws the plots, and writes their
+numbers into docs/validation.md. rows.py describes a row.
 
 validate.py --marks PROGRAM --flow PROGRAM --out FOLDER [--short] [--page FILE] [--reuse]
 The status is 1 if a row misses its bar. With --reuse the program computes nothing and reads FOLDER/rows.json."""
@@ -17,6 +18,11 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(ROOT, "bench", "report"))
+PAGE = os.path.join(ROOT, "docs", "validation.md")
+PLOTS = {
+    "stokes": "Effective radius over the half thickness, and c over the cells in it",
+    "jets": "Contraction over h, and the jet behind both rims",
+}  # fmt: skip
 GROUPS = ("stokes", "closed", "jets", "bodyfit", "clinical")
 FIELDS = ("id", "group", "quantity", "reference", "source", "solver", "grids", "order", "extrapolated", "deviation", "bar",
           "note")  # fmt: skip
@@ -120,14 +126,16 @@ def table_of(rows):
 
 
 def page_values(rows, about, committed, plots):
-    """Returns the values that the prose of the template contains."""
+    """Returns the values of the places in docs/validation.md."""
+    import report_text
+
     by_id = {row["id"]: row for row in rows}
-    values = {"command": "./run validate --short" if about["short"] else "./run validate", **about, "plots": plots}
+    values = {"command": "`./run validate --short`" if about["short"] else "`./run validate`", **about}
+    values.update({f"{name}_plot": f"![{title}](validation-{name}.png)" for name, title in PLOTS.items() if plots})
     for group in GROUPS:
         chosen = [row for row in rows if row["group"] == group]
-        values[group] = bool(chosen)
-        values[group + "_table"] = table_of(chosen)
-        values[group + "_solvers"] = solvers_of(chosen)
+        values[group + "_table"] = table_of(chosen) if chosen else None
+        values[group + "_solvers"] = report_text.wrapped(f"Solvers: {solvers_of(chosen)}.") if chosen else None
     for kind in ("hole", "disc"):
         for rim in ("round", "cut"):
             row = by_id[f"c_{kind}_{rim}"]
@@ -140,16 +148,19 @@ def page_values(rows, about, committed, plots):
             values[f"order_eps_{kind}_{rim}"] = f"{order:.2f}" if order else "none"
             some = [r for r in rows if r["id"].startswith(f"stokes_{kind}_{rim}_")]
             values[f"range_{kind}_{rim}"] = f"{min(r['c'] for r in some):.2f} to {max(r['c'] for r in some):.2f}"
-    slits = [row for row in rows if row["id"].startswith("c_slit_")]
-    values["slits"] = [{"rim": row["id"].split("_")[2], "c": f"{row['extrapolated']:.2f}", "range": _range(row)} for row in slits]
-    values["resistances"] = [{"ratio": f"{row['R_over_mu']:.0e}", "c": f"{row['extrapolated']:.2f}"} for row in rows
-                             if row["id"].startswith("R_")]  # fmt: skip
+    rims = [[f"Stokes, {kind}", rim, values[f"c_{kind}_{rim}"], "ε = a/4 to a/16: " + values[f"range_{kind}_{rim}"]]
+            for kind in ("hole", "disc") for rim in ("round", "cut")]  # fmt: skip
+    rims += [["jet from a slit, ε = b/4 to b/8", row["id"].split("_")[2], f"{row['extrapolated']:.2f}",
+              "two finest grids: " + _range(row)] for row in rows if row["id"].startswith("c_slit_")]  # fmt: skip
+    values["rims_table"] = report_text.table(["flow", "rim", "c", "range"], rims)
+    resistances = [[f"{row['R_over_mu']:.0e}", f"{row['extrapolated']:.2f}"] for row in rows if row["id"].startswith("R_")]
+    values["resistances_table"] = report_text.table(["R/μ", "c of the hole, round rim"], resistances)
     for at, grid in enumerate(by_id["c_hole_round"]["grids"][:2]):
         values[f"cells_{at}"] = grid["n"].split()[-1]
     jets = [row for row in rows if row["id"].startswith("jet_")]
     values["jet_finest"] = f"{max(100 * (row['grids'][-1]['value'] / row['reference'] - 1) for row in jets):.0f}"
     values["jet_worst"] = f"{max(abs(100 * row['deviation']) for row in jets):.1f}"
-    values["committed"] = committed and {"of_" + name: committed[name] for name in ("commit", "machine", "command")}
+    values["committed"] = committed and {**committed, "command": f"`{committed['command']}`"}
     return values
 
 
@@ -224,12 +235,12 @@ def draw(rows, fields, folder):
 
 
 def make_page(path, rows, about, committed, plots):
+    """Writes docs/validation.md with the values of these rows to `path`."""
     import report_text
 
-    with open(os.path.join(HERE, "validation.template.md"), encoding="utf-8") as file:
-        template = report_text.Template(file.read())
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(template.fill(page_values(rows, about, committed, plots)))
+    left = report_text.fill_in_place(PAGE, page_values(rows, about, committed, plots), path)
+    if left:
+        print(f"==> {path}: these values of earlier runs stay: {', '.join(left)}")
 
 
 def print_table(rows, say=print):

@@ -49,6 +49,7 @@ def inline(line, place):
         return f"@htmlonly{mathml(found[2], False, place)}@endhtmlonly"
 
     line = re.sub(r"\]\(\.\./", "](", line)  # the pages of docs lie beside the others
+    line = re.sub(r"<!--(=[\w.]+|/)-->", "", line)  # marks of numbers that a program writes
     return re.sub(r"[.]md#[a-z0-9-]*", ".md", FORMULA.sub(formula, line))
 
 

@@ -5,6 +5,7 @@ import contextlib
 import io
 import json
 import os
+import re
 import sys
 import tempfile
 import unittest
@@ -43,7 +44,7 @@ FILES = {
             "versions": {"Embree": "3.99"},
         },
         "runs": dict.fromkeys(
-            ("searches", "peers"), {"date": "2026-01-02 03:04 UTC", "command": "./run bench", "load_before": 0.25}
+            ("searches", "marking", "peers"), {"date": "2026-01-02 03:04 UTC", "command": "./run bench", "load_before": 0.25}
         ),
     },
     "searches": {"benchmarks": searches(1, 1) + searches(2, 1.6)},
@@ -144,15 +145,16 @@ class Page(unittest.TestCase):
         self.folder = folder.name
 
     def page(self, names=tuple(FILES)):
-        """Writes the JSON and both pages, and returns docs/performance.md."""
+        """Writes the JSON and both pages, and returns the page with the text of docs/performance.md."""
         for name in names:
             with open(os.path.join(self.folder, name + ".json"), "w", encoding="utf-8") as file:
                 json.dump(FILES[name], file)
         path = os.path.join(self.folder, "page.md")
-        with contextlib.redirect_stdout(io.StringIO()):
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
             self.assertEqual(report.main(["--data", self.folder, "--page", path]), 0)
+        self.left = re.findall(r"[a-z_.]+(?=,|$)", printed.getvalue().partition("runs stay: ")[2].partition("\n")[0])
         with open(path, encoding="utf-8") as file:
-            return file.read()
+            return report_text.without_marks(file.read())
 
     def details(self, names=tuple(FILES)):
         """Writes the JSON and both pages, and returns out/bench/details.md."""
@@ -169,8 +171,13 @@ class Page(unittest.TestCase):
         return printed.getvalue()
 
     def test_nothing_measured_is_said(self):
-        for command in ("./run bench search", "./run bench marking", "./run bench peers", "./run bench"):
-            self.assertIn(f"`{command}` makes it", self.page(()))
+        page, printed = os.path.join(self.folder, "page.md"), io.StringIO()
+        with contextlib.redirect_stdout(printed):
+            self.assertEqual(report.main(["--data", self.folder, "--page", page]), 0)
+        for name in ("machine.machine_table", "searches.run.date", "marking.times_table", "peers.peers_plot"):
+            self.assertRegex(printed.getvalue(), f"page.md: these values of earlier runs stay: .*{name}")
+        with open(page, encoding="utf-8") as left, open(report.PAGE, encoding="utf-8") as before:
+            self.assertEqual(left.read(), before.read())
         for command in ("./run bench search", "./run bench marking", "./run bench roofline", "./run bench"):
             self.assertIn(f"`{command}` makes it", self.details(()))
 
@@ -209,7 +216,7 @@ class Page(unittest.TestCase):
         self.assertIn("at 5.00 ns a pair of a node and a triangle", text.replace("\n", " "))
         self.assertIn("A step on one thread takes 66,667 ns for each marked node.", text.replace("\n", " "))
         one_line = " ".join(text.split())
-        self.assertIn("This machine has 1 processors. So 4 to 16 threads with a processor each were not measured", one_line)
+        self.assertIn("This machine has 1 processor. So 4 to 16 threads with a processor each were not measured", one_line)
         self.assertIn("Left out: CGAL (not found).", text)
         text = self.details()
         one_line = " ".join(text.split())
@@ -253,6 +260,8 @@ class Page(unittest.TestCase):
             text = self.details(tuple(whole)) + self.page(tuple(whole))
         self.assertNotIn("{{", text)
         self.assertNotIn("Not measured here", text)
+        plots = [] if report_text.figure.can_draw() else ["searches.searches_plot", "searches.threads_plot", "peers.peers_plot"]
+        self.assertEqual(self.left, plots)
         for part in (
             "| aortic | triangles | 5 % | 2,104 | 1.50 | 1.50 | 0.02 |", "### Aortic valve, right cusp",
             "*Triangulation* uses 44 to 44 % of its tolerance; 0 points are over it.",
@@ -342,7 +351,7 @@ class Page(unittest.TestCase):
                 self.assertTrue(18 <= exhaustive / neighbor <= 28)
 
     def test_prose_is_wrapped(self):
-        for line in (self.page() + self.details()).splitlines():
+        for line in self.details().splitlines():
             if not line.startswith(("|", "!", "<!--")):
                 self.assertLessEqual(len(line), 115, line)
 
@@ -377,10 +386,35 @@ class Study(unittest.TestCase):
 
 
 class Text(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
     def test_numbers(self):
         cases = {0.01234: "0.012", 1.2345: "1.23", 12.345: "12.3", 123.45: "123", 1234.5: "1,234", 999.7: "1,000", 9.996: "10.0"}
         for value, text in cases.items():
             self.assertEqual(report_text.number(value), text)
+
+    def test_places_in_a_page(self):
+        page, copy = (os.path.join(self.folder, name) for name in ("page.md", "copy.md"))
+        text = "a <!--=a.b-->1<!--/-->, <!--=a.c-->2<!--/-->\n\n<!--=d-->\n\n| old |\n\n<!--/-->\n\nend\n"
+        with open(page, "w", encoding="utf-8") as file:
+            file.write(text)
+        self.assertEqual(report_text.fill_in_place(page, {}, copy), ["a.b", "a.c", "d"])
+        self.assertEqual(report_text.fill_in_place(page, {"a": {"b": 7, "c": None}, "d": "| new |\n"}), ["a.c"])
+        with open(page, encoding="utf-8") as new, open(copy, encoding="utf-8") as old:
+            self.assertEqual(new.read(), text.replace(">1<", ">7<").replace("old", "new"))
+            self.assertEqual(old.read(), text)
+        self.assertEqual(report_text.without_marks(text), "a 1, 2\n\n| old |\n\nend\n")
+
+    def test_no_mark_begins_a_line_of_prose(self):
+        """Markdown takes such a line for HTML, so its words in stars or backticks would not be set."""
+        for name in ("performance.md", "validation.md"):
+            with open(os.path.join(os.path.dirname(report.PAGE), name), encoding="utf-8") as file:
+                text = file.read()
+            self.assertEqual(re.findall(r"^[- ]*<!--=.*-->.+", text, re.MULTILINE), [])
+            self.assertEqual(len(re.findall("<!--=", text)), len(re.findall("<!--/-->", text)))
 
     def test_template(self):
         template = report_text.Template(
