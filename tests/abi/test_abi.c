@@ -5,12 +5,8 @@
  * of structs that grew are the only old lines that may change. */
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#include <cmocka.h>
+#include "test_cases.h"
 
 #define SIZE(type, size) assert_int_equal(sizeof(type), size)
 #define FIELD(type, field, offset, size)                \
@@ -22,8 +18,7 @@
  * types. */
 #define SIGNATURE(function, result, arguments) assert_true(_Generic(&function, result(*) arguments : 1, default : 0))
 
-static void test_structs(void **state) {
-  (void)state;
+TEST(test_structs) {
   SIZE(riis_points, 56);
   FIELD(riis_points, struct_size, 0, 8);
   FIELD(riis_points, n_points, 8, 8);
@@ -553,8 +548,7 @@ static void test_structs(void **state) {
   FIELD(riis_vtk_picture_options, rotation_angle, 96, 8);
 }
 
-static void test_constants(void **state) {
-  (void)state;
+TEST(test_constants) {
   assert_int_equal(RIIS_OK, 0);
   assert_int_equal(RIIS_INVALID_ARGUMENT, 1);
   assert_int_equal(RIIS_INVALID_STRUCT_SIZE, 2);
@@ -653,8 +647,7 @@ static void test_constants(void **state) {
   assert_true(RIIS_FAR_DISTANCE == 1.0e30);
 }
 
-static void test_signatures(void **state) {
-  (void)state;
+TEST(test_signatures) {
   SIZE(riis_status, 4);
   assert_true((riis_status)-1 < 0);
   assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *) : 1, default : 0));
@@ -863,11 +856,4 @@ static void test_signatures(void **state) {
   SIGNATURE(riis_vtk_film_destroy, void, (riis_vtk_film **));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_structs),
-      cmocka_unit_test(test_constants),
-      cmocka_unit_test(test_signatures),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -4,13 +4,9 @@
 #ifndef RIIS_TESTS_PROGRAM_H
 #define RIIS_TESTS_PROGRAM_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <sys/types.h>
+
+#include "test_cases.h"
 
 enum { longest_output = 65536 };
 

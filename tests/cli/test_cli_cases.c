@@ -39,10 +39,30 @@ static void expect_same_array(const char *part, const char *single, const char *
                         (size_t)n_components * sizeof *values);
 }
 
+/* The mitral valve of the example has the openings of the library's law of times. */
+TEST(test_ramps) {
+  riis_opening_times ramps;
+  double opening = 0, time = 0, found = 0;
+  expect_fine(riis_opening_times_init(&ramps, sizeof ramps));
+  ramps.opening_start = 0.4;
+  ramps.opening_duration = ramps.closing_duration = 0.06;
+  ramps.closing_start = 0.72;
+  ramps.period = 0.8;
+  expect_fine(riis_opening_from_times(&ramps, 0.44, &opening, NULL));
+  assert_true(opening > 0.5 && opening < 1);
+  RUN_FINE("mark", scratch_path("heart.vtu"), "--case", example, "--times", "0.44,1.24", "--series-table",
+           scratch_path("ramps.csv"), "--quiet");
+  char *table = scratch_read(scratch_path("ramps.csv"), NULL);
+  for (int i = 0; i < 2; ++i) {
+    assert_int_equal(sscanf(strstr(table, i ? "\n1.24," : "\n0.44,"), "\n%lf,%lf", &time, &found), 2);
+    assert_true(fabs(found - opening) < 1e-12);
+  }
+  free(table);
+}
+
 /* Tests the example at the times 0.44 and 0.3. At 0.44 the mitral valve opens and the aortic valve is closed. At 0.3 the
  * aortic valve closes. */
-static void test_example(void **state) {
-  (void)state;
+TEST(test_example) {
   static double K[n_nodes], of_mitral[n_nodes], of_aortic[n_nodes], ids[n_nodes], momentum[3 * n_nodes];
   static double u[2][3 * n_nodes];
   const char *mesh = scratch_path("heart.vtu");
@@ -106,28 +126,6 @@ static void test_example(void **state) {
   free(list);
 }
 
-/* The mitral valve of the example has the openings of the library's law of times. */
-static void test_ramps(void **state) {
-  (void)state;
-  riis_opening_times ramps;
-  double opening = 0, time = 0, found = 0;
-  expect_fine(riis_opening_times_init(&ramps, sizeof ramps));
-  ramps.opening_start = 0.4;
-  ramps.opening_duration = ramps.closing_duration = 0.06;
-  ramps.closing_start = 0.72;
-  ramps.period = 0.8;
-  expect_fine(riis_opening_from_times(&ramps, 0.44, &opening, NULL));
-  assert_true(opening > 0.5 && opening < 1);
-  RUN_FINE("mark", scratch_path("heart.vtu"), "--case", example, "--times", "0.44,1.24", "--series-table",
-           scratch_path("ramps.csv"), "--quiet");
-  char *table = scratch_read(scratch_path("ramps.csv"), NULL);
-  for (int i = 0; i < 2; ++i) {
-    assert_int_equal(sscanf(strstr(table, i ? "\n1.24," : "\n0.44,"), "\n%lf,%lf", &time, &found), 2);
-    assert_true(fabs(found - opening) < 1e-12);
-  }
-  free(table);
-}
-
 static void write_case(const char *valves, const char *rest) {
   char text[4096];
   snprintf(text, sizeof text, "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, %s \"valves\": [%s]}", rest, valves);
@@ -135,8 +133,7 @@ static void write_case(const char *valves, const char *rest) {
 }
 
 /* Without times, the output is one mesh with the arrays of all valves. The mesh is found in the case's folder. */
-static void test_one_time(void **state) {
-  (void)state;
+TEST(test_one_time) {
   static double K[n_nodes], one[n_nodes], two[n_nodes];
   const char *out = scratch_path("one.vtu");
   scratch_write_text("more.json", "{\"leaflet_radius_in\": 0.6}");
@@ -171,8 +168,7 @@ static void test_one_time(void **state) {
 }
 
 /* A surface from a file is at rest beside moving valves. */
-static void test_surface_at_rest(void **state) {
-  (void)state;
+TEST(test_surface_at_rest) {
   static double velocity[3 * n_box], marked[n_box];
   RUN_FINE("surface", "--output", scratch_path("stent.vtp"), "--quiet");
   write_case(
@@ -196,8 +192,7 @@ static void test_surface_at_rest(void **state) {
 #define LANDMARKS "[[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]"
 
 /* A warp that shifts all landmarks by 0.5 along x gives the same valve as a placement that is shifted by 0.5. */
-static void test_warp(void **state) {
-  (void)state;
+TEST(test_warp) {
   static double one[n_box], two[n_box], velocity[3 * n_box];
   static const char *const shifted =
       "[[1.5, 0, 0], [-0.5, 0, 0], [0.5, 1, 0], [0.5, -1, 0], [0.5, 0, 1], [0.5, 0, -1]]";
@@ -247,8 +242,7 @@ static void expect_case_refused(const char *text, const char *valves, const char
   assert_non_null(strstr(program_err, "case.json: "));
 }
 
-static void test_refused_cases(void **state) {
-  (void)state;
+TEST(test_refused_cases) {
   const char *mitral = "{\"valve\": \"mitral\"}";
   expect_case_refused("\"half_thickness_\" is unknown, did you mean \"half_thickness\"?", mitral,
                       "\"half_thickness_\": 1,");
@@ -328,8 +322,7 @@ static void test_refused_cases(void **state) {
   RUN_REFUSED(1, "missing.json: cannot be read", "mark", "--case", "missing.json");
 }
 
-static void test_refused_options(void **state) {
-  (void)state;
+TEST(test_refused_options) {
   write_case("{\"valve\": \"mitral\"}", "");
   const char *file = scratch_path("case.json");
   RUN_REFUSED(2, "--movie needs times: ", "mark", "--case", file, "--movie", "a.avi.mp4");
@@ -350,11 +343,4 @@ static int make_heart(void **state) {
                                    (double[3]){2.6, 5.7, 2.4}, 0);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_ramps),           cmocka_unit_test(test_example), cmocka_unit_test(test_one_time),
-      cmocka_unit_test(test_surface_at_rest), cmocka_unit_test(test_warp),    cmocka_unit_test(test_refused_cases),
-      cmocka_unit_test(test_refused_options),
-  };
-  return cmocka_run_group_tests(tests, make_heart, scratch_teardown);
-}
+int main(void) { return run_cases(make_heart, scratch_teardown); }

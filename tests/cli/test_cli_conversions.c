@@ -10,8 +10,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-static void test_texts(void **state) {
-  (void)state;
+TEST(test_texts) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(1, "; gmsh converts it: gmsh -save heart.UNV -format vtk -o heart.vtk\n", "mark", "heart.UNV");
   RUN_REFUSED(1, "; meshio converts it: meshio convert heart.inp heart.vtu\n", "mark", "heart.inp");
@@ -80,8 +79,7 @@ static void make_by_gmsh(int dimension, const char *format, const char *path) {
   if (system(command) != 0) fail_msg("%s", command);
 }
 
-static void test_meshes_by_gmsh(void **state) {
-  (void)state;
+TEST(test_meshes_by_gmsh) {
   const char *formats[] = {"msh40", "unv", "bdf", "mesh", "bdf"}, *endings[] = {"msh", "unv", "bdf", "mesh", "nas"};
   for (int i = 0; i < 5; ++i) {
     char name[32], path[256];
@@ -95,8 +93,7 @@ static void test_meshes_by_gmsh(void **state) {
   }
 }
 
-static void test_surfaces_by_gmsh(void **state) {
-  (void)state;
+TEST(test_surfaces_by_gmsh) {
   const char *formats[] = {"msh", "unv", "bdf", "mesh", "bdf", "ply2", "vtk"};
   const char *endings[] = {"msh", "unv", "bdf", "mesh", "nas", "ply2", "vtk"};
   for (int i = 0; i < 8; ++i) {
@@ -122,8 +119,7 @@ static void test_surfaces_by_gmsh(void **state) {
 #endif
 
 #ifdef RIIS_MESHIO
-static void test_meshio(void **state) {
-  (void)state;
+TEST(test_meshio) {
   scratch_write_text("tet.inp",
                      "*HEADING\ntet\n*NODE\n1, -1, -1, -1\n2, 1, -1, -1\n3, 0, 1, -1\n4, 0, 0, 1\n*ELEMENT, "
                      "TYPE=C3D4\n1, 1, 2, 3, 4\n");
@@ -147,16 +143,4 @@ static void test_meshio(void **state) {
 }
 #endif
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_texts),
-#ifdef RIIS_GMSH
-      cmocka_unit_test(test_meshes_by_gmsh),
-      cmocka_unit_test(test_surfaces_by_gmsh),
-#endif
-#ifdef RIIS_MESHIO
-      cmocka_unit_test(test_meshio),
-#endif
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

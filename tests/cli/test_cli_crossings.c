@@ -37,8 +37,7 @@ static void expect_warning(const char *begins) {
   assert_ptr_equal(strchr(program_crossings, '\n'), program_crossings + strlen(program_crossings) - 1);
 }
 
-static void the_first_opening_is_named(void **state) {
-  (void)state;
+TEST(the_first_opening_is_named) {
   const char *file = write_squares();
   run_program("check", "crossings", "--valve", file, NULL);
   expect_warning("riis: leaflets 0 and 1 cross at opening 0.25: ");
@@ -53,8 +52,7 @@ static void the_first_opening_is_named(void **state) {
   assert_string_equal(program_out, "");
 }
 
-static void a_given_opening_is_the_only_one(void **state) {
-  (void)state;
+TEST(a_given_opening_is_the_only_one) {
   const char *file = write_squares();
   RUN_FINE("check", "crossings", "--valve", file, "--opening", "0.245");
   assert_non_null(strstr(program_out, "crossing  none: no triangles go through each other\n"));
@@ -72,8 +70,7 @@ static void a_given_opening_is_the_only_one(void **state) {
   assert_non_null(strstr(program_crossings, "along a length of 1; "));
 }
 
-static void numbers_are_those_of_the_c_interface(void **state) {
-  (void)state;
+TEST(numbers_are_those_of_the_c_interface) {
   const double turned[3] = {0, 0, 60};
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -95,8 +92,7 @@ static void numbers_are_those_of_the_c_interface(void **state) {
   assert_true(json_number(json, "depth") == by_c.deepest_depth);
 }
 
-static void a_leaflet_may_cross_itself(void **state) {
-  (void)state;
+TEST(a_leaflet_may_cross_itself) {
   char text[sizeof squares];
   strcpy(text, squares);
   *(strstr(text, "\"leaflet\": 1") + strlen("\"leaflet\": ")) = '0';
@@ -105,8 +101,7 @@ static void a_leaflet_may_cross_itself(void **state) {
   expect_warning("riis: leaflet 0 crosses itself at opening 0.25: ");
 }
 
-static void the_library_s_valves_do_not_cross(void **state) {
-  (void)state;
+TEST(the_library_s_valves_do_not_cross) {
   static const char all[] = "crossing  none: no triangles go through each other at 101 openings from 0 to 1\n";
   static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral", "coapting"};
   for (int kind = 0; kind < 5; ++kind) {
@@ -143,9 +138,14 @@ static void expect_tall(const char *begins) {
   assert_non_null(strstr(program_crossings, advice));
 }
 
+TEST(what_has_no_effect_is_refused) {
+  RUN_REFUSED(2, "in.vtu is one argument too many", "check", "crossings", scratch_path("in.vtu"));
+  RUN_REFUSED(2, "--case is not an option", "check", "crossings", "--case", RIIS_EXAMPLES "/beating_valves.json");
+  RUN_REFUSED(2, "--times is not an option", "check", "crossings", "--valve", "mitral", "--times", "0,1");
+}
+
 /* The numbers equal those of the C interface. They do not depend on the valve's present opening. */
-static void a_chosen_shape_is_looked_at(void **state) {
-  (void)state;
+TEST(a_chosen_shape_is_looked_at) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_crossing_list by_c;
@@ -179,8 +179,7 @@ static void a_chosen_shape_is_looked_at(void **state) {
 }
 
 /* The warning appears for every way to choose a shape, and for every kind of run. */
-static void every_run_looks(void **state) {
-  (void)state;
+TEST(every_run_looks) {
   const char *in = scratch_path("in.vtu");
   scratch_write_text("tall.json", "{\"leaflet_height\": 1.3, \"bending_height\": 0.6}");
   run_program("mark", in, "--valve", "trileaflet", "--params", scratch_path("tall.json"), NULL);
@@ -211,8 +210,7 @@ static void every_run_looks(void **state) {
 
 /* A chosen placement or opening does not count as a chosen shape. A bileaflet valve's hinges reach into its housing, which is no
  * fault. */
-static void sound_shapes_are_not_named(void **state) {
-  (void)state;
+TEST(sound_shapes_are_not_named) {
   static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
   const char *in = scratch_path("in.vtu");
   for (int kind = 0; kind < 5; ++kind) {
@@ -235,20 +233,4 @@ static void sound_shapes_are_not_named(void **state) {
   }
 }
 
-static void what_has_no_effect_is_refused(void **state) {
-  (void)state;
-  RUN_REFUSED(2, "in.vtu is one argument too many", "check", "crossings", scratch_path("in.vtu"));
-  RUN_REFUSED(2, "--case is not an option", "check", "crossings", "--case", RIIS_EXAMPLES "/beating_valves.json");
-  RUN_REFUSED(2, "--times is not an option", "check", "crossings", "--valve", "mitral", "--times", "0,1");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_first_opening_is_named),           cmocka_unit_test(a_given_opening_is_the_only_one),
-      cmocka_unit_test(numbers_are_those_of_the_c_interface), cmocka_unit_test(a_leaflet_may_cross_itself),
-      cmocka_unit_test(the_library_s_valves_do_not_cross),    cmocka_unit_test(what_has_no_effect_is_refused),
-      cmocka_unit_test(a_chosen_shape_is_looked_at),          cmocka_unit_test(every_run_looks),
-      cmocka_unit_test(sound_shapes_are_not_named),
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

@@ -206,8 +206,7 @@ static void turn(double side[3][3]) {
 }
 
 /* Every kind of valve, every type of element, in boxes that are turned at random. Such a box has gaps around the valve. */
-static void test_frames(void **state) {
-  (void)state;
+TEST(test_frames) {
   char flap[64];
   snprintf(flap, sizeof flap, "%s", scratch_path("flap.json"));
   const char *const kinds[] = {"aortic", "coapting", "mitral", "trileaflet", "bileaflet", flap};
@@ -373,8 +372,7 @@ static double number_after(const char *text, const char *key) {
 }
 
 /* A plate that fills a square tube. The fluids differ in how strong the solver's stabilisation is. */
-static void test_drop(void **state) {
-  (void)state;
+TEST(test_drop) {
   static double distance[most_nodes];
   const fluid fluids[] = {{1e4, 1.06, 0.04, 0.01}, {3e3, 3, 0.3, 0.01}};
   for (int i = 0; i < 4; ++i) {
@@ -430,8 +428,7 @@ static void write_tube(const char *name, double from, double to) {
   free_mesh(&tube);
 }
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   char flap[64], far[64];
   snprintf(flap, sizeof flap, "%s", scratch_path("flap.json"));
   snprintf(far, sizeof far, "%s", scratch_path("far.json"));
@@ -478,8 +475,7 @@ static void test_refusals(void **state) {
 }
 
 /* A valve that leaves a gap in its mesh, and a valve whose drop is too small. Both are exported, with a warning. */
-static void test_warnings(void **state) {
-  (void)state;
+TEST(test_warnings) {
   write_tube("coarse.vtk", -3.1, 2.9);
   run_program("export", scratch_path("thin"), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
               "--half-thickness", "0.35", "--largest-edge", "0.1", NULL);
@@ -521,8 +517,4 @@ static int make_files(void **state) {
   return status;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_frames), cmocka_unit_test(test_drop),
-                                     cmocka_unit_test(test_refusals), cmocka_unit_test(test_warnings)};
-  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
-}
+int main(void) { return run_cases(make_files, scratch_teardown); }

@@ -15,8 +15,7 @@
 
 static const double lower[3] = {-2, -2, -2}, upper[3] = {2, 2, 2};
 
-static void test_notes(void **state) {
-  (void)state;
+TEST(test_notes) {
   assert_true(shim_write_box(scratch_path("single.vtu"), SHIM_RAW, 9, lower, upper, 1));
   char line[256];
   snprintf(line, sizeof line, "note      %s: its points have single precision\n", scratch_path("single.vtu"));
@@ -32,8 +31,7 @@ static void test_notes(void **state) {
 }
 
 /* A mesh that went through .xdmf has the same marks, and the .xdmf is read by a child process. */
-static void test_xdmf(void **state) {
-  (void)state;
+TEST(test_xdmf) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--resistance", "2", "--output",
            scratch_path("marked.xdmf"));
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--resistance", "2", "--output",
@@ -56,8 +54,7 @@ static void test_xdmf(void **state) {
 }
 
 /* The .h5 of an .xdmf is an output, and an input of each .xdmf that names it. */
-static void test_numbers_of_xdmf(void **state) {
-  (void)state;
+TEST(test_numbers_of_xdmf) {
   RUN_REFUSED(2, "o.h5 is also the file of --output", "mark", scratch_path("in.vtu"), "--half-thickness", "0.3",
               "--output", scratch_path("o.xdmf"), "--stats", scratch_path("o.h5"));
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--output", scratch_path("whole.xdmf"));
@@ -110,8 +107,7 @@ static void damage(const char *name, const char *mesh, int n_trials) {
   free(whole);
 }
 
-static void test_damaged(void **state) {
-  (void)state;
+TEST(test_damaged) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--output", scratch_path("marked.xdmf"));
   if (scratch_exists("marked.h5")) damage("marked.h5", "marked.xdmf", 15);
   if (shim_write_exodus(scratch_path("box.exo"), scratch_path("in.vtu"))) {
@@ -216,8 +212,7 @@ static void read_field(const char *name, const char *kind, int n, double *values
   free(text);
 }
 
-static void test_foam(void **state) {
-  (void)state;
+TEST(test_foam) {
   write_case();
   static double K[n_foam_cells], expected[n_foam_cells], Ku[3 * n_foam_cells];
   char type[32];
@@ -269,10 +264,4 @@ static void test_foam(void **state) {
               scratch_path("skin.vtk"), "--cells");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_notes),   cmocka_unit_test(test_xdmf), cmocka_unit_test(test_numbers_of_xdmf),
-      cmocka_unit_test(test_damaged), cmocka_unit_test(test_foam),
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

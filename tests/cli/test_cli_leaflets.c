@@ -54,8 +54,7 @@ static void expect_leaflets(const char *path, const int leaflets[3]) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path(surface), "--half-thickness", "0.2", "--output", \
            scratch_path("out.vtu"), __VA_ARGS__)
 
-static void test_leaflets(void **state) {
-  (void)state;
+TEST(test_leaflets) {
   RUN_LEAFLETS("squares.stl", "--stats", scratch_path("s.json"));
   expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 0, 0});
   assert_null(strstr(program_out, "leaflet"));
@@ -77,8 +76,7 @@ static void test_leaflets(void **state) {
   assert_non_null(strstr(program_out, ", 6 leaflets, "));
 }
 
-static void test_leaflet_refusals(void **state) {
-  (void)state;
+TEST(test_leaflet_refusals) {
   const char *mesh = scratch_path("in.vtu");
   RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--output", scratch_path("s.vtp"));
   RUN_REFUSED(1, "s.vtp: has no cell array colour; there are: riis_leaflet, riis_patch, riis_triangle", "mark", mesh,
@@ -108,8 +106,7 @@ static double n_marked_in(const char *path, const char *name) {
 }
 
 /* Marks two valves in one mesh, one after the other. */
-static void test_two_valves(void **state) {
-  (void)state;
+TEST(test_two_valves) {
   char first[256], both[256];
   snprintf(first, sizeof first, "%s", scratch_path("first.vtu"));
   snprintf(both, sizeof both, "%s", scratch_path("both.vtu"));
@@ -135,11 +132,4 @@ static void test_two_valves(void **state) {
   assert_true(json_number(program_out, "n_marked") == n_aortic);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_leaflets),
-      cmocka_unit_test(test_leaflet_refusals),
-      cmocka_unit_test(test_two_valves),
-  };
-  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
-}
+int main(void) { return run_cases(make_files, scratch_teardown); }

@@ -108,8 +108,7 @@ static void expect_advice(const char *name, const char *kind) {
   riis_surface_destroy(&surface);
 }
 
-static void test_coarse_meshes_leak(void **state) {
-  (void)state;
+TEST(test_coarse_meshes_leak) {
   const char *const kinds[2] = {"mitral", "aortic"};
   for (int i = 0; i < 2; ++i) {
     riis_surface *surface = make_surface(kinds[i], 0.1);
@@ -121,8 +120,7 @@ static void test_coarse_meshes_leak(void **state) {
   }
 }
 
-static void test_fine_meshes_do_not(void **state) {
-  (void)state;
+TEST(test_fine_meshes_do_not) {
   const char *const kinds[2] = {"mitral", "aortic"};
   for (int i = 0; i < 2; ++i) {
     riis_surface *surface = make_surface(kinds[i], 0.1);
@@ -136,8 +134,7 @@ static void test_fine_meshes_do_not(void **state) {
 
 /* Triangles from a file do not depend on the half thickness, so the program advises the library's number, rounded to three
  * digits. */
-static void test_surface_from_file(void **state) {
-  (void)state;
+TEST(test_surface_from_file) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("coarse.vtu", surface, 0.5);
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
@@ -158,8 +155,7 @@ static void test_surface_from_file(void **state) {
 
 /* The table of statistics also reports leaks. The first three searches report the same leaks. The paper's search and other
  * distances also report leaks. */
-static void test_searches_and_distances(void **state) {
-  (void)state;
+TEST(test_searches_and_distances) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("coarse.vtu", surface, 0.5);
   write_mesh("finer.vtu", surface, 0.4);
@@ -184,8 +180,7 @@ static void test_searches_and_distances(void **state) {
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
 
-static void test_one_edge(void **state) {
-  (void)state;
+TEST(test_one_edge) {
   scratch_write_text("one.vtk",
                      "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n"
                      "0.2 0.2 -0.5 0.2 0.2 0.25 5 0.2 -0.5 0.2 5 -0.5 0.3 0.3 0.05\n"
@@ -202,10 +197,67 @@ static void test_one_edge(void **state) {
       strstr(program_out, "leaks     1 edge between unmarked nodes across the surface, length up to 0.75\n"));
 }
 
+/* Returns a box around the closed mitral valve, so coarse that its edges leak. */
+static plain_mesh box_of_mitral(int n) {
+  riis_surface *surface = make_surface("mitral", 0.1);
+  riis_surface_info info;
+  double lower[3], upper[3];
+  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
+  riis_surface_destroy(&surface);
+  for (int i = 0; i < 3; ++i) lower[i] = info.lower[i] - 0.33, upper[i] = info.upper[i] + 0.37;
+  return plain_hexahedra(n, lower, upper);
+}
+
+static riis_leak_list leaks_of_mitral(const char *name) {
+  riis_surface *surface = make_surface("mitral", 0.1);
+  const riis_leak_list leaks = leaks_by_c(name, surface);
+  riis_surface_destroy(&surface);
+  return leaks;
+}
+
+/* Copies 300 bytes that begin at this key in the run's output, and the run's warning about leaks. */
+static void keep(const char *key, char said[1000]) {
+  const char *const found = strstr(program_out, key);
+  assert_non_null(found);
+  snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
+}
+
+/* Runs the program with this mesh, far from the valve or around it. Expects that the program reports leaks as unknown for this
+ * reason. */
+static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
+  char text[512];
+  run_program("mark", scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
+  assert_int_equal(program_exit_code, exit_code);
+  snprintf(text, sizeof text, "riis: leaks of the surface are unknown: %s in %s\n", reason, scratch_path(name));
+  if (strstr(reason, "no volume"))
+    snprintf(text, sizeof text, "riis: leaks of the surface are unknown: %s %s\n", scratch_path(name), reason);
+  if (!strstr(program_err, text)) fail_msg("no '%s' in '%s'", text, program_err);
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_has_text(json, "n_leaking_edges", "null"));
+  assert_true(json_has_text(json, "longest_leaking_edge", "null"));
+  free(json);
+  run_program("mark", scratch_path(name), "--translate", place, NULL);
+  snprintf(text, sizeof text, "\nleaks     unknown: %s in the mesh\n", reason);
+  if (strstr(reason, "no volume")) snprintf(text, sizeof text, "\nleaks     unknown: the mesh %s\n", reason);
+  assert_non_null(strstr(program_out, text));
+}
+
+/* riis knows the edges of all cells in this zoo of cell types. */
+TEST(test_other_cells) {
+  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
+  RUN_FINE("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", "--allow-none", "--quiet", "--stats",
+           scratch_path("stats.json"));
+  char *json = scratch_read(scratch_path("stats.json"), NULL);
+  assert_true(json_number(json, "n_cells_without_known_edges") == 0);
+  assert_true(json_number(json, "n_volume_cells") == 3 * 8);
+  free(json);
+  run_program("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
+  assert_non_null(strstr(program_out, "\nleaks     none: no edge crosses the surface between unmarked nodes\n"));
+}
+
 /* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The number of digits depends on the
  * edge length, and the unit follows the coordinates. */
-static void test_places(void **state) {
-  (void)state;
+TEST(test_places) {
   const struct {
     double origin, edge;
     const char *unit, *half_thickness, *follows;
@@ -236,28 +288,63 @@ static void test_places(void **state) {
   }
 }
 
-/* Returns a box around the closed mitral valve, so coarse that its edges leak. */
-static plain_mesh box_of_mitral(int n) {
-  riis_surface *surface = make_surface("mitral", 0.1);
-  riis_surface_info info;
-  double lower[3], upper[3];
-  expect_fine(riis_surface_get_info(surface, &info, sizeof info));
-  riis_surface_destroy(&surface);
-  for (int i = 0; i < 3; ++i) lower[i] = info.lower[i] - 0.33, upper[i] = info.upper[i] + 0.37;
-  return plain_hexahedra(n, lower, upper);
+static void expect_warned(int exit_code) {
+  if (program_exit_code != exit_code || !(program_err[0] || program_leaks[0] || program_crossings[0]))
+    fail_msg("exit code %d, not %d; stderr: %s%s%s", program_exit_code, exit_code, program_err, program_leaks,
+             program_crossings);
 }
 
-static riis_leak_list leaks_of_mitral(const char *name) {
+/* Runs the program on input that gives a warning. The status is 0 without --strict, and 4 with --strict. */
+#define EXPECT_STRICT(...)                      \
+  do {                                          \
+    run_program(__VA_ARGS__, NULL);             \
+    expect_warned(0);                           \
+    run_program(__VA_ARGS__, "--strict", NULL); \
+    expect_warned(4);                           \
+  } while (0)
+
+/* Tests warnings of every kind, with and without --quiet. All outputs are written in every case. */
+TEST(test_strict) {
+  char fine[256], coarse[256];
   riis_surface *surface = make_surface("mitral", 0.1);
-  const riis_leak_list leaks = leaks_by_c(name, surface);
+  write_mesh("fine.vtu", surface, 0.2);
+  write_mesh("coarse.vtu", surface, 0.5);
   riis_surface_destroy(&surface);
-  return leaks;
+  snprintf(fine, sizeof fine, "%s", scratch_path("fine.vtu"));
+  snprintf(coarse, sizeof coarse, "%s", scratch_path("coarse.vtu"));
+  scratch_write_text("beat.csv", "0,0\n0.1,1\n0.2,0.5\n");
+  scratch_write_text("one.json", "{\"mesh\": \"coarse.vtu\", \"valves\": [{\"valve\": \"mitral\", \"opening\": 0}]}");
+#define MITRAL "--valve", "mitral"
+#define CLOSED MITRAL, "--opening", "0"
+  EXPECT_STRICT("mark", fine, CLOSED, "--half-thickness", "1.9", "--stats", scratch_path("s.json"));
+  EXPECT_STRICT("mark", coarse, CLOSED, "--output", scratch_path("marked.vtu"), "--quiet");
+  assert_true(scratch_exists("s.json") && scratch_exists("marked.vtu"));
+  EXPECT_STRICT("check", "leaks", fine, MITRAL, "--between", "0,0,0.7", "0,0,1.9");
+  EXPECT_STRICT("mark", fine, "--search", "paper", MITRAL);
+  EXPECT_STRICT("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0");
+  EXPECT_STRICT("mark", coarse, MITRAL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.1", "--output",
+                scratch_path("s.pvd"), "--quiet");
+  assert_true(scratch_exists("s/s_0001.vtu"));
+  EXPECT_STRICT("mark", "--case", scratch_path("one.json"), "--output", scratch_path("case.vtu"));
+  for (int strict = 0; strict < 2; ++strict) {
+    run_program("export", scratch_path(strict ? "strict" : "lenient"), MITRAL, "--resistance", "1e4", "--time-step",
+                "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1", "--closing-span", "0.1:0.2",
+                strict ? "--strict" : NULL, NULL);
+    expect_warned(strict ? 4 : 0);
+    assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
+  }
+  /* Without a warning the status is 0. A run without marks keeps its own status, even with --strict. */
+  RUN_FINE("mark", fine, CLOSED, "--strict");
+  assert_string_equal(program_leaks, "");
+  RUN_FINE("params", "--strict");
+  RUN_FINE("states", "-", MITRAL, "--count", "2", "--strict");
+  run_program("mark", fine, "--translate", "50,0,0", "--strict", NULL);
+  expect_warned(3);
 }
 
 /* Quadratic cells leak like the linear cells into which their nodes cut them. Each quadratic cell has one more inner edge than
  * those linear cells share. */
-static void test_quadratic_cells(void **state) {
-  (void)state;
+TEST(test_quadratic_cells) {
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
              cut = plain_cut(&quadratic, 8), corners = plain_cut(&quadratic, 4);
   plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
@@ -280,16 +367,8 @@ static void test_quadratic_cells(void **state) {
   plain_free(&corners);
 }
 
-/* Copies 300 bytes that begin at this key in the run's output, and the run's warning about leaks. */
-static void keep(const char *key, char said[1000]) {
-  const char *const found = strstr(program_out, key);
-  assert_non_null(found);
-  snprintf(said, 1000, "%.600s %.300s", program_leaks, found);
-}
-
 /* Hexahedra that are stored as polyhedra, in either layout, have the leaks and the passage of plain hexahedra. */
-static void test_polyhedra(void **state) {
-  (void)state;
+TEST(test_polyhedra) {
   static const char *const names[3] = {"cells.vtu", "streams.vtu", "lists.vtu"};
   static char said[3][2][1000];
   plain_mesh hexahedra = box_of_mitral(9);
@@ -308,29 +387,8 @@ static void test_polyhedra(void **state) {
   plain_free(&hexahedra);
 }
 
-/* Runs the program with this mesh, far from the valve or around it. Expects that the program reports leaks as unknown for this
- * reason. */
-static void expect_unknown(const char *name, const char *place, int exit_code, const char *reason) {
-  char text[512];
-  run_program("mark", scratch_path(name), "--translate", place, "--quiet", "--stats", scratch_path("stats.json"), NULL);
-  assert_int_equal(program_exit_code, exit_code);
-  snprintf(text, sizeof text, "riis: leaks of the surface are unknown: %s in %s\n", reason, scratch_path(name));
-  if (strstr(reason, "no volume"))
-    snprintf(text, sizeof text, "riis: leaks of the surface are unknown: %s %s\n", scratch_path(name), reason);
-  if (!strstr(program_err, text)) fail_msg("no '%s' in '%s'", text, program_err);
-  char *json = scratch_read(scratch_path("stats.json"), NULL);
-  assert_true(json_has_text(json, "n_leaking_edges", "null"));
-  assert_true(json_has_text(json, "longest_leaking_edge", "null"));
-  free(json);
-  run_program("mark", scratch_path(name), "--translate", place, NULL);
-  snprintf(text, sizeof text, "\nleaks     unknown: %s in the mesh\n", reason);
-  if (strstr(reason, "no volume")) snprintf(text, sizeof text, "\nleaks     unknown: the mesh %s\n", reason);
-  assert_non_null(strstr(program_out, text));
-}
-
 /* Leaks are unknown in a cloud of points, in a mesh of triangles, and if riis does not know the edges of a cell. */
-static void test_unknown(void **state) {
-  (void)state;
+TEST(test_unknown) {
   static const char *const cells[4] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n",
                                        "CELLS 1 7\n6 0 1 2 3 4 5\nCELL_TYPES 1\n41\n",
                                        "CELLS 2 12\n6 0 1 2 3 4 5\n4 0 1 2 3\nCELL_TYPES 2\n41\n10\n"};
@@ -371,88 +429,4 @@ static void test_unknown(void **state) {
   free(json);
 }
 
-/* riis knows the edges of all cells in this zoo of cell types. */
-static void test_other_cells(void **state) {
-  (void)state;
-  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
-  RUN_FINE("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", "--allow-none", "--quiet", "--stats",
-           scratch_path("stats.json"));
-  char *json = scratch_read(scratch_path("stats.json"), NULL);
-  assert_true(json_number(json, "n_cells_without_known_edges") == 0);
-  assert_true(json_number(json, "n_volume_cells") == 3 * 8);
-  free(json);
-  run_program("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
-  assert_non_null(strstr(program_out, "\nleaks     none: no edge crosses the surface between unmarked nodes\n"));
-}
-
-static void expect_warned(int exit_code) {
-  if (program_exit_code != exit_code || !(program_err[0] || program_leaks[0] || program_crossings[0]))
-    fail_msg("exit code %d, not %d; stderr: %s%s%s", program_exit_code, exit_code, program_err, program_leaks,
-             program_crossings);
-}
-
-/* Runs the program on input that gives a warning. The status is 0 without --strict, and 4 with --strict. */
-#define EXPECT_STRICT(...)                      \
-  do {                                          \
-    run_program(__VA_ARGS__, NULL);             \
-    expect_warned(0);                           \
-    run_program(__VA_ARGS__, "--strict", NULL); \
-    expect_warned(4);                           \
-  } while (0)
-
-/* Tests warnings of every kind, with and without --quiet. All outputs are written in every case. */
-static void test_strict(void **state) {
-  (void)state;
-  char fine[256], coarse[256];
-  riis_surface *surface = make_surface("mitral", 0.1);
-  write_mesh("fine.vtu", surface, 0.2);
-  write_mesh("coarse.vtu", surface, 0.5);
-  riis_surface_destroy(&surface);
-  snprintf(fine, sizeof fine, "%s", scratch_path("fine.vtu"));
-  snprintf(coarse, sizeof coarse, "%s", scratch_path("coarse.vtu"));
-  scratch_write_text("beat.csv", "0,0\n0.1,1\n0.2,0.5\n");
-  scratch_write_text("one.json", "{\"mesh\": \"coarse.vtu\", \"valves\": [{\"valve\": \"mitral\", \"opening\": 0}]}");
-#define MITRAL "--valve", "mitral"
-#define CLOSED MITRAL, "--opening", "0"
-  EXPECT_STRICT("mark", fine, CLOSED, "--half-thickness", "1.9", "--stats", scratch_path("s.json"));
-  EXPECT_STRICT("mark", coarse, CLOSED, "--output", scratch_path("marked.vtu"), "--quiet");
-  assert_true(scratch_exists("s.json") && scratch_exists("marked.vtu"));
-  EXPECT_STRICT("check", "leaks", fine, MITRAL, "--between", "0,0,0.7", "0,0,1.9");
-  EXPECT_STRICT("mark", fine, "--search", "paper", MITRAL);
-  EXPECT_STRICT("check", "crossings", "--set", "right.rotation=0,0,60", "--opening", "0");
-  EXPECT_STRICT("mark", coarse, MITRAL, "--cycle", scratch_path("beat.csv"), "--times", "0,0.1", "--output",
-                scratch_path("s.pvd"), "--quiet");
-  assert_true(scratch_exists("s/s_0001.vtu"));
-  EXPECT_STRICT("mark", "--case", scratch_path("one.json"), "--output", scratch_path("case.vtu"));
-  for (int strict = 0; strict < 2; ++strict) {
-    run_program("export", scratch_path(strict ? "strict" : "lenient"), MITRAL, "--resistance", "1e4", "--time-step",
-                "0.05", "--cycle", scratch_path("beat.csv"), "--opening-span", "0:0.1", "--closing-span", "0.1:0.2",
-                strict ? "--strict" : NULL, NULL);
-    expect_warned(strict ? 4 : 0);
-    assert_true(scratch_exists(strict ? "strict/normal.dat" : "lenient/normal.dat"));
-  }
-  /* Without a warning the status is 0. A run without marks keeps its own status, even with --strict. */
-  RUN_FINE("mark", fine, CLOSED, "--strict");
-  assert_string_equal(program_leaks, "");
-  RUN_FINE("params", "--strict");
-  RUN_FINE("states", "-", MITRAL, "--count", "2", "--strict");
-  run_program("mark", fine, "--translate", "50,0,0", "--strict", NULL);
-  expect_warned(3);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_coarse_meshes_leak),
-      cmocka_unit_test(test_fine_meshes_do_not),
-      cmocka_unit_test(test_surface_from_file),
-      cmocka_unit_test(test_searches_and_distances),
-      cmocka_unit_test(test_one_edge),
-      cmocka_unit_test(test_other_cells),
-      cmocka_unit_test(test_places),
-      cmocka_unit_test(test_strict),
-      cmocka_unit_test(test_quadratic_cells),
-      cmocka_unit_test(test_polyhedra),
-      cmocka_unit_test(test_unknown),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -11,8 +11,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-static void test_defaults(void **state) {
-  (void)state;
+TEST(test_defaults) {
   riis_valve *valve = NULL;
   expect_fine(riis_valve_create("aortic", &valve));
   mark_by_c(valve, NULL, RIIS_AUTO, RIIS_FAR_DISTANCE);
@@ -25,8 +24,7 @@ static void test_defaults(void **state) {
   assert_non_null(strstr(program_out, "aortic valve"));
 }
 
-static void test_every_number(void **state) {
-  (void)state;
+TEST(test_every_number) {
   riis_valve *valve = NULL;
   riis_surface_options options;
   expect_fine(riis_valve_create("aortic", &valve));
@@ -79,16 +77,14 @@ static void test_every_number(void **state) {
   free(json);
 }
 
-static void test_stats_on_stdout(void **state) {
-  (void)state;
+TEST(test_stats_on_stdout) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");
   assert_true(program_out[0] == '{' && strcmp(program_out + strlen(program_out) - 3, "\n}\n") == 0);
   assert_true(json_number(program_out, "n_nodes") == n_box);
 }
 
 /* The written surface, read again by --surface, gives the same marks, triangles and leaflets. */
-static void test_surface_from_file(void **state) {
-  (void)state;
+TEST(test_surface_from_file) {
   riis_valve *valve = NULL;
   riis_surface_options options;
   expect_fine(riis_valve_create("aortic", &valve));
@@ -104,8 +100,7 @@ static void test_surface_from_file(void **state) {
   assert_non_null(strstr(program_out, "out.vtp: "));
 }
 
-static void test_one_of_each(void **state) {
-  (void)state;
+TEST(test_one_of_each) {
   scratch_write_text("one.vtk",
                      "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\n"
                      "CELLS 1 2\n1 0\nCELL_TYPES 1\n1\n");
@@ -120,8 +115,7 @@ static void test_one_of_each(void **state) {
 }
 
 /* A run without marks has its own exit code, unless the user allows it. All requested files are written. */
-static void test_no_marks(void **state) {
-  (void)state;
+TEST(test_no_marks) {
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--stats", scratch_path("none.json"), "--output",
               scratch_path("none.vtu"), NULL);
   assert_int_equal(program_exit_code, 3);
@@ -141,8 +135,7 @@ static void test_no_marks(void **state) {
   assert_non_null(strstr(program_err, "riis: no node is marked"));
 }
 
-static void test_legacy_mesh(void **state) {
-  (void)state;
+TEST(test_legacy_mesh) {
   const double lower[3] = {-1.5, -1.5, -1}, upper[3] = {1.5, 1.5, 0};
   assert_int_equal(shim_write_box(scratch_path("in.vtk"), SHIM_LEGACY_BINARY, 6, lower, upper, 0), 1);
   RUN_FINE("mark", scratch_path("in.vtk"), "--output", scratch_path("from_legacy.vtu"), "--half-thickness", "0.3");
@@ -156,12 +149,4 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_defaults),        cmocka_unit_test(test_every_number),
-      cmocka_unit_test(test_stats_on_stdout), cmocka_unit_test(test_surface_from_file),
-      cmocka_unit_test(test_one_of_each),     cmocka_unit_test(test_no_marks),
-      cmocka_unit_test(test_legacy_mesh),
-  };
-  return cmocka_run_group_tests(tests, make_box, destroy_all);
-}
+int main(void) { return run_cases(make_box, destroy_all); }

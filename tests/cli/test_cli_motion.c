@@ -49,8 +49,7 @@ static void expect_sheet(const char *path, double time, double speed, double sca
   }
 }
 
-static void test_times(void **state) {
-  (void)state;
+TEST(test_times) {
   const char *moved = scratch_path("moved.vtp");
   RUN_FINE("surface", "--surface", scratch_path("sheet.pvd"), "--time", "2.125", "--output", moved);
   expect_sheet(moved, 0.125, 1, 1);
@@ -67,8 +66,7 @@ static void test_times(void **state) {
 }
 
 /* The marks equal the marks of a file that holds the surface at this time. */
-static void test_marks(void **state) {
-  (void)state;
+TEST(test_marks) {
   static double by_motion[n_box], by_file[n_box];
   sheet_write("now.vtp", 0.25, NULL);
   RUN_FINE("mark", scratch_path("in.vtu"), "--surface", scratch_path("sheet.pvd"), "--time", "2.25", "--half-thickness",
@@ -91,8 +89,7 @@ static void test_marks(void **state) {
   free(stats);
 }
 
-static void test_usage(void **state) {
-  (void)state;
+TEST(test_usage) {
   const char *motion = scratch_path("sheet.pvd"), *still = scratch_path("a.vtp"), *moved = scratch_path("moved.vtp");
   RUN_REFUSED(2, "sheet.pvd is a motion: it needs --time T", "surface", "--surface", motion, "--output", moved);
   RUN_REFUSED(2, "--time has no effect with --surface", "surface", "--surface", still, "--time", "0", "--output",
@@ -119,8 +116,7 @@ static void test_usage(void **state) {
               scratch_path("b.vtp"));
 }
 
-static void test_bad_data(void **state) {
-  (void)state;
+TEST(test_bad_data) {
   const char *moved = scratch_path("moved.vtp");
   RUN_REFUSED(1, "missing.pvd: cannot be read: No such file", "surface", "--surface", scratch_path("missing.pvd"),
               "--time", "0", "--output", moved);
@@ -133,12 +129,4 @@ static void test_bad_data(void **state) {
               "--leaflets", "part", "--output", moved);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_times),
-      cmocka_unit_test(test_marks),
-      cmocka_unit_test(test_usage),
-      cmocka_unit_test(test_bad_data),
-  };
-  return cmocka_run_group_tests(tests, make_frames, scratch_teardown);
-}
+int main(void) { return run_cases(make_frames, scratch_teardown); }

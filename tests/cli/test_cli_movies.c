@@ -68,8 +68,7 @@ static void expect_whole_picture(const char *name) {
 }
 
 /* Uses a fake encoder that copies the frames it gets. */
-static void test_frames(void **state) {
-  (void)state;
+TEST(test_frames) {
   static const char *const names[n_frames] = {"f/frame_000000.png", "f/frame_000001.png", "f/frame_000002.png",
                                               "f/frame_000003.png"};
   use_scratch_for_frames();
@@ -98,8 +97,7 @@ static void test_frames(void **state) {
 }
 
 /* If the encoder fails, the refusal quotes its last lines. Neither a movie nor frames are left. */
-static void test_failing_encoder(void **state) {
-  (void)state;
+TEST(test_failing_encoder) {
   use_scratch_for_frames();
   scratch_write_text("kept.gif", "before");
   char *before = put_program("#!/bin/sh\necho first >&2\necho 'no such encoder' >&2\nexit 7\n");
@@ -127,8 +125,7 @@ static int n_frames_there(void) {
 }
 
 /* After Ctrl-C between two frames there is no movie and no frame. The meshes written so far stay. */
-static void test_interruption(void **state) {
-  (void)state;
+TEST(test_interruption) {
   use_scratch_for_frames();
   char *before = put_program("#!/bin/sh\nexit 0\n");
   scratch_write_text("cycle.csv", "0,0\n1,1\n");
@@ -147,8 +144,7 @@ static void test_interruption(void **state) {
 }
 
 /* If the real ffmpeg is installed, it decodes as many frames as there are times. */
-static void test_movie(void **state) {
-  (void)state;
+TEST(test_movie) {
   char command[1024], words[64] = "";
   if (system("command -v ffmpeg ffprobe >/dev/null") != 0) skip();
   use_scratch_for_frames();
@@ -171,11 +167,5 @@ static int make_mitral_box(void **state) { return make_box_of(state, (double[3])
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_frames),
-      cmocka_unit_test(test_failing_encoder),
-      cmocka_unit_test(test_interruption),
-      cmocka_unit_test(test_movie),
-  };
-  return cmocka_run_group_tests(tests, make_mitral_box, scratch_teardown);
+  return run_cases(make_mitral_box, scratch_teardown);
 }

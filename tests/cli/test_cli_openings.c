@@ -38,8 +38,7 @@ static void expect_outputs(void) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", half_thickness, "--output", scratch_path("out.vtu"), \
            "--surface-output", scratch_path("out.vtp"), __VA_ARGS__)
 
-static void test_mitral(void **state) {
-  (void)state;
+TEST(test_mitral) {
   riis_valve *valve = make_valve("mitral");
   int64_t n_marked[3];
   for (int i = 0; i < 3; ++i) {
@@ -71,8 +70,7 @@ static void test_mitral(void **state) {
   riis_valve_destroy(&valve);
 }
 
-static void test_bileaflet(void **state) {
-  (void)state;
+TEST(test_bileaflet) {
   riis_valve *valve = make_valve("bileaflet");
   for (int i = 0; i < 3; ++i) {
     mark_at(valve, openings[i]);
@@ -95,8 +93,7 @@ static void test_bileaflet(void **state) {
 }
 
 /* Tests the kinds that open without a second file. */
-static void test_own_open_states(void **state) {
-  (void)state;
+TEST(test_own_open_states) {
   static const char *const kinds[3] = {"aortic", "trileaflet", "coapting"};
   for (int k = 0; k < 3; ++k) {
     riis_valve *valve = make_valve(kinds[k]);
@@ -110,8 +107,7 @@ static void test_own_open_states(void **state) {
 }
 
 /* Two parameter files define the closed and the open state. */
-static void test_aortic(void **state) {
-  (void)state;
+TEST(test_aortic) {
   riis_valve *closed = make_valve("aortic"), *open = make_valve("aortic");
   expect_fine(riis_valve_set_scalar(closed, "leaflet_angle", 68));
   expect_fine(riis_valve_set_scalar(closed, "root_radius", 1.25));
@@ -137,8 +133,7 @@ static void test_aortic(void **state) {
 }
 
 /* Half way between two states, the area lies between the states' areas. */
-static void test_between(void **state) {
-  (void)state;
+TEST(test_between) {
   scratch_write_text("open.json", "{\"leaflet_angle\": 50}");
   double area[3];
   for (int i = 0; i < 3; ++i) {
@@ -151,8 +146,7 @@ static void test_between(void **state) {
 }
 
 /* With two files, the closed curves come from the first and the open curves from the second. */
-static void test_mitral_states(void **state) {
-  (void)state;
+TEST(test_mitral_states) {
   riis_valve *valve = make_valve("mitral"), *open = make_valve("mitral");
   expect_fine(riis_valve_set_scalar(valve, "anterior_horn_height", 0.5));
   expect_fine(riis_valve_set_scalar(open, "leaflet_inward_angle", 85));
@@ -169,8 +163,7 @@ static void test_mitral_states(void **state) {
   riis_valve_destroy(&open);
 }
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   char mesh[256], file[256]; /* copies, since scratch_path keeps its result only for a few calls */
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
   snprintf(file, sizeof file, "%s", scratch_path("p.json"));
@@ -212,11 +205,4 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mitral),   cmocka_unit_test(test_bileaflet), cmocka_unit_test(test_own_open_states),
-      cmocka_unit_test(test_aortic),   cmocka_unit_test(test_between),   cmocka_unit_test(test_mitral_states),
-      cmocka_unit_test(test_refusals),
-  };
-  return cmocka_run_group_tests(tests, make_mitral_box, destroy_all);
-}
+int main(void) { return run_cases(make_mitral_box, destroy_all); }

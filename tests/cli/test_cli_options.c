@@ -12,8 +12,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-static void test_version(void **state) {
-  (void)state;
+TEST(test_version) {
   RUN_FINE("--version");
   char expected[64];
   snprintf(expected, sizeof expected, "riis %s\n", riis_version_string());
@@ -31,8 +30,7 @@ static int lines_of(const char *text) {
 }
 
 /* Each command has its own options and examples, which fit on about one screen. */
-static void test_help(void **state) {
-  (void)state;
+TEST(test_help) {
   static const struct {
     const char *command, *option[10];
   } helps[] = {
@@ -61,8 +59,7 @@ static void test_help(void **state) {
 }
 
 /* The list names every topic, and each topic is explained. */
-static void test_topics(void **state) {
-  (void)state;
+TEST(test_topics) {
   RUN_FINE("help");
   char *list = strdup(program_out), *next = NULL;
   int n = 0;
@@ -85,9 +82,18 @@ static void test_topics(void **state) {
   expect_printed("\"patches\"");
 }
 
+/* An option takes one value. The argument after the value is the mesh. */
+TEST(test_order) {
+  RUN_FINE("mark", "--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");
+  assert_true(json_number(program_out, "n_nodes") == n_box);
+  RUN_FINE("mark", "--stats=-", "--half-thickness=0.3", scratch_path("in.vtu"));
+  assert_true(json_number(program_out, "half_thickness") == 0.3);
+  RUN_FINE("mark", "--stats=-", "--translate=-.5,+1,0", "--", scratch_path("in.vtu"));
+  assert_true(json_number(program_out, "n_nodes") == n_box);
+}
+
 /* The program fails if it cannot print its output. */
-static void test_no_stdout(void **state) {
-  (void)state;
+TEST(test_no_stdout) {
   const char *places[] = {"/dev/full", ""};
   for (int i = 0; i < 2; ++i) {
     program_stdout = places[i];
@@ -99,19 +105,7 @@ static void test_no_stdout(void **state) {
   program_stdout = NULL;
 }
 
-/* An option takes one value. The argument after the value is the mesh. */
-static void test_order(void **state) {
-  (void)state;
-  RUN_FINE("mark", "--set", "root_radius=1.29", scratch_path("in.vtu"), "--stats", "-");
-  assert_true(json_number(program_out, "n_nodes") == n_box);
-  RUN_FINE("mark", "--stats=-", "--half-thickness=0.3", scratch_path("in.vtu"));
-  assert_true(json_number(program_out, "half_thickness") == 0.3);
-  RUN_FINE("mark", "--stats=-", "--translate=-.5,+1,0", "--", scratch_path("in.vtu"));
-  assert_true(json_number(program_out, "n_nodes") == n_box);
-}
-
-static void test_skip_zero_area(void **state) {
-  (void)state;
+TEST(test_skip_zero_area) {
   scratch_write_text(
       "flat.stl",
       "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -122,9 +116,16 @@ static void test_skip_zero_area(void **state) {
   assert_true(json_number(program_out, "area") == 0.5);
 }
 
+/* Numbers are read and written with a decimal point, whatever the locale. */
+TEST(test_locale) {
+  setenv("LC_ALL", "de_DE.UTF-8", 1);
+  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.25", "--stats", "-");
+  unsetenv("LC_ALL");
+  assert_true(json_number(program_out, "half_thickness") == 0.25);
+}
+
 /* The program's name alone prints a few lines with commands to type, and no error message. */
-static void test_no_arguments(void **state) {
-  (void)state;
+TEST(test_no_arguments) {
   run_program(NULL);
   assert_int_equal(program_exit_code, 2);
   assert_string_equal(program_out, "");
@@ -134,18 +135,8 @@ static void test_no_arguments(void **state) {
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) assert_non_null(strstr(program_err, parts[i]));
 }
 
-/* Numbers are read and written with a decimal point, whatever the locale. */
-static void test_locale(void **state) {
-  (void)state;
-  setenv("LC_ALL", "de_DE.UTF-8", 1);
-  RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.25", "--stats", "-");
-  unsetenv("LC_ALL");
-  assert_true(json_number(program_out, "half_thickness") == 0.25);
-}
-
 /* riis view hands its words to Python's riis. Without that package it says how to install it. The Python here is a script. */
-static void test_view(void **state) {
-  (void)state;
+TEST(test_view) {
   const char *python = scratch_path("python");
   FILE *file = fopen(python, "w");
   assert_non_null(file);
@@ -166,11 +157,4 @@ static void test_view(void **state) {
   unsetenv("RIIS_PYTHON");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_version), cmocka_unit_test(test_help),         cmocka_unit_test(test_topics),
-      cmocka_unit_test(test_order),   cmocka_unit_test(test_no_stdout),    cmocka_unit_test(test_skip_zero_area),
-      cmocka_unit_test(test_locale),  cmocka_unit_test(test_no_arguments), cmocka_unit_test(test_view),
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

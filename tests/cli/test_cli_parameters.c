@@ -54,8 +54,7 @@ static void expect_template(const char *kind) {
   assert_string_equal(program_out, defaults);
 }
 
-static void test_template(void **state) {
-  (void)state;
+TEST(test_template) {
   expect_template("mitral");
   assert_true(json_number(program_out, "ALPM_diameter") == 4);
   assert_true(json_number(program_out, "opening") == 1);
@@ -72,8 +71,7 @@ static void test_template(void **state) {
   assert_string_equal(program_out, aortic);
 }
 
-static void test_json_forms(void **state) {
-  (void)state;
+TEST(test_json_forms) {
   scratch_write_text("p.json",
                      "{\"root_radius\": 1.3, \"right\": {\"leaflet_angle\": 60}, \"left.leaflet_angle\": 59}");
   RUN_FINE("params", "--params", scratch_path("p.json"));
@@ -84,8 +82,7 @@ static void test_json_forms(void **state) {
 }
 
 /* A value given for one cusp overrides the value for all cusps, in any order in the file. */
-static void test_json_order(void **state) {
-  (void)state;
+TEST(test_json_order) {
   const char *files[3] = {"{\"right.translation\": [1, 2, 3], \"translation\": [7, 8, 9]}",
                           "{\"translation\": [7, 8, 9], \"right.translation\": [1, 2, 3]}",
                           "{\"right\": {\"translation\": [1, 2, 3]}, \"translation\": [7, 8, 9]}"};
@@ -99,8 +96,7 @@ static void test_json_order(void **state) {
 }
 
 /* --set is applied after the file, strictly from left to right. */
-static void test_set_order(void **state) {
-  (void)state;
+TEST(test_set_order) {
   scratch_write_text("p.json", "{\"right.translation\": [1, 2, 3]}");
   RUN_FINE("params", "--set", "translation=4,5,6", "--params", scratch_path("p.json"));
   assert_true(first_in_cusp(program_out, "right", "translation") == 4);
@@ -112,8 +108,7 @@ static void test_set_order(void **state) {
 }
 
 /* Changing a parameter changes the surface. */
-static void test_surface_changes(void **state) {
-  (void)state;
+TEST(test_surface_changes) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "-");
   const double area = json_number(program_out, "area");
   scratch_write_text("p.json", "{\"right\": {\"leaflet_angle\": 55}}");
@@ -124,8 +119,7 @@ static void test_surface_changes(void **state) {
   assert_true(from_file < area - 0.01);
 }
 
-static void test_json_refusals(void **state) {
-  (void)state;
+TEST(test_json_refusals) {
   const struct {
     const char *json, *text;
   } files[] = {
@@ -165,8 +159,7 @@ static void test_json_refusals(void **state) {
 }
 
 /* A file with deep nesting or very long strings is refused with one line. */
-static void test_json_sizes(void **state) {
-  (void)state;
+TEST(test_json_sizes) {
   enum { depth = 1000000, length = 100000 };
   static char text[2 * depth + 64];
   const char *opening[] = {"[", "{\"a\":"}, *closing[] = {"]", "}"};
@@ -193,9 +186,86 @@ static void test_json_sizes(void **state) {
   }
 }
 
+TEST(test_set_refusals) {
+  RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "params", "--set", "root_radius");
+  RUN_REFUSED(2, "--set: '=3' is not NAME=VALUE", "params", "--set", "=3");
+  RUN_REFUSED(2, "--set root_radius: '' is not a number", "params", "--set", "root_radius=");
+  RUN_REFUSED(2, "--set root_radius: '1.3cm' is not a number", "params", "--set", "root_radius=1.3cm");
+  RUN_REFUSED(2, "--set translation: '' is not a number", "params", "--set", "translation=1,,3");
+  RUN_REFUSED(1, "root_diameter", "params", "--set", "root_diameter=2");
+  RUN_REFUSED(1, "root_radius", "params", "--set", "root_radius=1,2,3");
+  RUN_REFUSED(1, "root_radius", "params", "--set", "root_radius=nan");
+  RUN_REFUSED(1, "right.leaflet_power", "params", "--set", "right.leaflet_power=0.5");
+}
+
+/* The table has a line for every parameter, with its current value, unit, range and description. */
+static void expect_table(const char *kind) {
+  RUN_FINE("params", "--describe", "--valve", kind);
+  riis_valve *valve = NULL;
+  int64_t n = 0, n_lines = 0;
+  assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
+  assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
+  for (const char *c = program_out; *c; ++c) n_lines += *c == '\n';
+  assert_int_equal(n_lines, n + 1);
+  const char *line = strchr(program_out, '\n') + 1;
+  for (int64_t i = 0; i < n; ++i, line = strchr(line, '\n') + 1) {
+    riis_parameter parameter;
+    char value[128] = "", range[64], name[64], shown_value[128], unit[16];
+    assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
+    for (int64_t k = 0; k < parameter.n_values; ++k)
+      snprintf(value + strlen(value), sizeof value - strlen(value), "%s%g", k ? "," : "", parameter.default_values[k]);
+    snprintf(range, sizeof range, " %g to %g ", parameter.minimum, parameter.maximum);
+    assert_int_equal(sscanf(line, "%63s %127s %15s", name, shown_value, unit), 3);
+    assert_string_equal(name, parameter.name);
+    assert_string_equal(shown_value, value);
+    assert_string_equal(unit, strcmp(parameter.unit, "length") == 0 ? "cm"
+                              : strcmp(parameter.unit, "1") == 0    ? "-"
+                                                                    : "degree");
+    char description[512];
+    size_t length = (size_t)snprintf(description, sizeof description, "%s", parameter.description);
+    if (*parameter.rule)
+      length += (size_t)snprintf(description + length, sizeof description - length, "; unless set: %s", parameter.rule);
+    if (*parameter.other_name) {
+      const char *dot = strrchr(parameter.name, '.');
+      length += (size_t)snprintf(description + length, sizeof description - length, "; %.*s%s = %s%s",
+                                 dot ? (int)(dot + 1 - parameter.name) : 0, parameter.name, parameter.other_name,
+                                 parameter.other_factor > 1 ? "2 " : "", parameter.name);
+    }
+    const char *end = strchr(line, '\n'), *shown = strstr(line, description);
+    assert_non_null(strstr(line, range));
+    assert_true(shown && shown + length == end);
+  }
+  riis_valve_destroy(&valve);
+}
+
+TEST(test_table) {
+  expect_table("aortic");
+  expect_table("mitral");
+  expect_table("trileaflet");
+  assert_non_null(strstr(program_out, "; unless set: 0.32 root_radius\n"));
+  assert_non_null(strstr(program_out, "; annulus = 2 root_radius\n"));
+  expect_table("bileaflet");
+  RUN_FINE("params", "--describe", "--set", "root_radius=1.3", "--set", "translation=1,2,3", "--opening", "0.5");
+  assert_non_null(strstr(program_out, "root_radius"));
+  assert_non_null(strstr(program_out, " 1.3 "));
+  assert_non_null(strstr(program_out, " 1,2,3 "));
+  assert_non_null(strstr(program_out, " 0.5 "));
+}
+
+/* A refusal of an unknown name suggests a similar name. */
+TEST(test_near_names) {
+  RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?", "params",
+              "--set", "leaflet_angel=60");
+  RUN_REFUSED(1, "did you mean 'right.leaflet_angle'?", "params", "--set", "right.leafletangle=60");
+  RUN_REFUSED(1, "did you mean 'AP_diameter'?", "params", "--valve", "mitral", "--set", "ap_diameter=3");
+  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_get_parameter", "params", "--set",
+              "colour=3");
+  scratch_write_text("p.json", "{\"rootradius\": 1}");
+  RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
+}
+
 /* Sizes by a surgeon's names, from options and files. Sizes that are not set follow, and the template has their values. */
-static void test_named_sizes(void **state) {
-  (void)state;
+TEST(test_named_sizes) {
   static char by_options[longest_output];
   RUN_FINE("params", "--valve", "trileaflet", "--set", "effective_height=1", "--set", "stj=2.6", "--set",
            "annulus=2.3");
@@ -265,93 +335,4 @@ static void test_named_sizes(void **state) {
   RUN_REFUSED(1, "did you mean 'annulus'?", "params", "--set", "anulus=2.5");
 }
 
-/* The table has a line for every parameter, with its current value, unit, range and description. */
-static void expect_table(const char *kind) {
-  RUN_FINE("params", "--describe", "--valve", kind);
-  riis_valve *valve = NULL;
-  int64_t n = 0, n_lines = 0;
-  assert_int_equal(riis_valve_create(kind, &valve), RIIS_OK);
-  assert_int_equal(riis_valve_get_n_parameters(valve, &n), RIIS_OK);
-  for (const char *c = program_out; *c; ++c) n_lines += *c == '\n';
-  assert_int_equal(n_lines, n + 1);
-  const char *line = strchr(program_out, '\n') + 1;
-  for (int64_t i = 0; i < n; ++i, line = strchr(line, '\n') + 1) {
-    riis_parameter parameter;
-    char value[128] = "", range[64], name[64], shown_value[128], unit[16];
-    assert_int_equal(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter), RIIS_OK);
-    for (int64_t k = 0; k < parameter.n_values; ++k)
-      snprintf(value + strlen(value), sizeof value - strlen(value), "%s%g", k ? "," : "", parameter.default_values[k]);
-    snprintf(range, sizeof range, " %g to %g ", parameter.minimum, parameter.maximum);
-    assert_int_equal(sscanf(line, "%63s %127s %15s", name, shown_value, unit), 3);
-    assert_string_equal(name, parameter.name);
-    assert_string_equal(shown_value, value);
-    assert_string_equal(unit, strcmp(parameter.unit, "length") == 0 ? "cm"
-                              : strcmp(parameter.unit, "1") == 0    ? "-"
-                                                                    : "degree");
-    char description[512];
-    size_t length = (size_t)snprintf(description, sizeof description, "%s", parameter.description);
-    if (*parameter.rule)
-      length += (size_t)snprintf(description + length, sizeof description - length, "; unless set: %s", parameter.rule);
-    if (*parameter.other_name) {
-      const char *dot = strrchr(parameter.name, '.');
-      length += (size_t)snprintf(description + length, sizeof description - length, "; %.*s%s = %s%s",
-                                 dot ? (int)(dot + 1 - parameter.name) : 0, parameter.name, parameter.other_name,
-                                 parameter.other_factor > 1 ? "2 " : "", parameter.name);
-    }
-    const char *end = strchr(line, '\n'), *shown = strstr(line, description);
-    assert_non_null(strstr(line, range));
-    assert_true(shown && shown + length == end);
-  }
-  riis_valve_destroy(&valve);
-}
-
-static void test_table(void **state) {
-  (void)state;
-  expect_table("aortic");
-  expect_table("mitral");
-  expect_table("trileaflet");
-  assert_non_null(strstr(program_out, "; unless set: 0.32 root_radius\n"));
-  assert_non_null(strstr(program_out, "; annulus = 2 root_radius\n"));
-  expect_table("bileaflet");
-  RUN_FINE("params", "--describe", "--set", "root_radius=1.3", "--set", "translation=1,2,3", "--opening", "0.5");
-  assert_non_null(strstr(program_out, "root_radius"));
-  assert_non_null(strstr(program_out, " 1.3 "));
-  assert_non_null(strstr(program_out, " 1,2,3 "));
-  assert_non_null(strstr(program_out, " 0.5 "));
-}
-
-/* A refusal of an unknown name suggests a similar name. */
-static void test_near_names(void **state) {
-  (void)state;
-  RUN_REFUSED(1, "'leaflet_angel' is not a parameter of the aortic valve; did you mean 'leaflet_angle'?", "params",
-              "--set", "leaflet_angel=60");
-  RUN_REFUSED(1, "did you mean 'right.leaflet_angle'?", "params", "--set", "right.leafletangle=60");
-  RUN_REFUSED(1, "did you mean 'AP_diameter'?", "params", "--valve", "mitral", "--set", "ap_diameter=3");
-  RUN_REFUSED(1, "'colour' is not a parameter of the aortic valve; riis_valve_get_parameter", "params", "--set",
-              "colour=3");
-  scratch_write_text("p.json", "{\"rootradius\": 1}");
-  RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
-}
-
-static void test_set_refusals(void **state) {
-  (void)state;
-  RUN_REFUSED(2, "--set: 'root_radius' is not NAME=VALUE", "params", "--set", "root_radius");
-  RUN_REFUSED(2, "--set: '=3' is not NAME=VALUE", "params", "--set", "=3");
-  RUN_REFUSED(2, "--set root_radius: '' is not a number", "params", "--set", "root_radius=");
-  RUN_REFUSED(2, "--set root_radius: '1.3cm' is not a number", "params", "--set", "root_radius=1.3cm");
-  RUN_REFUSED(2, "--set translation: '' is not a number", "params", "--set", "translation=1,,3");
-  RUN_REFUSED(1, "root_diameter", "params", "--set", "root_diameter=2");
-  RUN_REFUSED(1, "root_radius", "params", "--set", "root_radius=1,2,3");
-  RUN_REFUSED(1, "root_radius", "params", "--set", "root_radius=nan");
-  RUN_REFUSED(1, "right.leaflet_power", "params", "--set", "right.leaflet_power=0.5");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_template),   cmocka_unit_test(test_json_forms),      cmocka_unit_test(test_json_order),
-      cmocka_unit_test(test_set_order),  cmocka_unit_test(test_surface_changes), cmocka_unit_test(test_json_refusals),
-      cmocka_unit_test(test_json_sizes), cmocka_unit_test(test_set_refusals),    cmocka_unit_test(test_table),
-      cmocka_unit_test(test_near_names), cmocka_unit_test(test_named_sizes),
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

@@ -64,8 +64,7 @@ static riis_passage passage_by_c(void) {
 }
 
 /* The advised command works when it is typed as printed. */
-static void test_open_valve(void **state) {
-  (void)state;
+TEST(test_open_valve) {
   const riis_passage passage = passage_by_c();
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--stats", "-");
   assert_true(json_has_text(program_out, "state", "\"open\""));
@@ -84,8 +83,7 @@ static void test_open_valve(void **state) {
 }
 
 /* The measures of valve and mesh for the flow equal the results of the library's calls. */
-static void test_flow(void **state) {
-  (void)state;
+TEST(test_flow) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, "--valve", "trileaflet", "--opening", "0",
            "--first-passage", "--resistance", "500", "--drop", "20", "--stats", "-");
   const char *const orifice = strstr(program_out, "\"orifice\""),
@@ -127,8 +125,7 @@ static void test_flow(void **state) {
   RUN_REFUSED(2, "--drop: 'x'", "check", "leaks", scratch_path("box.vtu"), "--resistance", "1", "--drop", "x");
 }
 
-static void test_closed_valve(void **state) {
-  (void)state;
+TEST(test_closed_valve) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", ENDS, SEALED);
   assert_string_equal(program_leaks, "");
   assert_non_null(strstr(program_out, "\npassage   closed: at "));
@@ -137,15 +134,13 @@ static void test_closed_valve(void **state) {
 }
 
 /* An end of the path is nearer to the surface than any other point of the passage. */
-static void test_end_is_the_narrowest_place(void **state) {
-  (void)state;
+TEST(test_end_is_the_narrowest_place) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", "0,0,-1.2", "0.5,0,-0.1");
   assert_non_null(strstr(program_leaks, "the passage is nearest to the surface at its end at "));
   assert_null(strstr(program_leaks, "--half-thickness"));
 }
 
-static void test_what_is_refused(void **state) {
-  (void)state;
+TEST(test_what_is_refused) {
   const char *box = scratch_path("box.vtu");
 #define REFUSED(text, ...) RUN_REFUSED(2, text, "check", "leaks", box, "--between", __VA_ARGS__)
   REFUSED("--between: FROM, 9 0 0, is outside the mesh, which goes from -0.8 -0.8 -1.3 to 0.8 0.8 1", "9,0,0",
@@ -160,8 +155,7 @@ static void test_what_is_refused(void **state) {
 }
 
 /* The mesh has two pieces. A point between them is in the bounding box, but far from every node. */
-static void test_pieces(void **state) {
-  (void)state;
+TEST(test_pieces) {
   scratch_write_text("pieces.vtk",
                      "# vtk DataFile Version 3.0\ntwo\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n"
                      "0 0 0.5 1 0 0.5 0 1 0.5 0 0 1 0 0 9 1 0 9 0 1 9 0 0 8\n"
@@ -225,9 +219,50 @@ static double across_of(const char *words) {
   return mean;
 }
 
+/* Two valves lie in a row. Either valve alone closes the passage. */
+TEST(test_cases) {
+  scratch_write_text("one.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
+                     " \"valves\": [{\"valve\": \"aortic\"}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("one.json"));
+  assert_non_null(strstr(program_leaks, "riis: the surface leaks: unmarked nodes join"));
+  assert_non_null(strstr(program_out, "\npassage   open: at "));
+  scratch_write_text(
+      "two.json",
+      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
+      " \"valves\": [{\"name\": \"open\", \"valve\": \"aortic\", \"translate\": [0, 0, 0.3]},\n"
+      "  {\"name\": \"closed\", \"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02}}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("two.json"));
+  assert_string_equal(program_leaks, "");
+  assert_non_null(strstr(program_out, "\npassage   closed: at "));
+  scratch_write_text("outside.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [9,0,0, 0,0.02,0.9],\n"
+                     " \"valves\": [{\"valve\": \"aortic\"}]}\n");
+  RUN_REFUSED(1, "outside.json: check_leaks: FROM, 9 0 0, is outside the mesh", "mark", "--case",
+              scratch_path("outside.json"));
+  scratch_write_text("unequal.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
+                     " \"valves\": [{\"name\": \"a\", \"valve\": \"aortic\", \"half_thickness\": 0.2},\n"
+                     "  {\"name\": \"b\", \"valve\": \"aortic\"}]}\n");
+  run_program("mark", "--case", scratch_path("unequal.json"), NULL);
+  assert_int_equal(program_exit_code, 1);
+  assert_non_null(strstr(program_err, "the valves must have one half thickness; that of a is 0.2, that of b 0.1"));
+}
+
+/* For a series, the check uses the time at which the valve is least open. */
+TEST(test_series) {
+  scratch_write_text("beat.csv", "0,0.5\n1,0\n2,1\n");
+  scratch_write_text("series.json",
+                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"times\": \"0:2:0.5\",\n"
+                     " \"valves\": [{\"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02},\n"
+                     "  \"open_parameters\": {\"leaflet_radius_in\": 0.8}, \"opening\": {\"file\": \"beat.csv\"}}]}\n");
+  RUN_FINE("mark", "--case", scratch_path("series.json"), "--series-table", scratch_path("table.csv"));
+  assert_string_equal(program_leaks, "");
+  assert_non_null(strstr(program_out, "\npassage   closed: at "));
+}
+
 /* Each valve of a case with two points has lines of its own. A valve alone has the same numbers. */
-static void test_flow_of_several_valves(void **state) {
-  (void)state;
+TEST(test_flow_of_several_valves) {
 #define TWO_POINTS "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"half_thickness\": 0.09,\n"
   scratch_write_text("flows.json", TWO_POINTS
                      " \"valves\": [{\"name\": \"left\", \"valve\": \"trileaflet\", \"opening\": 0.75},\n"
@@ -272,61 +307,4 @@ static void test_flow_of_several_valves(void **state) {
   assert_null(strstr(program_out, "across"));
 }
 
-/* Two valves lie in a row. Either valve alone closes the passage. */
-static void test_cases(void **state) {
-  (void)state;
-  scratch_write_text("one.json",
-                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
-                     " \"valves\": [{\"valve\": \"aortic\"}]}\n");
-  RUN_FINE("mark", "--case", scratch_path("one.json"));
-  assert_non_null(strstr(program_leaks, "riis: the surface leaks: unmarked nodes join"));
-  assert_non_null(strstr(program_out, "\npassage   open: at "));
-  scratch_write_text(
-      "two.json",
-      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
-      " \"valves\": [{\"name\": \"open\", \"valve\": \"aortic\", \"translate\": [0, 0, 0.3]},\n"
-      "  {\"name\": \"closed\", \"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02}}]}\n");
-  RUN_FINE("mark", "--case", scratch_path("two.json"));
-  assert_string_equal(program_leaks, "");
-  assert_non_null(strstr(program_out, "\npassage   closed: at "));
-  scratch_write_text("outside.json",
-                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [9,0,0, 0,0.02,0.9],\n"
-                     " \"valves\": [{\"valve\": \"aortic\"}]}\n");
-  RUN_REFUSED(1, "outside.json: check_leaks: FROM, 9 0 0, is outside the mesh", "mark", "--case",
-              scratch_path("outside.json"));
-  scratch_write_text("unequal.json",
-                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
-                     " \"valves\": [{\"name\": \"a\", \"valve\": \"aortic\", \"half_thickness\": 0.2},\n"
-                     "  {\"name\": \"b\", \"valve\": \"aortic\"}]}\n");
-  run_program("mark", "--case", scratch_path("unequal.json"), NULL);
-  assert_int_equal(program_exit_code, 1);
-  assert_non_null(strstr(program_err, "the valves must have one half thickness; that of a is 0.2, that of b 0.1"));
-}
-
-/* For a series, the check uses the time at which the valve is least open. */
-static void test_series(void **state) {
-  (void)state;
-  scratch_write_text("beat.csv", "0,0.5\n1,0\n2,1\n");
-  scratch_write_text("series.json",
-                     "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9], \"times\": \"0:2:0.5\",\n"
-                     " \"valves\": [{\"valve\": \"aortic\", \"parameters\": {\"leaflet_radius_in\": 0.02},\n"
-                     "  \"open_parameters\": {\"leaflet_radius_in\": 0.8}, \"opening\": {\"file\": \"beat.csv\"}}]}\n");
-  RUN_FINE("mark", "--case", scratch_path("series.json"), "--series-table", scratch_path("table.csv"));
-  assert_string_equal(program_leaks, "");
-  assert_non_null(strstr(program_out, "\npassage   closed: at "));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_open_valve),
-      cmocka_unit_test(test_flow),
-      cmocka_unit_test(test_closed_valve),
-      cmocka_unit_test(test_end_is_the_narrowest_place),
-      cmocka_unit_test(test_what_is_refused),
-      cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_cases),
-      cmocka_unit_test(test_series),
-      cmocka_unit_test(test_flow_of_several_valves),
-  };
-  return cmocka_run_group_tests(tests, write_box, scratch_teardown);
-}
+int main(void) { return run_cases(write_box, scratch_teardown); }

@@ -12,8 +12,7 @@
 #include "virtual_display.h"
 #include "vtk_shim.h"
 
-static void test_without_display(void **state) {
-  (void)state;
+TEST(test_without_display) {
   char display[64] = "";
   const char *before = getenv("DISPLAY");
   if (before) strncpy(display, before, sizeof display - 1);
@@ -49,8 +48,7 @@ static void expect_picture(const char *name) {
   assert_true(n_coloured[0] > 30000 && n_coloured[1] > 30000);
 }
 
-static void test_pictures(void **state) {
-  (void)state;
+TEST(test_pictures) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--picture", scratch_path("1.png"), "--view",
            "top", "--picture", scratch_path("2.png"), "--view", "side", "--picture", scratch_path("3.png"));
   expect_picture("1.png");
@@ -95,14 +93,6 @@ static void expect_title(const char *title, const char *setting, const char *val
   riis_valve_destroy(&valve);
 }
 
-/* The title must say that the paper's aortic valve is not closed. */
-static void test_titles(void **state) {
-  (void)state;
-  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
-  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "open_radius_ratio=0.9");
-  expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
-}
-
 /* Draws an oblique valve of 10 times the size. */
 static void draw_by_c(const riis_surface_options *placement, const char *unit, int32_t view) {
   riis_valve *valve = NULL;
@@ -126,8 +116,7 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
 
 /* Views by the valve's axes get the axes from --rotate. Without --unit the scale tells the unit of the mesh, if it turns
  * centimetres into one. */
-static void test_valve_views(void **state) {
-  (void)state;
+TEST(test_valve_views) {
   static const char *const names[4] = {"valve-side", "valve-top", "valve-oblique", "valve-three"};
   riis_surface_options placement;
   expect_fine(riis_surface_options_init(&placement, sizeof placement));
@@ -143,9 +132,15 @@ static void test_valve_views(void **state) {
   }
 }
 
+/* The title must say that the paper's aortic valve is not closed. */
+TEST(test_titles) {
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "opening=0");
+  expect_title("Aortic valve, opening 0 (the paper's, not closed)", "--set", "open_radius_ratio=0.9");
+  expect_title("Aortic valve, opening 0", "--set", "leaflet_angle=60");
+}
+
 /* The scale bar shows the unit that the user named. */
-static void test_unit(void **state) {
-  (void)state;
+TEST(test_unit) {
   riis_surface_options placement;
   expect_fine(riis_surface_options_init(&placement, sizeof placement));
   placement.scale = 10;
@@ -223,8 +218,7 @@ static void draw_case(const char *first, const char *second) {
 
 /* A surface from a file has no opening, so neither the picture's title nor the summary shows one. Movies have the same title.
  * Any of the valves may tell the unit of the scale bar, but two valves may not contradict each other. */
-static void test_cases(void **state) {
-  (void)state;
+TEST(test_cases) {
   static const char aortic[] = "{\"name\": \"aortic\", \"valve\": \"aortic\", \"opening\": 0.5}",
                     small[] = "{\"name\": \"small\", \"valve\": \"aortic\", \"scale\": 0.1}",
                     patient[] = "{\"name\": \"patient\", \"surface\": \"patient.vtp\"}";
@@ -253,9 +247,5 @@ static void test_cases(void **state) {
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_without_display), cmocka_unit_test(test_pictures), cmocka_unit_test(test_valve_views),
-      cmocka_unit_test(test_titles),          cmocka_unit_test(test_unit),     cmocka_unit_test(test_cases),
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
+  return run_cases(make_box, scratch_teardown);
 }

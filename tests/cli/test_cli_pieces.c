@@ -137,9 +137,8 @@ static void expect_same_by_ranks(const char *n_ranks, const char *valve, const c
 
 #endif
 
-static void marks_are_those_of_the_joined_mesh(void **state) {
+TEST(marks_are_those_of_the_joined_mesh) {
   static const char *const valves[] = {"aortic", "coapting", "mitral", "trileaflet", "bileaflet"};
-  (void)state;
   rng = random_start("marks_are_those_of_the_joined_mesh");
   int n_leaking = 0, n_several = 0, n_open = 0, n_closed = 0;
   for (int trial = 0; trial < (is_long_test() ? 100 : 4); ++trial) {
@@ -300,10 +299,9 @@ static void expect_same_table(const char *a, const char *b) {
   free(second);
 }
 
-static void series_are_those_of_the_joined_mesh(void **state) {
+TEST(series_are_those_of_the_joined_mesh) {
   static const char *const names[] = {"riis_marked", "riis_distance", "riis_normal",
                                       "riis_side",   "riis_velocity", "riis_K"};
-  (void)state;
   rng = random_start("series_are_those_of_the_joined_mesh");
   for (int trial = 0; trial < (is_long_test() ? 20 : 1); ++trial) {
     make_random_mesh(below(3));
@@ -338,8 +336,7 @@ static void series_are_those_of_the_joined_mesh(void **state) {
 }
 
 /* Several valves at one time print the same numbers, and set the same arrays. */
-static void cases_are_those_of_the_joined_mesh(void **state) {
-  (void)state;
+TEST(cases_are_those_of_the_joined_mesh) {
   rng = random_start("cases_are_those_of_the_joined_mesh");
   make_random_mesh(2);
   scratch_write_text("case.json",
@@ -364,8 +361,7 @@ static void cases_are_those_of_the_joined_mesh(void **state) {
 
 /* VTK's parallel writer and reader agree with riis: the pieces that VTK writes are those of the whole, and VTK reads the marked
  * pieces. */
-static void vtk_reads_and_writes_pieces(void **state) {
-  (void)state;
+TEST(vtk_reads_and_writes_pieces) {
   rng = random_start("vtk_reads_and_writes_pieces");
   make_random_mesh(1);
   assert_int_equal(shim_write_pieces(scratch_path("mesh.pvtu"), scratch_path("by_vtk.pvtu"), n_pieces), 1);
@@ -430,8 +426,7 @@ static void expect_bad(const char *pieces, const char *part_of_text) {
   assert_false(scratch_exists("bad_out.pvtu"));
 }
 
-static void broken_pieces_are_refused(void **state) {
-  (void)state;
+TEST(broken_pieces_are_refused) {
   rng = random_start("broken_pieces_are_refused");
   has_ids = has_ghosts = has_attribute = 0;
   make_whole(6, 0);
@@ -526,11 +521,4 @@ static void broken_pieces_are_refused(void **state) {
   forget_whole();
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(marks_are_those_of_the_joined_mesh), cmocka_unit_test(series_are_those_of_the_joined_mesh),
-      cmocka_unit_test(cases_are_those_of_the_joined_mesh), cmocka_unit_test(vtk_reads_and_writes_pieces),
-      cmocka_unit_test(broken_pieces_are_refused),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

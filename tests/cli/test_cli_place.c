@@ -11,6 +11,7 @@
 
 #include "program.h"
 #include "scratch.h"
+#include "vtk_shim.h"
 
 static const double R = 1.1, Rc = 1.05, height = 1.4;
 static const char *const names[6] = {"nadir_right",         "commissure_right_left", "nadir_left",
@@ -45,8 +46,7 @@ static void expect_sizes(const char *json) {
     fail_msg("other sizes: %s", json);
 }
 
-static void every_format_gives_the_same(void **state) {
-  (void)state;
+TEST(every_format_gives_the_same) {
   static char first[longest_output];
   RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, "\"valve\": \"trileaflet\", "), "--output", "-");
   expect_sizes(program_out);
@@ -83,8 +83,7 @@ static void every_format_gives_the_same(void **state) {
   expect_sizes(program_out);
 }
 
-static void report_has_sizes_and_residuals(void **state) {
-  (void)state;
+TEST(report_has_sizes_and_residuals) {
   RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, "\"parameters\": {\"leaflet_height\": 1.5}, "), "--valve",
            "trileaflet", "--noise", "0.5");
   for (const char *const *words =
@@ -138,8 +137,7 @@ static double farthest_landmark(const char *vtp) {
   return farthest;
 }
 
-static void warps_meet_the_landmarks(void **state) {
-  (void)state;
+TEST(warps_meet_the_landmarks) {
   static const char *const kinds[] = {"trileaflet", "coapting"};
   char placed[256], surface[256], csv[256];
   snprintf(surface, sizeof surface, "%s", scratch_path("warped.vtp"));
@@ -203,8 +201,7 @@ static void warps_meet_the_landmarks(void **state) {
            "--quiet");
 }
 
-static void wrong_warps_are_refused(void **state) {
-  (void)state;
+TEST(wrong_warps_are_refused) {
   const char *const to = scratch_path("x.vtp");
   char out[256], file[256];
   snprintf(out, sizeof out, "%s", to);
@@ -231,8 +228,7 @@ static void wrong_warps_are_refused(void **state) {
   RUN_REFUSED(2, "landmarks that move need --times", "surface", "--warp", scratch_path("moving.json"), "--output", out);
 }
 
-static void other_commands_take_the_placed_valve(void **state) {
-  (void)state;
+TEST(other_commands_take_the_placed_valve) {
   char placed[256];
   snprintf(placed, sizeof placed, "%s", scratch_path("placed.json"));
   RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, ""), "--valve", "trileaflet", "--quiet", "--output", placed,
@@ -281,8 +277,7 @@ static void other_commands_take_the_placed_valve(void **state) {
   RUN_REFUSED(1, "unit: it is missing", "params", "--valve", scratch_path("bad.json"));
 }
 
-static void landmarks_must_be_at_the_mesh(void **state) {
-  (void)state;
+TEST(landmarks_must_be_at_the_mesh) {
   RUN_FINE("place", json_of("a.json", "cm", 1, "LPS", 1, ""), "--valve", "trileaflet", "--quiet", "--mesh",
            scratch_path("in.vtu"));
   RUN_REFUSED(1, "in centimetres, they are", "place", json_of("a.json", "mm", 10, "LPS", 1, ""), "--valve",
@@ -292,37 +287,12 @@ static void landmarks_must_be_at_the_mesh(void **state) {
            "--unit", "cm");
 }
 
-/* The box is away from the axis z, so half a turn about z moves landmarks out of it. */
-static int make_far_box(void **state) {
-  const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
-  return make_box_of(state, lower, upper);
-}
-
-static void wrong_axes_are_named(void **state) {
-  (void)state;
-  char text[1024];
-  int n = snprintf(text, sizeof text, "# unit = cm\n# axes = RAS\n# valve = trileaflet\n");
-  for (int i = 0; i < 6; ++i) {
-    double p[3];
-    landmark(i, 1, p);
-    n += snprintf(text + n, sizeof text - (size_t)n, "%s,%.17g,%.17g,%.17g\n", names[i], -p[0] - 9.5, -p[1] - 10, p[2]);
-  }
-  scratch_write_text("far.csv", text);
-  RUN_REFUSED(1, "with x and y reversed, as between LPS and RAS, they are", "place", scratch_path("far.csv"), "--mesh",
-              scratch_path("in.vtu"), "--quiet");
-  assert_non_null(strstr(program_err, "give --axes LPS"));
-  RUN_FINE("place", scratch_path("far.csv"), "--mesh", scratch_path("in.vtu"), "--quiet", "--axes", "LPS");
-  RUN_REFUSED(2, "states the axes mesh", "place", json_of("a.json", "cm", 1, "mesh", 1, ""), "--mesh",
-              scratch_path("in.vtu"), "--valve", "trileaflet", "--axes", "LPS");
-}
-
 static void refuse_text(const char *name, const char *text, const char *words) {
   scratch_write_text(name, text);
   RUN_REFUSED(1, words, "place", scratch_path(name), "--valve", "trileaflet");
 }
 
-static void files_are_refused_by_name(void **state) {
-  (void)state;
+TEST(files_are_refused_by_name) {
   const char *csv = "# unit = mm\n# axes = LPS\n";
   char text[512];
   refuse_text("a.txt", "x", "landmarks must be a .json, .mrk.json or .csv file");
@@ -369,8 +339,7 @@ static void files_are_refused_by_name(void **state) {
               "\"nadir-1\" has the positionStatus");
 }
 
-static void fits_are_refused_in_words_of_the_file(void **state) {
-  (void)state;
+TEST(fits_are_refused_in_words_of_the_file) {
   const char *path = json_of("a.json", "cm", 10, "LPS", 1, "");
   RUN_REFUSED(1, "a.json: the unit is centimetres: the landmarks' mean distance", "place", path, "--valve",
               "trileaflet");
@@ -403,8 +372,7 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
 }
 
 /* What a person gets wrong at the first try. */
-static void wrong_landmarks_are_refused(void **state) {
-  (void)state;
+TEST(wrong_landmarks_are_refused) {
   double points[6][3];
 #define CHANGED(words, ...)                                                                               \
   do {                                                                                                    \
@@ -444,8 +412,7 @@ static void wrong_landmarks_are_refused(void **state) {
 }
 
 /* Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there. */
-static void folds_are_refused(void **state) {
-  (void)state;
+TEST(folds_are_refused) {
   const char *labels[8] = {0};
   memcpy(labels, names, sizeof names);
   labels[6] = "attachment_right_1", labels[7] = "attachment_right_2";
@@ -468,8 +435,7 @@ static void folds_are_refused(void **state) {
 }
 
 /* The sizes that landmarks do not tell may not go together with those that they tell. */
-static void sizes_that_do_not_go_together_are_named(void **state) {
-  (void)state;
+TEST(sizes_that_do_not_go_together_are_named) {
   const char *path = json_of("a.json", "mm", 10, "LPS", 1, "");
   RUN_REFUSED(1,
               "a.json: the landmarks give root_radius 1.1, commissure_radius 1.05, commissure_height 1.4, and then "
@@ -495,19 +461,24 @@ static void sizes_that_do_not_go_together_are_named(void **state) {
   assert_non_null(strstr(program_err, "commissure_height"));
 }
 
-int main(void) {
-  const struct CMUnitTest near[] = {cmocka_unit_test(every_format_gives_the_same),
-                                    cmocka_unit_test(report_has_sizes_and_residuals),
-                                    cmocka_unit_test(warps_meet_the_landmarks),
-                                    cmocka_unit_test(wrong_warps_are_refused),
-                                    cmocka_unit_test(other_commands_take_the_placed_valve),
-                                    cmocka_unit_test(landmarks_must_be_at_the_mesh),
-                                    cmocka_unit_test(files_are_refused_by_name),
-                                    cmocka_unit_test(fits_are_refused_in_words_of_the_file),
-                                    cmocka_unit_test(wrong_landmarks_are_refused),
-                                    cmocka_unit_test(folds_are_refused),
-                                    cmocka_unit_test(sizes_that_do_not_go_together_are_named)};
-  const struct CMUnitTest far[] = {cmocka_unit_test(wrong_axes_are_named)};
-  const int n_near = cmocka_run_group_tests(near, make_box, scratch_teardown);
-  return n_near + cmocka_run_group_tests(far, make_far_box, scratch_teardown);
+/* The box is away from the axis z, so half a turn about z moves landmarks out of it. */
+TEST(wrong_axes_are_named) {
+  const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
+  assert_int_equal(shim_write_box(scratch_path("far.vtu"), SHIM_RAW, n_box_side, lower, upper, 1), 1);
+  char text[1024];
+  int n = snprintf(text, sizeof text, "# unit = cm\n# axes = RAS\n# valve = trileaflet\n");
+  for (int i = 0; i < 6; ++i) {
+    double p[3];
+    landmark(i, 1, p);
+    n += snprintf(text + n, sizeof text - (size_t)n, "%s,%.17g,%.17g,%.17g\n", names[i], -p[0] - 9.5, -p[1] - 10, p[2]);
+  }
+  scratch_write_text("far.csv", text);
+  RUN_REFUSED(1, "with x and y reversed, as between LPS and RAS, they are", "place", scratch_path("far.csv"), "--mesh",
+              scratch_path("far.vtu"), "--quiet");
+  assert_non_null(strstr(program_err, "give --axes LPS"));
+  RUN_FINE("place", scratch_path("far.csv"), "--mesh", scratch_path("far.vtu"), "--quiet", "--axes", "LPS");
+  RUN_REFUSED(2, "states the axes mesh", "place", json_of("a.json", "cm", 1, "mesh", 1, ""), "--mesh",
+              scratch_path("far.vtu"), "--valve", "trileaflet", "--axes", "LPS");
 }
+
+int main(void) { return run_cases(make_box, scratch_teardown); }

@@ -167,8 +167,7 @@ static int n_uncovered(void) {
 
 static const double rounding = 1e-13; /* cm; leaflets that meet may overlap by the rounding of their coordinates */
 
-static void test_no_crossing(void **state) {
-  (void)state;
+TEST(test_no_crossing) {
   const int n_steps = is_long_test() ? 100 : 20;
   for (int i = 0; i <= n_steps; ++i) {
     show(EXAMPLE_JSON, (double)i / n_steps);
@@ -179,8 +178,7 @@ static void test_no_crossing(void **state) {
   }
 }
 
-static void test_closed(void **state) {
-  (void)state;
+TEST(test_closed) {
   show(EXAMPLE_JSON, 0);
   assert_int_equal(n_uncovered(), 0);
 }
@@ -205,8 +203,7 @@ static void write_with_end(const char *end) {
 }
 
 /* The checks above must find the faults that they are meant to find. */
-static void test_faults_are_found(void **state) {
-  (void)state;
+TEST(test_faults_are_found) {
   char file[256];
   snprintf(file, sizeof file, "%s", scratch_path("v.json"));
   write_with_end("[0.00, 0.00, 0.80]");
@@ -225,8 +222,7 @@ static void test_faults_are_found(void **state) {
 }
 
 /* The file and the C program have the same triangles and marks. */
-static void test_file_is_c(void **state) {
-  (void)state;
+TEST(test_file_is_c) {
   riis_valve *valve = valve_with(closed_moving), *open = valve_with(open_moving);
   riis_surface_options options;
   char text[32];
@@ -270,8 +266,7 @@ static int numbers_of(const char *path, double *numbers, int n_most) {
 }
 
 /* The C and the Fortran program have the same control points. Another test compares their output. */
-static void test_fortran_is_c(void **state) {
-  (void)state;
+TEST(test_fortran_is_c) {
   enum { n_all = 3 * (30 + 30 + 30), n_most = 2 * n_all };
   double of_c[n_most], of_fortran[n_most];
   assert_int_equal(numbers_of(RIIS_EXAMPLES "/prosthesis.c", of_c, n_most), n_all);
@@ -293,10 +288,4 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_no_crossing), cmocka_unit_test(test_closed),       cmocka_unit_test(test_faults_are_found),
-      cmocka_unit_test(test_file_is_c),   cmocka_unit_test(test_fortran_is_c),
-  };
-  return cmocka_run_group_tests(tests, make_prosthesis_box, destroy_all);
-}
+int main(void) { return run_cases(make_prosthesis_box, destroy_all); }

@@ -10,8 +10,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-static void test_resistance(void **state) {
-  (void)state;
+TEST(test_resistance) {
   static double distance[n_box], resistance[n_box];
   const double R = 10, eps = 0.3, pi = acos(-1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "10",
@@ -28,16 +27,14 @@ static void test_resistance(void **state) {
   assert_true(n_resisting > 20);
 }
 
-static void test_no_array_unless_asked(void **state) {
-  (void)state;
+TEST(test_no_array_unless_asked) {
   static double resistance[n_box];
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--output",
            scratch_path("plain.vtu"));
   assert_int_equal(shim_read_array(scratch_path("plain.vtu"), 'p', "riis_K", NULL, NULL, NULL, resistance), 0);
 }
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   RUN_REFUSED(2, "--resistance is -1", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "-1");
   RUN_REFUSED(2, "--resistance is nan", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
   RUN_REFUSED(2, "--resistance", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
@@ -49,11 +46,4 @@ static void test_refusals(void **state) {
               "--resistance", "1", "--prefix", "a", "--output", scratch_path("b.vtu"));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_resistance),
-      cmocka_unit_test(test_no_array_unless_asked),
-      cmocka_unit_test(test_refusals),
-  };
-  return cmocka_run_group_tests(tests, make_box, NULL);
-}
+int main(void) { return run_cases(make_box, NULL); }

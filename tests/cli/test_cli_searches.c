@@ -23,8 +23,7 @@ static void mark_default_valve(double half_thickness, double distance_limit) {
 }
 
 /* Every search gives the same marks. auto reports which search it chose. */
-static void test_marks_are_equal(void **state) {
-  (void)state;
+TEST(test_marks_are_equal) {
   mark_default_valve(0.2, 0.3);
   const char *searches[] = {"auto", "exhaustive", "neighbor"};
   const char *ran[] = {"\"exhaustive\"", "\"exhaustive\"", "\"neighbor\""};
@@ -48,8 +47,7 @@ static void test_marks_are_equal(void **state) {
 
 /* The distances equal those of the C interface with the same options. They differ from distances to the triangles, and the
  * output says so. */
-static void test_distances(void **state) {
-  (void)state;
+TEST(test_distances) {
   const char *methods[] = {"triangles", "sampling", "minimization"};
   double n_marked[3];
   for (int32_t i = RIIS_MEASURE_SAMPLING; i <= RIIS_MEASURE_MINIMIZATION; ++i) {
@@ -85,8 +83,7 @@ static void test_distances(void **state) {
   assert_true(n_marked[RIIS_MEASURE_MINIMIZATION] > 0 && n_marked[RIIS_MEASURE_MINIMIZATION] <= n_marked[0]);
 }
 
-static void test_table(void **state) {
-  (void)state;
+TEST(test_table) {
   RUN_FINE("mark", scratch_path("in.vtu"), "--search", "neighbor", "--threads", "1");
   assert_non_null(strstr(program_out, "\nsearch    neighbor, 1 thread"));
   assert_non_null(strstr(program_out, ", adjacency 0."));
@@ -103,8 +100,7 @@ static void expect_warning(void) {
 
 /* If the marked nodes are connected, the paper's search also finds all of them. The search cannot know that it found all, and
  * says so. */
-static void test_paper(void **state) {
-  (void)state;
+TEST(test_paper) {
   mark_default_valve(0.3, RIIS_AUTO);
   run_program("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--output",
               scratch_path("out.vtu"), NULL);
@@ -126,8 +122,7 @@ static void test_paper(void **state) {
 
 /* Two triangles are far apart. The paper's search finds only the nodes near the first triangle, and the neighbour search finds
  * the nodes near both. */
-static void test_two_pieces(void **state) {
-  (void)state;
+TEST(test_two_pieces) {
   scratch_write_text(
       "pieces.stl",
       "solid x\nfacet normal 0 0 1\nouter loop\nvertex -1.6 -1 -1\nvertex -.9 -1 -1\nvertex -1.4 -.4 -1\n"
@@ -148,8 +143,7 @@ static void test_two_pieces(void **state) {
 
 /* A mesh of points has no neighbours, so the nodes come from the search's check for missed nodes. The table gives their
  * number. */
-static void test_no_cells(void **state) {
-  (void)state;
+TEST(test_no_cells) {
   scratch_write_text("points.vtk",
                      "# vtk DataFile Version 3.0\npoints\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
                      "0 0 0 .1 0 0 5 5 5\nCELLS 1 2\n1 0\nCELL_TYPES 1\n1\n");
@@ -172,8 +166,7 @@ static void test_no_cells(void **state) {
 }
 
 /* Options that are refused on a mesh without an adjacency are also refused on a mesh with one, before the mesh is read. */
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   const char *searches[] = {"neighbor", "paper"};
   for (int i = 0; i < 2; ++i) {
     const char *mesh = scratch_path("missing.vtu");
@@ -189,11 +182,4 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_marks_are_equal), cmocka_unit_test(test_distances),  cmocka_unit_test(test_table),
-      cmocka_unit_test(test_paper),           cmocka_unit_test(test_two_pieces), cmocka_unit_test(test_no_cells),
-      cmocka_unit_test(test_refusals),
-  };
-  return cmocka_run_group_tests(tests, make_box, destroy_all);
-}
+int main(void) { return run_cases(make_box, destroy_all); }

@@ -104,8 +104,7 @@ static void run_series(const char *output, const char *option, const char *value
            option, value);
 }
 
-static void test_files(void **state) {
-  (void)state;
+TEST(test_files) {
   static const char *const texts[n_times] = {"0", "0.1", "0.2", "0.3", "0.4"};
   static double ids[n_box], expected[n_box];
   run_series("beat.pvd", "--surface-output", scratch_path("leaf.pvd"));
@@ -123,8 +122,7 @@ static void test_files(void **state) {
 }
 
 /* Each cell of the part equals the input's cell with the same id, and has the same data. */
-static void test_cells(void **state) {
-  (void)state;
+TEST(test_cells) {
   static double node_ids[n_box], region[most_cells], part_region[most_cells], cell_ids[most_cells];
   static int64_t corners[4 * most_cells], part_corners[4 * most_cells];
   int64_t n_cells = 0;
@@ -203,8 +201,7 @@ static void expect_fields(int step, const char *path) {
   riis_valve_destroy(&now);
 }
 
-static void test_all_cells(void **state) {
-  (void)state;
+TEST(test_all_cells) {
   int64_t n_points = 0, n_cells = 0;
   run_series("all.pvd", "--all-cells", NULL);
   assert_int_equal(shim_read_points(step_path("all", 3, "vtu"), &n_points, &n_cells, NULL, NULL), 1);
@@ -215,8 +212,7 @@ static void test_all_cells(void **state) {
   expect_fields(3, step_path("all", 3, "vtu"));
 }
 
-static void test_table(void **state) {
-  (void)state;
+TEST(test_table) {
   static double marked[n_box];
   run_series("t.pvd", "--series-table", scratch_path("t.csv"));
   char *text = scratch_read(scratch_path("t.csv"), NULL), *line = text;
@@ -252,8 +248,7 @@ static double opening_at(const char *line_of_time, const char *option, const cha
   return opening;
 }
 
-static void test_cycles(void **state) {
-  (void)state;
+TEST(test_cycles) {
   const double keys[] = {0, 0.2, 0.4}, at_keys[] = {0, 1, 0.5};
   riis_opening_table table;
   double expected = 0;
@@ -272,8 +267,7 @@ static void test_cycles(void **state) {
 
 /* The velocity at the first time is the mean since one step before. At this earlier time, a cycle with a period has another
  * opening. */
-static void test_first_velocity(void **state) {
-  (void)state;
+TEST(test_first_velocity) {
   double time = -1, opening = -1, n_marked = 0, speed = 0;
   scratch_write_text("cycle.csv", cycle);
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
@@ -316,8 +310,7 @@ static int64_t read_triangles(const char *path, int64_t *corners) {
 
 /* The first series keeps its triangulation, and leaves out only triangles without area. The second series makes a new
  * triangulation at each time. */
-static void test_triangulations(void **state) {
-  (void)state;
+TEST(test_triangulations) {
   static const char *const hows[] = {"fixed", "adapted"};
   static int64_t corners[2][300000];
   static double ids[2][100000];
@@ -345,8 +338,7 @@ static void test_triangulations(void **state) {
 
 /* The surface rises by 0.5 in a time of 1, given by frames. Its marks equal those of a single run at the same time, and its
  * velocity is the frames' velocity. */
-static void test_motion(void **state) {
-  (void)state;
+TEST(test_motion) {
   static double marked[n_box], single[n_box], velocity[3 * n_box];
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("low.vtp"), "--quiet");
   RUN_FINE("surface", "--valve", "mitral", "--translate", "0,0,0.5", "--output", scratch_path("high.vtp"), "--quiet");
@@ -389,8 +381,7 @@ static void test_motion(void **state) {
 }
 
 /* The .pvd must escape a file name with characters that XML reserves. */
-static void test_names(void **state) {
-  (void)state;
+TEST(test_names) {
   run_series("a & <b>.pvd", NULL, NULL);
   char *list = scratch_read(scratch_path("a & <b>.pvd"), NULL);
   assert_non_null(strstr(list, "file=\"a &amp; &lt;b&gt;/a &amp; &lt;b&gt;_0000.vtu\""));
@@ -400,11 +391,4 @@ static void test_names(void **state) {
 
 static int make_mitral_box(void **state) { return make_box_of(state, (double[3]){-3, -3, -2}, (double[3]){3, 3, 2}); }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_files),          cmocka_unit_test(test_cells),  cmocka_unit_test(test_all_cells),
-      cmocka_unit_test(test_table),          cmocka_unit_test(test_cycles), cmocka_unit_test(test_first_velocity),
-      cmocka_unit_test(test_triangulations), cmocka_unit_test(test_motion), cmocka_unit_test(test_names),
-  };
-  return cmocka_run_group_tests(tests, make_mitral_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_mitral_box, scratch_teardown); }

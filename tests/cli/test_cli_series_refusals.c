@@ -23,8 +23,7 @@ static void write_cycle(const char *text) { scratch_write_text("cycle.csv", text
               scratch_path("cycle.csv"), "--output", scratch_path("s.pvd"), __VA_ARGS__)
 #define REFUSED_TIMES(text, times) REFUSED_SERIES(2, text, "--times", times)
 
-static void test_times(void **state) {
-  (void)state;
+TEST(test_times) {
   write_cycle("0 0\n1 1\n");
   REFUSED_TIMES("--times: 100001 times are too many; a series has at most 100000", "0:100000:1");
   REFUSED_TIMES("times are too many", "0:1:1e-300");
@@ -43,8 +42,7 @@ static void test_times(void **state) {
 }
 
 /* The largest number of times is accepted, and the last time is exact. */
-static void test_many_times(void **state) {
-  (void)state;
+TEST(test_many_times) {
   write_cycle("0 0\n1 2\n");
   REFUSED_SERIES(1, "cycle.csv: line 2: the opening 2 is not from 0 to 1", "--times", "0:99999:1");
 }
@@ -54,8 +52,7 @@ static void expect_cycle(const char *text, const char *file) {
   REFUSED_SERIES(1, text, "--times", "0:1:0.5");
 }
 
-static void test_cycle_files(void **state) {
-  (void)state;
+TEST(test_cycle_files) {
   expect_cycle("cycle.csv: line 3: the time 1 is not above the time before it", "0,0\n1,1\n1,0\n");
   expect_cycle("cycle.csv: line 2: the opening 1.5 is not from 0 to 1", "0,0\n1,1.5\n");
   expect_cycle("cycle.csv: line 2: the opening -0.1 is not from 0 to 1", "0,0\n1,-0.1\n");
@@ -77,8 +74,7 @@ static void test_cycle_files(void **state) {
            scratch_path("cycle.csv"), "--times", "0:1:0.5", "--series-table", scratch_path("t.csv"), "--quiet");
 }
 
-static void test_options(void **state) {
-  (void)state;
+TEST(test_options) {
   const char *mesh = scratch_path("in.vtu"), *cycle = scratch_path("cycle.csv");
   write_cycle("0,0\n1,1\n");
   RUN_REFUSED(2, "--movie needs --times", "mark", mesh, "--movie", "a.mp4");
@@ -112,8 +108,7 @@ static void test_options(void **state) {
 }
 
 /* A valve that cannot reach the opening is refused before the mesh is read. */
-static void test_valves(void **state) {
-  (void)state;
+TEST(test_valves) {
   write_cycle("0,0\n1,0.5\n");
   scratch_write_text(
       "patch.json",
@@ -124,8 +119,7 @@ static void test_valves(void **state) {
               scratch_path("s.pvd"));
 }
 
-static void test_places(void **state) {
-  (void)state;
+TEST(test_places) {
   const char *mesh = scratch_path("in.vtu"), *cycle = scratch_path("cycle.csv");
   write_cycle("0,0\n1,1\n");
   RUN_REFUSED(1, "the folder /nowhere does not exist", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--output",
@@ -149,8 +143,7 @@ static void test_places(void **state) {
 }
 
 /* Without ffmpeg in PATH, the refusal comes before any work. So the message does not name the missing mesh. */
-static void test_no_ffmpeg(void **state) {
-  (void)state;
+TEST(test_no_ffmpeg) {
   char *before = strdup(getenv("PATH"));
   write_cycle("0,0\n1,1\n");
   setenv("PATH", "/nowhere", 1);
@@ -163,8 +156,7 @@ static void test_no_ffmpeg(void **state) {
 }
 
 /* If no node is near the valve at any time, the status is 3, with a warning and complete files. */
-static void test_none_marked(void **state) {
-  (void)state;
+TEST(test_none_marked) {
   write_cycle("0,0\n1,1\n");
   run_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--translate", "50,0,0", "--half-thickness", "0.3",
               "--cycle", scratch_path("cycle.csv"), "--times", "0,1", "--output", scratch_path("none.pvd"), "--quiet",
@@ -178,8 +170,7 @@ static void test_none_marked(void **state) {
 }
 
 /* The size of the output is printed before the files are written, but not with --quiet. */
-static void test_announcement(void **state) {
-  (void)state;
+TEST(test_announcement) {
   struct stat status;
   write_cycle("0,0\n1,1\n");
   run_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
@@ -240,39 +231,7 @@ static int n_files_of_dead(void) {
   return n_files;
 }
 
-/* While the main thread is stopped, the program must still list all files in the .pvd. Then the process is killed. The list may
- * lack one file, if the thread was stopped after it wrote a file and before it listed the file. In the microseconds in which
- * the thread adds a file to the list, it holds the list's lock, and nobody else can write the list. A thread stopped there goes
- * on, and is stopped once more elsewhere. */
-static void test_killed(void **state) {
-  (void)state;
-  write_cycle("0,0\n1,1\n");
-  const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",
-                                      "--cycle", scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
-                                      scratch_path("dead.pvd"), "--quiet", NULL);
-  for (int n_tries = 0; !scratch_exists("dead/dead_0011.vtu") && n_tries < 100000; ++n_tries) usleep(500);
-  int is_stopped = 0, n_files = 0, n = -2;
-  for (int n_stops = 0; n_stops < 3 && n < n_files - 1; ++n_stops) {
-    if (is_stopped) {
-      assert_int_equal(ptrace(PTRACE_CONT, process, NULL, NULL), 0);
-      usleep(3000);
-    }
-    is_stopped = stop_main_thread(process, is_stopped);
-    if (!is_stopped) break;
-    n_files = n_files_of_dead();
-    n = n_listed("dead.pvd");
-    for (int n_tries = 0; n < n_files - 1 && n_tries < 10000; ++n_tries, n = n_listed("dead.pvd")) usleep(500);
-  }
-  kill(process, SIGKILL);
-  finish_program(process);
-  if (!is_stopped) skip();
-  assert_int_equal(program_exit_code, 128 + SIGKILL);
-  assert_true(n_files >= 12 && n_files < 2001);
-  assert_true(n == n_files || n == n_files - 1);
-}
-
-static void test_interruption(void **state) {
-  (void)state;
+TEST(test_interruption) {
   write_cycle("0,0\n1,1\n");
   const int signals[] = {SIGINT, SIGTERM};
   for (int i = 0; i < 2; ++i) {
@@ -301,14 +260,36 @@ static void test_interruption(void **state) {
   }
 }
 
+/* While the main thread is stopped, the program must still list all files in the .pvd. Then the process is killed. The list may
+ * lack one file, if the thread was stopped after it wrote a file and before it listed the file. In the microseconds in which
+ * the thread adds a file to the list, it holds the list's lock, and nobody else can write the list. A thread stopped there goes
+ * on, and is stopped once more elsewhere. */
+TEST(test_killed) {
+  write_cycle("0,0\n1,1\n");
+  const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",
+                                      "--cycle", scratch_path("cycle.csv"), "--times", "0:1:0.0005", "--output",
+                                      scratch_path("dead.pvd"), "--quiet", NULL);
+  for (int n_tries = 0; !scratch_exists("dead/dead_0011.vtu") && n_tries < 100000; ++n_tries) usleep(500);
+  int is_stopped = 0, n_files = 0, n = -2;
+  for (int n_stops = 0; n_stops < 3 && n < n_files - 1; ++n_stops) {
+    if (is_stopped) {
+      assert_int_equal(ptrace(PTRACE_CONT, process, NULL, NULL), 0);
+      usleep(3000);
+    }
+    is_stopped = stop_main_thread(process, is_stopped);
+    if (!is_stopped) break;
+    n_files = n_files_of_dead();
+    n = n_listed("dead.pvd");
+    for (int n_tries = 0; n < n_files - 1 && n_tries < 10000; ++n_tries, n = n_listed("dead.pvd")) usleep(500);
+  }
+  kill(process, SIGKILL);
+  finish_program(process);
+  if (!is_stopped) skip();
+  assert_int_equal(program_exit_code, 128 + SIGKILL);
+  assert_true(n_files >= 12 && n_files < 2001);
+  assert_true(n == n_files || n == n_files - 1);
+}
+
 static int make_mitral_box(void **state) { return make_box_of(state, (double[3]){-3, -3, -2}, (double[3]){3, 3, 2}); }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_times),        cmocka_unit_test(test_many_times),  cmocka_unit_test(test_cycle_files),
-      cmocka_unit_test(test_options),      cmocka_unit_test(test_valves),      cmocka_unit_test(test_places),
-      cmocka_unit_test(test_no_ffmpeg),    cmocka_unit_test(test_none_marked), cmocka_unit_test(test_announcement),
-      cmocka_unit_test(test_interruption), cmocka_unit_test(test_killed),
-  };
-  return cmocka_run_group_tests(tests, make_mitral_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_mitral_box, scratch_teardown); }

@@ -110,8 +110,7 @@ static void check_grid(edges want) {
           assert_true(grid.length[(i * grid.n[1] + j) * grid.n[2] + k] >= 0.9999 * want.largest);
 }
 
-static void valves_at_all_openings(void **state) {
-  (void)state;
+TEST(valves_at_all_openings) {
   const char *const kinds[] = {"aortic", "mitral", "trileaflet", "bileaflet"};
   const double openings[] = {0, 0.5, 1};
   for (int i = 0; i < 4; ++i) {
@@ -124,8 +123,7 @@ static void valves_at_all_openings(void **state) {
   }
 }
 
-static void placed_valve_at_one_opening(void **state) {
-  (void)state;
+TEST(placed_valve_at_one_opening) {
   RUN_FIELD("--valve", "trileaflet", "--opening", "0.25", "--unit", "mm", "--rotate", "1,2,3,40", "--translate",
             "10,-20,30", "--half-thickness", "1.5", "--band-edge", "0.5");
   riis_surface_options how;
@@ -142,8 +140,7 @@ static void placed_valve_at_one_opening(void **state) {
 }
 
 /* A case without a mesh: a mitral valve that rests half open and an aortic valve that opens. */
-static void case_of_two_valves(void **state) {
-  (void)state;
+TEST(case_of_two_valves) {
   const char text[] =
       "{\"half_thickness\": 0.1, \"times\": [0, 1, 2], \"valves\": ["
       "{\"name\": \"m\", \"valve\": \"mitral\", \"opening\": 0.5, \"translate\": [4, 0, 0]},"
@@ -161,8 +158,7 @@ static void case_of_two_valves(void **state) {
   drop_states();
 }
 
-static void refusals(void **state) {
-  (void)state;
+TEST(refusals) {
   RUN_REFUSED(2, "OUT is required", "size-field");
   RUN_REFUSED(2, "--growth: 0 is not above 0", "size-field", "-", "--growth", "0");
   RUN_REFUSED(2, "--growth: nan is not above 0", "size-field", "-", "--growth", "nan");
@@ -179,13 +175,7 @@ static void refusals(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(valves_at_all_openings),
-      cmocka_unit_test(placed_valve_at_one_opening),
-      cmocka_unit_test(case_of_two_valves),
-      cmocka_unit_test(refusals),
-  };
-  const int n_failed = cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+  const int n_failed = run_cases(scratch_setup, scratch_teardown);
   free(grid.length);
   return n_failed;
 }

@@ -154,8 +154,7 @@ static int is_in_annulus(double x, double y) {
   return n_crossed % 2;
 }
 
-static void test_mitral(void **state) {
-  (void)state;
+TEST(test_mitral) {
   enum { n_states = 5 };
   mitral_parameters parameters = mitral_defaults();
   riis_valve *valve = make_valve("mitral");
@@ -198,8 +197,7 @@ static void test_mitral(void **state) {
 }
 
 /* Without --count there are 101 openings. With the table on stdout, the program prints nothing else. */
-static void test_stdout(void **state) {
-  (void)state;
+TEST(test_stdout) {
   RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--quiet");
   assert_string_equal(program_out, "");
   assert_int_equal(table.n_rows, 101);
@@ -236,8 +234,7 @@ static void free_edge(double r_in, double r_out, double degrees, double power, d
 
 static int is_in_root(double x, double y) { return x * x + y * y < 1.29 * 1.29; }
 
-static void test_aortic(void **state) {
-  (void)state;
+TEST(test_aortic) {
   static const char *const cusp[3] = {"right", "left", "non_coronary"};
   static const double table_of_paper[3][6] = {
       {0.24, 1.365, 61, 1.58, 0.025, 0.5}, {0.49, 1.495, 58.5, 2.77, 0.1, 0.5}, {0.2, 1.38, 60.5, 1.19, 0.1, 0.65}};
@@ -276,8 +273,7 @@ static void test_aortic(void **state) {
 }
 
 /* The table is measured in the valve's own frame, so a shift changes nothing. Units change lengths and areas. */
-static void test_frame_and_unit(void **state) {
-  (void)state;
+TEST(test_frame_and_unit) {
   scratch_write_text("open.json", "{\"leaflet_radius_in\": 1, \"translation\": [3, -2, 1]}");
   RUN_STATES("--params-open", scratch_path("open.json"), "--set", "translation=3,-2,1", "--count", "3");
   double edge[3], area[3], orifice[3];
@@ -297,8 +293,7 @@ static void test_frame_and_unit(void **state) {
 
 /* Each free edge of the example consists of two cubics. The projections of its attachment and of its leaflets are closed
  * curves. */
-static void test_prosthesis(void **state) {
-  (void)state;
+TEST(test_prosthesis) {
   double closed[4][3] = {{0.6, -1.04, 1.2}, {0.45, -0.78, 1}, {0.3, -0.52, 0.8}, {0, 0, 0.8}};
   double opened[4][3] = {{0.6, -1.04, 1.2}, {0.87, -0.8, 1.2}, {1.05, -0.37, 1.2}, {1.05, 0, 1.2}};
   RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--count", "2");
@@ -326,8 +321,7 @@ static void run_flat_triangle(const char *sides) {
   expect_said("orifice   not measured: ");
 }
 
-static void test_collapsed_sides(void **state) {
-  (void)state;
+TEST(test_collapsed_sides) {
   run_flat_triangle("\"v0\": \"x\", \"v1\": \"y\", \"u0\": \"origin\", \"u1\": \"slope\"");
   CHECK_NEAR(cell(0, "leaflet_0_edge"), 2, 1e-12);
   run_flat_triangle("\"v0\": \"-x\", \"v1\": \"-y\", \"u0\": \"slope\", \"u1\": \"origin\"");
@@ -342,8 +336,7 @@ static void test_collapsed_sides(void **state) {
 /* Two patches above each other share a side. The common side is the side v = 1 of one patch, but no free edge. The patches' other
  * curves bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
  * side. */
-static void test_shared_sides(void **state) {
-  (void)state;
+TEST(test_shared_sides) {
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
   for (int i = 0; i < 2; ++i)
     for (int leaflet = 0; leaflet < 2; ++leaflet) {
@@ -386,8 +379,7 @@ static void write_wall(const char *name, double unit) {
   scratch_write_text(name, text);
 }
 
-static void test_skirts_and_files(void **state) {
-  (void)state;
+TEST(test_skirts_and_files) {
   write_wall("wall.stl", 1);
   char wall[256], file[256];
   snprintf(wall, sizeof wall, "%s", scratch_path("wall.stl"));
@@ -450,8 +442,7 @@ static void test_skirts_and_files(void **state) {
 
 /* ---- Refusals ---- */
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   char csv[256];
   snprintf(csv, sizeof csv, "%s", scratch_path("no.csv"));
   RUN_REFUSED(2, "--count: 1 is not from 2 to 100001", "states", csv, "--count", "1");
@@ -476,13 +467,4 @@ static void test_refusals(void **state) {
   assert_false(scratch_exists("no.csv"));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mitral),       cmocka_unit_test(test_stdout),
-      cmocka_unit_test(test_aortic),       cmocka_unit_test(test_frame_and_unit),
-      cmocka_unit_test(test_prosthesis),   cmocka_unit_test(test_collapsed_sides),
-      cmocka_unit_test(test_shared_sides), cmocka_unit_test(test_skirts_and_files),
-      cmocka_unit_test(test_refusals),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -14,8 +14,7 @@ static const struct {
                 {"neighbor", "\"neighbor\""},
                 {"clusters", "\"clusters\""}};
 
-static void test_steps(void **state) {
-  (void)state;
+TEST(test_steps) {
   for (size_t i = 0; i < sizeof searches / sizeof searches[0]; ++i) {
     const char *const search = searches[i].option;
     RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--opening", "0.99", "--search", search, "--output",
@@ -36,8 +35,7 @@ static void test_steps(void **state) {
   assert_non_null(strstr(program_out, "median of 1 step of 0.02 in opening, search clusters\n"));
 }
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   const char *mesh = scratch_path("in.vtu");
   RUN_REFUSED(2, "--steps: 0 is not above 0", "mark", mesh, "--valve", "mitral", "--steps", "0");
   RUN_REFUSED(2, "--steps: -3 is not above 0", "mark", mesh, "--valve", "mitral", "--steps", "-3");
@@ -53,7 +51,4 @@ static void test_refusals(void **state) {
               scratch_path("patch.json"), "--steps", "2");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_steps), cmocka_unit_test(test_refusals)};
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

@@ -46,8 +46,7 @@ static void expect_wanted_marks(void) {
   if (!(n >= n_wanted - 2 && n <= n_wanted + 2)) fail_msg("%g nodes are marked, not %d", n, n_wanted);
 }
 
-static void test_valves(void **state) {
-  (void)state;
+TEST(test_valves) {
   for (int i = 0; i < n_units; ++i) {
     run_program("mark", meshes[i], "--unit", units[i], "--stats", "-", NULL);
     expect_wanted_marks();
@@ -64,8 +63,7 @@ static void test_valves(void **state) {
   assert_true(json_number(program_out, "half_thickness") == 0.002);
 }
 
-static void test_surface_files(void **state) {
-  (void)state;
+TEST(test_surface_files) {
   for (int i = 0; i < n_units; ++i) {
     for (int k = 0; k < n_units; ++k) {
       run_program("mark", meshes[i], "--unit", units[i], "--surface", surfaces[k], "--surface-unit", units[k],
@@ -76,8 +74,7 @@ static void test_surface_files(void **state) {
   }
 }
 
-static void test_patches(void **state) {
-  (void)state;
+TEST(test_patches) {
   /* A square of one centimetre, in millimetres. */
   scratch_write_text(
       "v.json",
@@ -131,8 +128,7 @@ static void expect_cured(const char *mesh, const char *surface) {
   expect_wanted_marks();
 }
 
-static void test_wrong_valve_units(void **state) {
-  (void)state;
+TEST(test_wrong_valve_units) {
   run_program("mark", meshes[0], NULL);
   expect_warning(3, "no node is marked: the mesh looks as if it were in metres, the surface in centimetres");
   expect_warning(3, ": write --unit m\n");
@@ -163,75 +159,7 @@ static void expect_one_advice(void) {
   assert_null(strstr(program_leaks, "half thicknesses"));
 }
 
-/* The mesh's edges suggest millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user names
- * decides. */
-static void test_coarse_or_other_unit(void **state) {
-  (void)state;
-  assert_int_equal(
-      shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
-  run_program("mark", scratch_path("large.vtu"), NULL);
-  expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
-  expect_warning(program_exit_code, ": write --unit mm\n");
-  expect_one_advice();
-  RUN_FINE("mark", scratch_path("large.vtu"), "--unit", "mm");
-  run_program("mark", scratch_path("large.vtu"), "--unit", "cm", NULL);
-  expect_warning(program_exit_code, "the half thickness is 0.1, the median edge of the mesh 0.6");
-  expect_warning(program_exit_code, ": write --half-thickness 0.6");
-  expect_one_advice();
-  run_program("mark", scratch_path("large.vtu"), "--scale", "1", NULL);
-  expect_warning(program_exit_code, ": write --half-thickness 0.6");
-  /* The file's unit is unknown, so the default half thickness says nothing about the unit. */
-  run_program("mark", scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
-  expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
-}
-
-/* The mesh is in another unit and also too coarse. The warning is about the unit. */
-static void test_coarse_and_other_unit(void **state) {
-  (void)state;
-  for (int i = 0; i < n_units; i += 2) {
-    const double f = factors[i];
-    assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 8, (double[3]){-2.1 * f, -2.1 * f, -1.5 * f},
-                                    (double[3]){2.1 * f, 2.2 * f, 1.5 * f}, 0),
-                     1);
-    char advice[64];
-    snprintf(advice, sizeof advice, ": write --unit %s\n", units[i]);
-    run_program("mark", scratch_path("coarse.vtu"), NULL);
-    expect_warning(program_exit_code, advice);
-  }
-}
-
-/* Even if no node is near the surface, similar sizes show that mesh and surface are in the same unit. */
-static void test_beside_the_mesh(void **state) {
-  (void)state;
-  for (int named = 0; named < 2; ++named) {
-    run_program("mark", meshes[1], "--surface", surfaces[1], "--translate", "0,0,2.6", named ? "--unit" : NULL, "cm",
-                "--surface-unit", "cm", NULL);
-    assert_int_equal(program_exit_code, 3);
-    assert_null(strstr(program_err, "looks as if"));
-    assert_non_null(strstr(program_err, "--translate"));
-  }
-}
-
-/* In a case of several valves, the more likely cause is reported first, whatever the order of the valves. Only this cause has
- * advice. */
-static void test_order_of_causes(void **state) {
-  (void)state;
-  scratch_write_text("two.json",
-                     "{\"mesh\": \"mm.vtu\", \"valves\": [\n"
-                     "{\"name\": \"thick\", \"valve\": \"aortic\", \"scale\": 10, \"half_thickness\": 12},\n"
-                     "{\"name\": \"small\", \"valve\": \"aortic\", \"half_thickness\": 0.1, \"scale\": 0.1}]}\n");
-  run_program("mark", "--case", scratch_path("two.json"), "--output", scratch_path("two.vtu"), "--quiet", NULL);
-  const char *const second = strchr(program_err, '\n') + 1;
-  assert_int_equal(strncmp(program_err, "riis: small: ", strlen("riis: small: ")), 0);
-  assert_non_null(strstr(program_err, ": write --unit mm"));
-  assert_int_equal(strncmp(second, "riis: thick: ", strlen("riis: thick: ")), 0);
-  assert_non_null(strstr(second, ": the half thickness is 12, the largest side of the surface 27.8\n"));
-  assert_null(strstr(second, "--half-thickness"));
-  assert_null(strstr(program_leaks, "--half-thickness"));
-}
-
-static void test_wrong_file_units(void **state) {
-  (void)state;
+TEST(test_wrong_file_units) {
   run_program("mark", meshes[0], "--surface", surfaces[2], NULL);
   expect_warning(3, ": write --unit m --surface-unit mm\n");
   expect_cured(meshes[0], surfaces[2]);
@@ -256,8 +184,28 @@ static void test_wrong_file_units(void **state) {
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
 }
 
-static void test_half_thickness(void **state) {
-  (void)state;
+/* The mesh's edges suggest millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user names
+ * decides. */
+TEST(test_coarse_or_other_unit) {
+  assert_int_equal(
+      shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 40, (double[3]){-9, -9, -9}, (double[3]){9, 9, 9}, 0), 1);
+  run_program("mark", scratch_path("large.vtu"), NULL);
+  expect_warning(program_exit_code, "the mesh looks as if it were in millimetres, the surface in centimetres");
+  expect_warning(program_exit_code, ": write --unit mm\n");
+  expect_one_advice();
+  RUN_FINE("mark", scratch_path("large.vtu"), "--unit", "mm");
+  run_program("mark", scratch_path("large.vtu"), "--unit", "cm", NULL);
+  expect_warning(program_exit_code, "the half thickness is 0.1, the median edge of the mesh 0.6");
+  expect_warning(program_exit_code, ": write --half-thickness 0.6");
+  expect_one_advice();
+  run_program("mark", scratch_path("large.vtu"), "--scale", "1", NULL);
+  expect_warning(program_exit_code, ": write --half-thickness 0.6");
+  /* The file's unit is unknown, so the default half thickness says nothing about the unit. */
+  run_program("mark", scratch_path("large.vtu"), "--surface", surfaces[2], NULL);
+  expect_warning(0, "both look as if they were in millimetres: write --unit mm --surface-unit mm\n");
+}
+
+TEST(test_half_thickness) {
   run_program("mark", meshes[0], "--scale", "0.01", "--half-thickness", "0.1", "--quiet", "--stats",
               scratch_path("s.json"), NULL);
   expect_warning(0, "all 10,648 nodes are marked: the half thickness is 0.1, the largest side of the surface 0.02");
@@ -290,8 +238,7 @@ static void test_half_thickness(void **state) {
 }
 
 /* If sizes do not explain why nothing is marked, the message gives the positions of mesh and surface. */
-static void test_places(void **state) {
-  (void)state;
+TEST(test_places) {
   run_program("mark", meshes[1], "--translate", "50,0,0", NULL);
   expect_warning(3,
                  "no node is marked: the mesh is in x -1.7 to 1.5, y -1.6 to 1.6, z -1.3 to 0.4, the surface in x 48.");
@@ -309,14 +256,46 @@ static void test_places(void **state) {
   assert_int_equal(program_exit_code, 0);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_valves),           cmocka_unit_test(test_surface_files),
-      cmocka_unit_test(test_patches),          cmocka_unit_test(test_wrong_valve_units),
-      cmocka_unit_test(test_wrong_file_units), cmocka_unit_test(test_coarse_or_other_unit),
-      cmocka_unit_test(test_half_thickness),   cmocka_unit_test(test_places),
-      cmocka_unit_test(test_order_of_causes),  cmocka_unit_test(test_coarse_and_other_unit),
-      cmocka_unit_test(test_beside_the_mesh),
-  };
-  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
+/* In a case of several valves, the more likely cause is reported first, whatever the order of the valves. Only this cause has
+ * advice. */
+TEST(test_order_of_causes) {
+  scratch_write_text("two.json",
+                     "{\"mesh\": \"mm.vtu\", \"valves\": [\n"
+                     "{\"name\": \"thick\", \"valve\": \"aortic\", \"scale\": 10, \"half_thickness\": 12},\n"
+                     "{\"name\": \"small\", \"valve\": \"aortic\", \"half_thickness\": 0.1, \"scale\": 0.1}]}\n");
+  run_program("mark", "--case", scratch_path("two.json"), "--output", scratch_path("two.vtu"), "--quiet", NULL);
+  const char *const second = strchr(program_err, '\n') + 1;
+  assert_int_equal(strncmp(program_err, "riis: small: ", strlen("riis: small: ")), 0);
+  assert_non_null(strstr(program_err, ": write --unit mm"));
+  assert_int_equal(strncmp(second, "riis: thick: ", strlen("riis: thick: ")), 0);
+  assert_non_null(strstr(second, ": the half thickness is 12, the largest side of the surface 27.8\n"));
+  assert_null(strstr(second, "--half-thickness"));
+  assert_null(strstr(program_leaks, "--half-thickness"));
 }
+
+/* The mesh is in another unit and also too coarse. The warning is about the unit. */
+TEST(test_coarse_and_other_unit) {
+  for (int i = 0; i < n_units; i += 2) {
+    const double f = factors[i];
+    assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 8, (double[3]){-2.1 * f, -2.1 * f, -1.5 * f},
+                                    (double[3]){2.1 * f, 2.2 * f, 1.5 * f}, 0),
+                     1);
+    char advice[64];
+    snprintf(advice, sizeof advice, ": write --unit %s\n", units[i]);
+    run_program("mark", scratch_path("coarse.vtu"), NULL);
+    expect_warning(program_exit_code, advice);
+  }
+}
+
+/* Even if no node is near the surface, similar sizes show that mesh and surface are in the same unit. */
+TEST(test_beside_the_mesh) {
+  for (int named = 0; named < 2; ++named) {
+    run_program("mark", meshes[1], "--surface", surfaces[1], "--translate", "0,0,2.6", named ? "--unit" : NULL, "cm",
+                "--surface-unit", "cm", NULL);
+    assert_int_equal(program_exit_code, 3);
+    assert_null(strstr(program_err, "looks as if"));
+    assert_non_null(strstr(program_err, "--translate"));
+  }
+}
+
+int main(void) { return run_cases(make_files, scratch_teardown); }

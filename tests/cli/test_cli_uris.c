@@ -147,8 +147,7 @@ static const struct {
              {"bileaflet", {"positive", "negative"}, "ring_height=0.6", 2}};
 enum { n_kinds = sizeof kinds / sizeof kinds[0] };
 
-static void test_positions(void **state) {
-  (void)state;
+TEST(test_positions) {
   for (int i = 0; i < n_kinds; ++i) {
     riis_valve *valve = NULL;
     char name[32];
@@ -175,8 +174,7 @@ static void test_positions(void **state) {
 }
 
 /* From the .vtu, VTK reads the nodes of the first frame in their order. */
-static void test_vtk(void **state) {
-  (void)state;
+TEST(test_vtk) {
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
   const uris_face *face = &exported.face[1];
   riis_vtk_surface *file = NULL;
@@ -198,8 +196,7 @@ static void test_vtk(void **state) {
 
 /* The solver's velocity of a node, from two frames, equals the velocity of the library's vertex. Nodes of the mitral valve also
  * slide along their leaflet, with the joints of the annulus. */
-static void test_velocity(void **state) {
-  (void)state;
+TEST(test_velocity) {
   riis_valve *valve = NULL, *before = NULL;
   EXPORT("velocity", RAMPS, "--valve", "trileaflet");
   CHECK_OK(riis_valve_create("trileaflet", &valve));
@@ -276,8 +273,7 @@ static double outline_of(const uris_face *face, const double *xyz) {
 
 /* In no frame is an edge longer than allowed. Area and outline of the leaflets are unchanged, and every old node is still
  * there. */
-static void test_largest_edge(void **state) {
-  (void)state;
+TEST(test_largest_edge) {
   const char *const valves[] = {"mitral", "bileaflet"};
   for (int v = 0; v < 2; ++v) {
     char coarse_folder[32], fine_folder[32];
@@ -355,8 +351,7 @@ static rule_marks marks_of_closed(const char *kind) {
   return found;
 }
 
-static void test_marking_rule(void **state) {
-  (void)state;
+TEST(test_marking_rule) {
   const char *const valves[] = {"trileaflet", "mitral"};
   for (int v = 0; v < 2; ++v) {
     char folder[32];
@@ -469,8 +464,7 @@ static void check_box_of_scaffold(void) {
 
 /* Tests the box for all kinds of valves, along the axes and oblique, with thick and thin bands. Further cases are a flat
  * prosthesis, a flat patch whose box has no thickness, and a patch that opens into a plane across another axis. */
-static void test_box(void **state) {
-  (void)state;
+TEST(test_box) {
   rng = random_start("test_cli_uris");
   static const char *const shapes[][8] = {
       {"--valve", "aortic"},
@@ -508,9 +502,4 @@ static void test_box(void **state) {
     }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_positions),    cmocka_unit_test(test_vtk),
-                                     cmocka_unit_test(test_velocity),     cmocka_unit_test(test_largest_edge),
-                                     cmocka_unit_test(test_marking_rule), cmocka_unit_test(test_box)};
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -36,8 +36,7 @@ static uris_valve take_export(void) {
 
 /* ---- Usage ---- */
 
-static void test_missing_options(void **state) {
-  (void)state;
+TEST(test_missing_options) {
   REFUSED(2, "--time-step is required", EXPORT, RAMPS);
   REFUSED(2, "--resistance is required", "export", FOLDER, "--time-step", "0.001", RAMPS);
   const char *const text = "riis export needs --opening-seconds and --closing-seconds, or --cycle";
@@ -49,8 +48,7 @@ static void test_missing_options(void **state) {
   REFUSED(2, "--period requires --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--period", "1");
 }
 
-static void test_useless_options(void **state) {
-  (void)state;
+TEST(test_useless_options) {
   scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
   const char *cycle = scratch_path("c.csv");
   REFUSED(2, "--opening-seconds excludes --cycle", EXPORT, "--time-step", "0.1", "--cycle", cycle, "--opening-seconds",
@@ -65,8 +63,7 @@ static void test_useless_options(void **state) {
     REFUSED(2, " is not an option", EXPORT, "--time-step", "0.001", RAMPS, others[i]);
 }
 
-static void test_numbers(void **state) {
-  (void)state;
+TEST(test_numbers) {
   const char *const steps[] = {"0", "-0.001", "nan", "inf", "-inf"};
   for (size_t i = 0; i < sizeof steps / sizeof steps[0]; ++i) {
     char text[64];
@@ -91,8 +88,7 @@ static void test_numbers(void **state) {
   REFUSED(2, "--half-thickness: -1 is not above 0", EXPORT, "--time-step", "0.01", RAMPS, "--half-thickness=-1");
 }
 
-static void test_spans(void **state) {
-  (void)state;
+TEST(test_spans) {
   scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
   const char *cycle = scratch_path("c.csv");
 #define CYCLE EXPORT, "--time-step", "0.25", "--cycle", cycle
@@ -118,8 +114,7 @@ static void test_spans(void **state) {
 
 /* ---- The folder ---- */
 
-static void test_folders(void **state) {
-  (void)state;
+TEST(test_folders) {
   char text[128];
   assert_int_equal(mkdir(scratch_path("full"), 0777), 0);
   scratch_write_text("full/mine.txt", "mine");
@@ -147,8 +142,7 @@ static void test_folders(void **state) {
 }
 
 /* A valve that is refused, a full disk and an interruption leave nothing, not even the folder. */
-static void test_nothing_half_written(void **state) {
-  (void)state;
+TEST(test_nothing_half_written) {
   REFUSED(1, "root_radius", EXPORT, "--time-step", "0.01", RAMPS, "--valve", "trileaflet", "--set", "root_radius=-1");
   REFUSED(1, "opening is 0.", EXPORT, "--time-step", "0.004", RAMPS, "--valve", scratch_path("patch.json"));
   struct rlimit before, small = {100000, 0};
@@ -173,8 +167,7 @@ static void expect_openings(const char *text) {
   if (!strstr(program_out, text)) fail_msg("no '%s' in:\n%s", text, program_out);
 }
 
-static void test_cycles(void **state) {
-  (void)state;
+TEST(test_cycles) {
   /* The valve opens in 0.22:0.29 and closes in 0.29:0.66, from the key with the largest opening to the next key with the
    * least. */
   scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
@@ -202,8 +195,7 @@ static void test_cycles(void **state) {
 }
 
 /* One side of the patch shrinks to a point as it opens, and then some triangles have no area. */
-static void test_patches(void **state) {
-  (void)state;
+TEST(test_patches) {
   scratch_write_text(
       "shrinks.json",
       "{\"curves\": {\"a\": [[0,0,0],[1,0,0]], \"b\": [[0,1,0],[1,1,0]], \"c\": [[0,0,0],[0,1,0]],"
@@ -229,11 +221,4 @@ static int make_files(void **state) {
   return status;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_missing_options), cmocka_unit_test(test_useless_options),
-      cmocka_unit_test(test_numbers),         cmocka_unit_test(test_spans),
-      cmocka_unit_test(test_folders),         cmocka_unit_test(test_nothing_half_written),
-      cmocka_unit_test(test_cycles),          cmocka_unit_test(test_patches)};
-  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
-}
+int main(void) { return run_cases(make_files, scratch_teardown); }

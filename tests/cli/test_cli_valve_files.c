@@ -89,8 +89,7 @@ static void run_at(const char *valve, const char *opening) {
   expect_surface_output();
 }
 
-static void test_marks(void **state) {
-  (void)state;
+TEST(test_marks) {
   riis_valve *valve = flap_by_c(closed_control), *open = flap_by_c(open_control);
   keep_path();
   write_flap(0, NULL, NULL);
@@ -118,8 +117,7 @@ static void test_marks(void **state) {
 }
 
 /* Every option that takes parameters accepts the valve's parameters. */
-static void test_parameters(void **state) {
-  (void)state;
+TEST(test_parameters) {
   keep_path();
   write_flap(1, NULL, NULL);
   RUN_FINE("params", "--valve", file);
@@ -147,8 +145,7 @@ static void test_parameters(void **state) {
               "--valve", file, "--opening", "0.5");
 }
 
-static void test_bad_files(void **state) {
-  (void)state;
+TEST(test_bad_files) {
   const struct {
     const char *json, *text;
   } files[] = {
@@ -185,8 +182,7 @@ static void test_bad_files(void **state) {
 }
 
 /* Each case adds one fault to a valid file. */
-static void test_changed_files(void **state) {
-  (void)state;
+TEST(test_changed_files) {
   const struct {
     int can_open;
     const char *found, *replacement, *text;
@@ -254,12 +250,4 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_marks),
-      cmocka_unit_test(test_parameters),
-      cmocka_unit_test(test_bad_files),
-      cmocka_unit_test(test_changed_files),
-  };
-  return cmocka_run_group_tests(tests, make_patches_box, destroy_all);
-}
+int main(void) { return run_cases(make_patches_box, destroy_all); }

@@ -23,8 +23,7 @@ static void expect_text(const char *name, const char *text) {
   free(found);
 }
 
-static void test_same_file_twice(void **state) {
-  (void)state;
+TEST(test_same_file_twice) {
   size_t size[2] = {0, 0};
   const char *mesh = scratch_path("in.vtu"), *params = scratch_path("v.json"), *out = scratch_path("z.vtu");
   char *before = scratch_read(mesh, &size[0]);
@@ -63,8 +62,7 @@ static void copy_file(const char *from, const char *to) {
   free(bytes);
 }
 
-static void test_in_place(void **state) {
-  (void)state;
+TEST(test_in_place) {
   const char *const names[] = {"in.vtu", "soft.vtu", "hard.vtu", "folder/in.vtu"};
   copy_file("in.vtu", "kept.vtu");
   assert_int_equal(symlink("in.vtu", scratch_path("soft.vtu")), 0);
@@ -87,10 +85,25 @@ static void test_in_place(void **state) {
   expect_kept("place.vtp", "kept.vtp");
 }
 
+/* Stats replace a file, also if its name is a link. If the name is a device, they are written into the device. */
+TEST(test_stats_places) {
+  scratch_write_text("s.json", "before");
+  assert_int_equal(symlink("s.json", scratch_path("s_link.json")), 0);
+  const int n_files = scratch_n_files();
+  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", scratch_path("s_link.json"), "--quiet");
+  struct stat status;
+  assert_int_equal(lstat(scratch_path("s_link.json"), &status), 0);
+  assert_true(S_ISLNK(status.st_mode));
+  char *json = scratch_read(scratch_path("s.json"), NULL);
+  assert_true(json_number(json, "n_nodes") == n_box);
+  free(json);
+  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "/dev/null", "--quiet");
+  assert_int_equal(scratch_n_files(), n_files);
+}
+
 /* A motion consists of its .pvd list and the listed frames. Neither an output nor a step of a series may replace one of these
  * files. */
-static void test_motion_in_place(void **state) {
-  (void)state;
+TEST(test_motion_in_place) {
   RUN_FINE("surface", "--valve", "mitral", "--output", scratch_path("a.vtp"), "--quiet");
   assert_int_equal(mkdir(scratch_path("beat"), 0700), 0);
   assert_int_equal(mkdir(scratch_path("out"), 0700), 0);
@@ -163,8 +176,7 @@ static void expect_locked(const char *mesh, const char *option, const char *outp
 
 /* A second run with the same output is refused, whatever the option and the file's name. A run that has ended or was killed
  * blocks no other run. */
-static void test_second_run(void **state) {
-  (void)state;
+TEST(test_second_run) {
   char mesh[256], held[256];
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
   snprintf(held, sizeof held, "%s", scratch_path("held.vtu"));
@@ -188,26 +200,8 @@ static void test_second_run(void **state) {
   assert_int_equal(program_exit_code, 128 + SIGINT);
   assert_false(scratch_exists(".riis-held.vtu.lock"));
 }
-/* Stats replace a file, also if its name is a link. If the name is a device, they are written into the device. */
-static void test_stats_places(void **state) {
-  (void)state;
-  scratch_write_text("s.json", "before");
-  assert_int_equal(symlink("s.json", scratch_path("s_link.json")), 0);
-  const int n_files = scratch_n_files();
-  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", scratch_path("s_link.json"), "--quiet");
-  struct stat status;
-  assert_int_equal(lstat(scratch_path("s_link.json"), &status), 0);
-  assert_true(S_ISLNK(status.st_mode));
-  char *json = scratch_read(scratch_path("s.json"), NULL);
-  assert_true(json_number(json, "n_nodes") == n_box);
-  free(json);
-  RUN_FINE("mark", scratch_path("in.vtu"), "--stats", "/dev/null", "--quiet");
-  assert_int_equal(scratch_n_files(), n_files);
-}
-
 /* A new file in the same folder replaces the old one. So the folder must be writable, not only the file. */
-static void test_closed_folder(void **state) {
-  (void)state;
+TEST(test_closed_folder) {
   /* Root may write everywhere, so the child programs must lose that right. */
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0 && geteuid() == 0) skip();
   const char *mesh = scratch_path("missing.vtu");
@@ -228,8 +222,7 @@ static void test_closed_folder(void **state) {
 }
 
 /* If a file may not grow to its full size, the program reports an error and is not killed. */
-static void test_limited_size(void **state) {
-  (void)state;
+TEST(test_limited_size) {
   scratch_write_text("limit.vtu", "before");
   scratch_write_text("limit.json", "before");
   const int n_files = scratch_n_files();
@@ -267,8 +260,7 @@ static void run_and_interrupt(int signal_number) {
 
 /* A signal ends the process only after the current file is complete, so --stats is not written. On a busy machine the program
  * may end before this process sees the file; then the test tries again. */
-static void test_interruption(void **state) {
-  (void)state;
+TEST(test_interruption) {
   assert_true(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 60, (double[3]){-1.7, -1.6, -1.3},
                              (double[3]){1.5, 1.6, 0.4}, 1));
   const int signals[] = {SIGINT, SIGTERM};
@@ -282,11 +274,4 @@ static void test_interruption(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_same_file_twice), cmocka_unit_test(test_in_place),     cmocka_unit_test(test_stats_places),
-      cmocka_unit_test(test_motion_in_place), cmocka_unit_test(test_second_run),   cmocka_unit_test(test_closed_folder),
-      cmocka_unit_test(test_limited_size),    cmocka_unit_test(test_interruption),
-  };
-  return cmocka_run_group_tests(tests, make_box, scratch_teardown);
-}
+int main(void) { return run_cases(make_box, scratch_teardown); }

@@ -135,8 +135,7 @@ static void expect_picture(const char *image, const char *end) {
   assert_true(n_coloured[0] + n_coloured[1] > width * height / 1000);
 }
 
-static void test_every_figure(void **state) {
-  (void)state;
+TEST(test_every_figure) {
   for (int i = 1; i <= n_figures; ++i) {
     char start[64], caption[64];
     snprintf(start, sizeof start, "<section id=\"figure-%d\">", i);
@@ -217,8 +216,80 @@ static void expect_row(const char *kind, int figure, const char *row, const char
   assert_memory_equal(cells, "</tr>", 5);
 }
 
-static void test_tables_of_states(void **state) {
-  (void)state;
+TEST(test_page_stands_alone) {
+  assert_null(strstr(page, "http:")); /* encoded pictures have no colon */
+  assert_null(strstr(page, "https:"));
+  assert_null(strstr(page, "<script"));
+  assert_null(strstr(page, "<link"));
+  for (const char *source = page; (source = strstr(source, "src=\"")); ++source)
+    assert_memory_equal(source, "src=\"data:image/png;base64,", strlen("src=\"data:image/png;base64,"));
+  assert_null(strstr(page, " nan"));
+  assert_non_null(strstr(page, "</html>"));
+}
+
+/* Figures given by the JSON file follow the program's own figures. */
+TEST(test_given_figures) {
+  char start[64];
+  snprintf(start, sizeof start, "<section id=\"figure-%d\">", n_figures + 1);
+  const char *section = strstr(page, start);
+  assert_non_null(section);
+  const char *end = strstr(section, "</section>");
+  assert_non_null(find(section, end, "Costs</h2>"));
+  assert_non_null(find(section, end, "All of them."));
+  const char *first = find(section, end, "<img "), *second = find(first + 1, end, "<img ");
+  assert_non_null(second);
+  assert_non_null(find(second, end, "second</figcaption>"));
+  expect_picture(first, end);
+  expect_picture(second, end);
+}
+
+/* Faults of the given figures are reported before anything is drawn. */
+TEST(test_given_figures_refused) {
+  const struct {
+    const char *json, *text;
+  } wrong[] = {
+      {"{", "plots.json: "},
+      {"{}", "plots.json: "},
+      {"{\"figures\": [{\"title\": 3}]}", "plots.json: "},
+      {"{\"figures\": [], \"left_out\": [1]}", "plots.json: "},
+      {"{\"figures\": [{\"title\": \"\", \"columns\": 0, \"caption\": \"\", \"paper\": \"\", \"panels\": []}]}",
+       "plots.json: columns = 0 is not 1 to 4"},
+      {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
+       " [{\"png\": \"none.png\", \"caption\": \"\"}]}]}",
+       "none.png: cannot be read"},
+      {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
+       " [{\"png\": \"plots.json\", \"caption\": \"\"}]}]}",
+       "plots.json: no PNG"}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    assert_int_equal(run_with_plots("wrong.html", wrong[i].json), 1);
+    char *printed = scratch_read(scratch_path("printed"), NULL);
+    if (!strstr(printed, wrong[i].text)) fail_msg("%s: '%s' is not in '%s'", wrong[i].json, wrong[i].text, printed);
+    assert_null(strstr(printed, "figure 1"));
+    free(printed);
+  }
+}
+
+/* The page says which figures are missing. */
+TEST(test_left_out) {
+  const char *section = strstr(page, "<section id=\"left-out\">");
+  assert_non_null(section);
+  const char *end = strstr(section, "</section>");
+  assert_non_null(find(section, end, "Not on this page"));
+  assert_non_null(find(section, end, "<li>Peers: not measured.</li>"));
+  assert_non_null(find(section, end, "<li>Threads: as well.</li>"));
+  assert_non_null(find(section, end, "<li>The states of the aortic valve: "));
+  assert_null(find(section, end, "states of the mitral valve"));
+}
+
+TEST(test_refusals) {
+  assert_int_equal(run_program(""), 2);
+  assert_int_equal(run_program(scratch_path("no_folder/figures.html")), 1);
+  char *printed = scratch_read(scratch_path("printed"), NULL);
+  assert_non_null(strstr(printed, "figures.html: cannot be written"));
+  free(printed);
+}
+
+TEST(test_tables_of_states) {
   const int trileaflet = n_of_paper + 1, coapting = trileaflet + 1, mitral = coapting + 1, bileaflet = mitral + 1;
   expect_row("trileaflet", trileaflet, "right cusp: free edge (cm)", "right_edge");
   expect_row("trileaflet", trileaflet, "non-coronary cusp: area (cm²)", "non_coronary_area");
@@ -237,8 +308,7 @@ static void test_tables_of_states(void **state) {
 }
 
 /* Each opening has a picture from above and one from the side. */
-static void test_pictures_of_states(void **state) {
-  (void)state;
+TEST(test_pictures_of_states) {
   for (int i = 0; i < n_kinds; ++i) {
     const char *end, *section = section_of(n_of_paper + 1 + i, &end);
     int n_pictures = 0;
@@ -257,8 +327,7 @@ static void test_pictures_of_states(void **state) {
 }
 
 /* The table of parameters has every parameter of every kind, with its description. */
-static void test_parameters_of_all_kinds(void **state) {
-  (void)state;
+TEST(test_parameters_of_all_kinds) {
   static const char *const all[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   const char *section = strstr(page, "<section id=\"parameters\">");
   assert_non_null(section);
@@ -285,78 +354,8 @@ static void test_parameters_of_all_kinds(void **state) {
   }
 }
 
-static void test_page_stands_alone(void **state) {
-  (void)state;
-  assert_null(strstr(page, "http:")); /* encoded pictures have no colon */
-  assert_null(strstr(page, "https:"));
-  assert_null(strstr(page, "<script"));
-  assert_null(strstr(page, "<link"));
-  for (const char *source = page; (source = strstr(source, "src=\"")); ++source)
-    assert_memory_equal(source, "src=\"data:image/png;base64,", strlen("src=\"data:image/png;base64,"));
-  assert_null(strstr(page, " nan"));
-  assert_non_null(strstr(page, "</html>"));
-}
-
-/* Figures given by the JSON file follow the program's own figures. */
-static void test_given_figures(void **state) {
-  (void)state;
-  char start[64];
-  snprintf(start, sizeof start, "<section id=\"figure-%d\">", n_figures + 1);
-  const char *section = strstr(page, start);
-  assert_non_null(section);
-  const char *end = strstr(section, "</section>");
-  assert_non_null(find(section, end, "Costs</h2>"));
-  assert_non_null(find(section, end, "All of them."));
-  const char *first = find(section, end, "<img "), *second = find(first + 1, end, "<img ");
-  assert_non_null(second);
-  assert_non_null(find(second, end, "second</figcaption>"));
-  expect_picture(first, end);
-  expect_picture(second, end);
-}
-
-/* The page says which figures are missing. */
-static void test_left_out(void **state) {
-  (void)state;
-  const char *section = strstr(page, "<section id=\"left-out\">");
-  assert_non_null(section);
-  const char *end = strstr(section, "</section>");
-  assert_non_null(find(section, end, "Not on this page"));
-  assert_non_null(find(section, end, "<li>Peers: not measured.</li>"));
-  assert_non_null(find(section, end, "<li>Threads: as well.</li>"));
-  assert_non_null(find(section, end, "<li>The states of the aortic valve: "));
-  assert_null(find(section, end, "states of the mitral valve"));
-}
-
-/* Faults of the given figures are reported before anything is drawn. */
-static void test_given_figures_refused(void **state) {
-  (void)state;
-  const struct {
-    const char *json, *text;
-  } wrong[] = {
-      {"{", "plots.json: "},
-      {"{}", "plots.json: "},
-      {"{\"figures\": [{\"title\": 3}]}", "plots.json: "},
-      {"{\"figures\": [], \"left_out\": [1]}", "plots.json: "},
-      {"{\"figures\": [{\"title\": \"\", \"columns\": 0, \"caption\": \"\", \"paper\": \"\", \"panels\": []}]}",
-       "plots.json: columns = 0 is not 1 to 4"},
-      {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
-       " [{\"png\": \"none.png\", \"caption\": \"\"}]}]}",
-       "none.png: cannot be read"},
-      {"{\"figures\": [{\"title\": \"\", \"columns\": 1, \"caption\": \"\", \"paper\": \"\", \"panels\":"
-       " [{\"png\": \"plots.json\", \"caption\": \"\"}]}]}",
-       "plots.json: no PNG"}};
-  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
-    assert_int_equal(run_with_plots("wrong.html", wrong[i].json), 1);
-    char *printed = scratch_read(scratch_path("printed"), NULL);
-    if (!strstr(printed, wrong[i].text)) fail_msg("%s: '%s' is not in '%s'", wrong[i].json, wrong[i].text, printed);
-    assert_null(strstr(printed, "figure 1"));
-    free(printed);
-  }
-}
-
 /* Faults of the tables of states are also reported. */
-static void test_tables_refused(void **state) {
-  (void)state;
+TEST(test_tables_refused) {
   const struct {
     const char *name, *table, *text;
   } wrong[] = {{"mitral.csv", "", "mitral.csv: cannot be read"},
@@ -385,29 +384,8 @@ static void test_tables_refused(void **state) {
   }
 }
 
-static void test_refusals(void **state) {
-  (void)state;
-  assert_int_equal(run_program(""), 2);
-  assert_int_equal(run_program(scratch_path("no_folder/figures.html")), 1);
-  char *printed = scratch_read(scratch_path("printed"), NULL);
-  assert_non_null(strstr(printed, "figures.html: cannot be written"));
-  free(printed);
-}
-
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_figure),
-      cmocka_unit_test(test_page_stands_alone),
-      cmocka_unit_test(test_given_figures),
-      cmocka_unit_test(test_given_figures_refused),
-      cmocka_unit_test(test_left_out),
-      cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_tables_of_states),
-      cmocka_unit_test(test_pictures_of_states),
-      cmocka_unit_test(test_parameters_of_all_kinds),
-      cmocka_unit_test(test_tables_refused),
-  };
-  return cmocka_run_group_tests(tests, draw_page, remove_page);
+  return run_cases(draw_page, remove_page);
 }

@@ -81,8 +81,7 @@ static void expect_written(const riis_parameter *parameter, void *svg) {
     fail_msg("%s is not in the drawing", parameter->name);
 }
 
-static void test_every_parameter_is_named(void **state) {
-  (void)state;
+TEST(test_every_parameter_is_named) {
   for (size_t i = 0; i < n_valves; ++i) {
     char name[64];
     snprintf(name, sizeof name, "%s_parameters.svg", valves[i]);
@@ -110,8 +109,7 @@ static void expect_in_picture(const riis_parameter *parameter, void *what) {
            parameter->name);
 }
 
-static void test_pictures_of_the_documents(void **state) {
-  (void)state;
+TEST(test_pictures_of_the_documents) {
   for (size_t i = 0; i < n_valves; ++i) {
     char path[1024];
     struct picture picture;
@@ -142,8 +140,7 @@ static void expect_refused_drawing(const char *kind, const char *mark, const cha
   free(printed);
 }
 
-static void test_untrue_drawings_are_refused(void **state) {
-  (void)state;
+TEST(test_untrue_drawings_are_refused) {
   const char *more =
       "\"parameters\": [ {\"name\": \"left.tilt\", \"unit\": \"degree\", \"values\": [3], \"description\": \"\"},";
   expect_refused_drawing("aortic", "\"aortic\"", "\"parameters\": [", more, "aortic valve: not drawn: left.tilt");
@@ -195,8 +192,7 @@ static void expect_compared(const char *kind, const char *quoted_kind, const cha
   free(printed);
 }
 
-static void test_new_kinds_are_compared(void **state) {
-  (void)state;
+TEST(test_new_kinds_are_compared) {
   static const char *const trileaflet[] = {"root_radius",
                                            "leaflet_radius_out",
                                            "leaflet_height",
@@ -233,8 +229,7 @@ static void test_new_kinds_are_compared(void **state) {
                          "ring_height is 1.5, but the drawing shows 1.4");
 }
 
-static void test_refused_arguments(void **state) {
-  (void)state;
+TEST(test_refused_arguments) {
   assert_int_equal(run("'" RIIS_FIGURES_PROGRAM "'", "--curves", scratch_path("none/curves.json"), ""), 1);
   char *printed = scratch_read(scratch_path("printed"), NULL);
   assert_non_null(strstr(printed, "curves.json: cannot be written"));
@@ -244,11 +239,4 @@ static void test_refused_arguments(void **state) {
   assert_int_equal(draw("curves.json", "tricuspid"), 2);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_every_parameter_is_named),    cmocka_unit_test(test_pictures_of_the_documents),
-      cmocka_unit_test(test_untrue_drawings_are_refused), cmocka_unit_test(test_new_kinds_are_compared),
-      cmocka_unit_test(test_refused_arguments),
-  };
-  return cmocka_run_group_tests(tests, setup, scratch_teardown);
-}
+int main(void) { return run_cases(setup, scratch_teardown); }

@@ -22,8 +22,7 @@ static double distance(const double *a, const double *b) {
   return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-static void evaluates_the_bernstein_sum(void **state) {
-  (void)state;
+TEST(evaluates_the_bernstein_sum) {
   for (int trial = 0; trial < 200; ++trial) {
     double control[12], got[3], expected[3];
     const int degree = 2 + trial % 2;
@@ -39,8 +38,7 @@ static void evaluates_the_bernstein_sum(void **state) {
   }
 }
 
-static void derivative_is_the_limit_of_differences(void **state) {
-  (void)state;
+TEST(derivative_is_the_limit_of_differences) {
   for (int trial = 0; trial < 200; ++trial) {
     double control[12], got[3], before[3], after[3];
     const int degree = 2 + trial % 2;
@@ -53,8 +51,7 @@ static void derivative_is_the_limit_of_differences(void **state) {
   }
 }
 
-static void arc_length_of_known_curves(void **state) {
-  (void)state;
+TEST(arc_length_of_known_curves) {
   const double line[12] = {0, 0, 0, 1, 2, 2, 2, 4, 4, 3, 6, 6};
   CHECK_NEAR(bezier_arc_length(3, line, 0, 1), 9, 1e-12);
   CHECK_NEAR(bezier_arc_length(3, line, 0.25, 0.75), 4.5, 1e-12);
@@ -69,8 +66,7 @@ static void arc_length_of_known_curves(void **state) {
   CHECK_NEAR(bezier_arc_length(2, point, 0, 1), 0, 0);
 }
 
-static void arc_length_is_the_limit_of_chords(void **state) {
-  (void)state;
+TEST(arc_length_is_the_limit_of_chords) {
   for (int trial = 0; trial < 20; ++trial) {
     double control[12], previous[3], next[3], sum[2] = {0, 0};
     random_control(control);
@@ -91,8 +87,7 @@ static void arc_length_is_the_limit_of_chords(void **state) {
   }
 }
 
-static void split_gives_the_same_curve_in_two(void **state) {
-  (void)state;
+TEST(split_gives_the_same_curve_in_two) {
   for (int trial = 0; trial < 100; ++trial) {
     double control[12], left[12], right[12], got[3], expected[3];
     const int degree = 2 + trial % 2;
@@ -109,8 +104,7 @@ static void split_gives_the_same_curve_in_two(void **state) {
   }
 }
 
-static void flatness_is_measured_to_the_segment(void **state) {
-  (void)state;
+TEST(flatness_is_measured_to_the_segment) {
   const double beyond_the_end[9] = {0, 0, 0, 3, 0, 0, 1, 0, 0}; /* the inner point is 2 beyond the segment */
   CHECK_NEAR(bezier_flatness(2, beyond_the_end), 2, 1e-15);
   const double closed[12] = {0, 0, 0, 0, 3, 0, 4, 0, 0, 0, 0, 0}; /* the paper's formula gives 0/0 here */
@@ -121,8 +115,7 @@ static void flatness_is_measured_to_the_segment(void **state) {
 
 /* Compares every point of the curve with the point of its chord at the same fraction of the length. The promised bound holds
  * for every piece, and on average it is not much too large. Pieces begin and end at binary fractions of the length. */
-static void flattening_stays_within_its_bound(void **state) {
-  (void)state;
+TEST(flattening_stays_within_its_bound) {
   double sum_of_ratios = 0;
   int64_t n_pieces = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -183,8 +176,7 @@ static int64_t n_flattened(int degree, const double *control, double max_error) 
   return n;
 }
 
-static void flattening_takes_few_points(void **state) {
-  (void)state;
+TEST(flattening_takes_few_points) {
   const double line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   assert_int_equal(n_flattened(2, line, 1e-9), 2);
   assert_int_equal(n_flattened(2, point, 1e-9), 1);
@@ -202,12 +194,6 @@ static void flattening_takes_few_points(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(evaluates_the_bernstein_sum),       cmocka_unit_test(derivative_is_the_limit_of_differences),
-      cmocka_unit_test(arc_length_of_known_curves),        cmocka_unit_test(arc_length_is_the_limit_of_chords),
-      cmocka_unit_test(split_gives_the_same_curve_in_two), cmocka_unit_test(flatness_is_measured_to_the_segment),
-      cmocka_unit_test(flattening_stays_within_its_bound), cmocka_unit_test(flattening_takes_few_points),
-  };
   rng = random_start("test_bezier");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

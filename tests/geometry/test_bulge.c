@@ -19,8 +19,7 @@ static void make_base(void) {
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
 /* A cylinder hangs below a circle: W = (0, 0, -2) and T is along the circle, so O = factor * 2 outwards. */
-static void of_a_cylinder(void **state) {
-  (void)state;
+TEST(of_a_cylinder) {
   double edge[12 * n_base];
   memcpy(edge, base, sizeof edge);
   for (int i = 0; i < 4 * n_base; ++i) edge[3 * i + 2] = -2;
@@ -38,8 +37,7 @@ static void of_a_cylinder(void **state) {
   CHECK_NEAR(offset[1], -0.5, 1e-12);
 }
 
-static void is_nothing_where_base_and_edge_touch(void **state) {
-  (void)state;
+TEST(is_nothing_where_base_and_edge_touch) {
   const double point[12] = {1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
   double offset[3];
   bulge_at(n_base, base, 1, point, 0.25, 0, offset);
@@ -49,8 +47,7 @@ static void is_nothing_where_base_and_edge_touch(void **state) {
 /* Edges have any shape, even single points, and bases have joints. Some edges run so near the base that W is parallel to the base
  * in places, or nearly so. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. On short
  * ranges the bound is not much too large, except for edges near the base. */
-static void stays_within_the_bound(void **state) {
-  (void)state;
+TEST(stays_within_the_bound) {
   double sum_of_ratios = 0, sum_without_points = 0;
   int n_ranges = 0, n_without_points = 0;
   for (int trial = 0; trial < 600; ++trial) {
@@ -100,21 +97,14 @@ static void stays_within_the_bound(void **state) {
 }
 
 /* O has no direction if W is parallel to T. The bound allows for any direction. */
-static void has_no_direction_along_the_base(void **state) {
-  (void)state;
+TEST(has_no_direction_along_the_base) {
   const double straight[12] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0}, ahead[12] = {5, 0, 0, 6, 0, 0, 7, 0, 0, 8, 0, 0};
   const double bound = bulge_linear_error(1, straight, 1, ahead, 0.5, 0.25, 0.5, 0);
   CHECK_AT_MOST(2 * 0.5 * 5 * 0.999, bound); /* twice the largest possible |O| */
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(of_a_cylinder),
-      cmocka_unit_test(is_nothing_where_base_and_edge_touch),
-      cmocka_unit_test(stays_within_the_bound),
-      cmocka_unit_test(has_no_direction_along_the_base),
-  };
   make_base();
   rng = random_start("test_bulge");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

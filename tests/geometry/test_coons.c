@@ -12,8 +12,7 @@ static const double side_u1[6] = {10, 0, 0, 10, 8, 2};
 static const int64_t sizes[4] = {4, 4, 3, 2};
 static const double *const sides[4] = {side_v0, side_v1, side_u0, side_u1};
 
-static void parameters_are_merged_as_in_the_paper(void **state) {
-  (void)state;
+TEST(parameters_are_merged_as_in_the_paper) {
   quad_grid grid = coons_grid(sizes, sides, 1e-9);
   const double expected[5] = {0, 0.3, 0.5, 0.6, 1};
   const int64_t n_u = grid.n_u, n_v = grid.n_v;
@@ -25,8 +24,7 @@ static void parameters_are_merged_as_in_the_paper(void **state) {
   for (int i = 0; i < 5; ++i) CHECK_NEAR(u[i], expected[i], 1e-15);
 }
 
-static void boundary_is_the_polylines_to_the_last_bit(void **state) {
-  (void)state;
+TEST(boundary_is_the_polylines_to_the_last_bit) {
   quad_grid grid = coons_grid(sizes, sides, 0);
   double p[3];
   int different = 0;
@@ -48,8 +46,7 @@ static void boundary_is_the_polylines_to_the_last_bit(void **state) {
 
 /* Compares with the Coons formula of the polylines at any (u, v). The grid is exact, because the formula is bilinear between
  * the grid's lines. */
-static void surface_equals_the_coons_formula_everywhere(void **state) {
-  (void)state;
+TEST(surface_equals_the_coons_formula_everywhere) {
   random_source rng = random_start("test_coons");
   for (int trial = 0; trial < 500; ++trial) {
     const double u = random_between(&rng, 0, 1), v = random_between(&rng, 0, 1);
@@ -71,8 +68,7 @@ static void surface_equals_the_coons_formula_everywhere(void **state) {
   for (int c = 0; c < 3; ++c) CHECK_NEAR(corner[c], side_v1[9 + c], 0);
 }
 
-static void nearly_equal_parameters_share_a_line(void **state) {
-  (void)state;
+TEST(nearly_equal_parameters_share_a_line) {
   const double v0[9] = {0, 0, 0, 0.5, 0, 0, 1, 0, 0}, v1[9] = {0, 1, 0, 0.5001, 1, 0, 1, 1, 0};
   const double u0[6] = {0, 0, 0, 0, 1, 0}, u1[6] = {1, 0, 0, 1, 1, 0};
   const int64_t n[4] = {3, 3, 2, 2};
@@ -89,8 +85,7 @@ static void nearly_equal_parameters_share_a_line(void **state) {
   assert_true(kept);
 }
 
-static void a_collapsed_side_gives_no_parameters(void **state) {
-  (void)state;
+TEST(a_collapsed_side_gives_no_parameters) {
   const double v0[6] = {0, 0, 0, 0, 0, 0}, v1[9] = {-1, 1, 0, 0.25, 1, 0, 1, 1, 0};
   const double u0[6] = {0, 0, 0, -1, 1, 0}, u1[6] = {0, 0, 0, 1, 1, 0};
   const int64_t n[4] = {2, 3, 2, 2};
@@ -104,8 +99,7 @@ static void a_collapsed_side_gives_no_parameters(void **state) {
   CHECK_NEAR(at_root, 0, 0);
 }
 
-static void kappa_of_known_quads(void **state) {
-  (void)state;
+TEST(kappa_of_known_quads) {
   const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {1, 1, 0}, d[3] = {0, 1, 0}, lifted[3] = {1, 1, 1},
                wide[3] = {3, 1, 0};
   CHECK_NEAR(quad_kappa(a, b, c, d), 0, 0);
@@ -150,8 +144,7 @@ static double distance_to_bilinear(const double (*q)[3], const double *p) {
 }
 
 /* No point of either surface is farther from the other surface than the bound. The quads have all shapes from flat to folded. */
-static void triangles_stay_within_the_split_error(void **state) {
-  (void)state;
+TEST(triangles_stay_within_the_split_error) {
   random_source rng = random_start("test_coons split");
   int n_tighter = 0;
   double largest = 0;
@@ -191,15 +184,4 @@ static void triangles_stay_within_the_split_error(void **state) {
   assert_true(largest > 0.5);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parameters_are_merged_as_in_the_paper),
-      cmocka_unit_test(boundary_is_the_polylines_to_the_last_bit),
-      cmocka_unit_test(surface_equals_the_coons_formula_everywhere),
-      cmocka_unit_test(nearly_equal_parameters_share_a_line),
-      cmocka_unit_test(a_collapsed_side_gives_no_parameters),
-      cmocka_unit_test(kappa_of_known_quads),
-      cmocka_unit_test(triangles_stay_within_the_split_error),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -46,8 +46,7 @@ static void random_triangle(sample *s, int64_t largest) {
  * as 0. With the largest exponent they reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
-static void small_numbers_meet_in_every_way(void **state) {
-  (void)state;
+TEST(small_numbers_meet_in_every_way) {
   int n_met = 0, n_in_plane = 0;
   const int n = 200000;
   for (int trial = 0; trial < n; ++trial) {
@@ -66,8 +65,7 @@ static void small_numbers_meet_in_every_way(void **state) {
 
 /* A segment passes through a triangle's corner, a point of its side, or an inner point. That point is rounded to whole
  * numbers, and one end of the segment is off by at most 1. */
-static void numbers_of_38_bits_are_told_apart(void **state) {
-  (void)state;
+TEST(numbers_of_38_bits_are_told_apart) {
   int n_met = 0;
   const int n = 300000;
   for (int trial = 0; trial < n; ++trial) {
@@ -91,8 +89,7 @@ static void numbers_of_38_bits_are_told_apart(void **state) {
 }
 
 /* A fan of triangles around a corner has no hole: a segment through a point inside the fan meets at least one triangle. */
-static void a_fan_has_no_hole(void **state) {
-  (void)state;
+TEST(a_fan_has_no_hole) {
   enum { n_sides = 7 };
   for (int trial = 0; trial < 20000; ++trial) {
     double corners[n_sides][3], centre[3] = {0, 0, 0}, a[3], b[3];
@@ -122,8 +119,7 @@ static void a_fan_has_no_hole(void **state) {
 }
 
 /* riis.h says that coordinates below 1e-90 count as 0. */
-static void negligible_coordinates_count_as_0(void **state) {
-  (void)state;
+TEST(negligible_coordinates_count_as_0) {
   const double abc[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
   const double above[3] = {0, 0, 1e-91}, higher[3] = {0, 0, 1}, touching[3] = {0, 1, 9e-91}, off[3] = {0, 1, 2e-90};
   assert_true(segment_triangle_meet(above, higher, abc));
@@ -133,11 +129,5 @@ static void negligible_coordinates_count_as_0(void **state) {
 
 int main(void) {
   rng = random_start("test_crossing");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(small_numbers_meet_in_every_way),
-      cmocka_unit_test(numbers_of_38_bits_are_told_apart),
-      cmocka_unit_test(a_fan_has_no_hole),
-      cmocka_unit_test(negligible_coordinates_count_as_0),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

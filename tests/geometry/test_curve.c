@@ -42,8 +42,7 @@ static double (*walk(int64_t n, const double *control, double *length))[3] {
   return points;
 }
 
-static void points_are_where_the_length_says(void **state) {
-  (void)state;
+TEST(points_are_where_the_length_says) {
   for (int trial = 0; trial < 30; ++trial) {
     double control[12 * max_pieces], length, behind = 0;
     const int64_t n = random_chain(control);
@@ -69,8 +68,7 @@ static void points_are_where_the_length_says(void **state) {
   }
 }
 
-static void parts_are_parts(void **state) {
-  (void)state;
+TEST(parts_are_parts) {
   for (int trial = 0; trial < 100; ++trial) {
     double control[12 * max_pieces], part[12 * max_pieces], tangent[3];
     const int64_t n = random_chain(control);
@@ -98,8 +96,7 @@ static void parts_are_parts(void **state) {
 
 /* Points are on the curve at binary fractions of its length, as for one piece (test_bezier). At equal fractions, no point of a
  * chord is farther from the curve than the bound, even across joints. */
-static void flattening_stays_within_its_bound(void **state) {
-  (void)state;
+TEST(flattening_stays_within_its_bound) {
   double sum_of_ratios = 0;
   int64_t n_chords = 0;
   for (int trial = 0; trial < 30; ++trial) {
@@ -133,11 +130,6 @@ static void flattening_stays_within_its_bound(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(points_are_where_the_length_says),
-      cmocka_unit_test(parts_are_parts),
-      cmocka_unit_test(flattening_stays_within_its_bound),
-  };
   rng = random_start("test_curve");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

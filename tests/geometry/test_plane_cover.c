@@ -13,8 +13,7 @@ static void rotated(double x, double y, double angle, const double *centre, doub
   to[1] = centre[1] + sin(angle) * x + cos(angle) * y;
 }
 
-static void test_circle(void **state) {
-  (void)state;
+TEST(test_circle) {
   const double centre[2] = {0.3, -7}, radius = 1.29, area = pi * radius * radius;
   double last = 1;
   for (int n = 64; n <= n_lines; n *= 2) {
@@ -28,8 +27,7 @@ static void test_circle(void **state) {
 }
 
 /* A flat ring covers the circle, except for a hole with m corners. */
-static void test_ring(void **state) {
-  (void)state;
+TEST(test_ring) {
   enum { m = 90 };
   random_source random = random_start("test_plane_cover");
   static double corners[2 * m][6];
@@ -56,8 +54,7 @@ static void test_ring(void **state) {
 
 /* A half plane through the centre covers half the circle, in any direction. The lines run along x, so an edge along
  * x is the worst case. */
-static void test_half(void **state) {
-  (void)state;
+TEST(test_half) {
   random_source random = random_start("test_plane_cover");
   for (int turn = 0; turn < fewer_if_sanitized(60); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
@@ -83,8 +80,7 @@ static int is_in_triangle(const double *c, double x, double y) {
 }
 
 /* Random triangles that overlap, inside a square and inside a circle, compared with a grid of points. */
-static void test_random(void **state) {
-  (void)state;
+TEST(test_random) {
   enum { n_side = 600, n_triangles = 12 };
   const double square[4][6] = {{-1, -1, 0, 1, -1, 5}, {1, -1, 5, 1, 1, 0}, {-1, 1, 2, 1, 1, 0}, {-1, -1, 0, -1, 1, 2}};
   const double origin[2] = {0, 0};
@@ -106,8 +102,7 @@ static void test_random(void **state) {
   }
 }
 
-static void test_open_lines(void **state) {
-  (void)state;
+TEST(test_open_lines) {
   const double lines[3][6] = {{0, 0, 0, 1, 0, 0}, {1, 0, 0, 0, 1, 0}, {0, 1, 1, 0, 0, 0}};
   CHECK_NEAR(shim_uncovered_inside(3, lines[0], 0, NULL, n_lines), 0.5, 1e-12);
   assert_true(shim_uncovered_inside(2, lines[0], 0, NULL, n_lines) == -1);
@@ -127,8 +122,7 @@ static void test_open_lines(void **state) {
 
 /* A round plate in the circle grows, so that the ring around it shrinks. Or a plate with a round hole grows, so that the hole
  * shrinks. */
-static void test_growing(void **state) {
-  (void)state;
+TEST(test_growing) {
   enum { m = 720 };
   static double xy[2 * (2 * m + 1)];
   static int64_t ids[3 * 2 * m];
@@ -158,8 +152,7 @@ static void test_growing(void **state) {
 }
 
 /* A turned square plate grows. Arcs round its corners then belong to its edge. */
-static void test_growing_square(void **state) {
-  (void)state;
+TEST(test_growing_square) {
   random_source random = random_start("test_plane_cover");
   const int64_t ids[6] = {0, 1, 2, 0, 2, 3};
   for (int turn = 0; turn < fewer_if_sanitized(24); ++turn) {
@@ -177,11 +170,4 @@ static void test_growing_square(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_circle),         cmocka_unit_test(test_ring),       cmocka_unit_test(test_half),
-      cmocka_unit_test(test_random),         cmocka_unit_test(test_open_lines), cmocka_unit_test(test_growing),
-      cmocka_unit_test(test_growing_square),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -63,8 +63,7 @@ static void check_sample(const sample *s, double *worst) {
   CHECK_NEAR(distance, sqrt(sum), 1e-15 * largest);
 }
 
-static void agrees_with_the_oracle(void **state) {
-  (void)state;
+TEST(agrees_with_the_oracle) {
   double worst = 0;
   for (int trial = 0; trial < 200000; ++trial) {
     const sample s = random_sample(pow(10, random_between(&rng, -4, 2)), 1, random_between(&rng, 0, 1) < 0.5 ? 1 : 300);
@@ -74,8 +73,7 @@ static void agrees_with_the_oracle(void **state) {
   CHECK_AT_MOST(worst, 1e-14);
 }
 
-static void agrees_on_needles(void **state) {
-  (void)state;
+TEST(agrees_on_needles) {
   double worst = 0;
   int n = 0;
   for (int trial = 0; trial < 200000; ++trial) {
@@ -90,8 +88,7 @@ static void agrees_on_needles(void **state) {
   CHECK_AT_MOST(worst, 1e-12);
 }
 
-static void knows_its_regions(void **state) {
-  (void)state;
+TEST(knows_its_regions) {
   const double abc[9] = {0, 0, 0, 2, 0, 0, 0, 2, 0};
   const struct {
     double p[3], distance, w[3];
@@ -115,8 +112,7 @@ static void knows_its_regions(void **state) {
   }
 }
 
-static void holds_at_the_limits_of_size(void **state) {
-  (void)state;
+TEST(holds_at_the_limits_of_size) {
   for (int power = -58; power <= 58; power += 4) {
     const double s = pow(10, power), abc[9] = {0, 0, 0, 2 * s, 0, 0, 0, 2 * s, 0}, p[3] = {0.5 * s, 0.5 * s, 3 * s};
     double point[3], w[3];
@@ -125,12 +121,6 @@ static void holds_at_the_limits_of_size(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(agrees_with_the_oracle),
-      cmocka_unit_test(agrees_on_needles),
-      cmocka_unit_test(knows_its_regions),
-      cmocka_unit_test(holds_at_the_limits_of_size),
-  };
   rng = random_start("test_point_triangle");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -2,8 +2,7 @@
 #include "internals.h"
 #include "test_support.h"
 
-static void parameter_is_the_share_of_the_length(void **state) {
-  (void)state;
+TEST(parameter_is_the_share_of_the_length) {
   const double points[12] = {0, 0, 0, 3, 0, 0, 3, 1, 0, 3, 1, 6};
   double t[4], p[3];
   int64_t n;
@@ -21,8 +20,7 @@ static void parameter_is_the_share_of_the_length(void **state) {
   CHECK_NEAR(p[2], 3, 1e-14);
 }
 
-static void ends_and_vertices_are_exact(void **state) {
-  (void)state;
+TEST(ends_and_vertices_are_exact) {
   const double points[9] = {0.1, 0.2, 0.3, 1.7, -0.4, 0.9, -2.3, 0.6, 1.1};
   double t[3], p[3];
   int64_t n;
@@ -34,8 +32,7 @@ static void ends_and_vertices_are_exact(void **state) {
   }
 }
 
-static void repeated_points_are_dropped(void **state) {
-  (void)state;
+TEST(repeated_points_are_dropped) {
   const double points[15] = {0, 0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 0, 0};
   double t[5];
   int64_t n;
@@ -44,8 +41,7 @@ static void repeated_points_are_dropped(void **state) {
   CHECK_NEAR(t[1], 0.5, 0);
 }
 
-static void a_point_is_a_polyline(void **state) {
-  (void)state;
+TEST(a_point_is_a_polyline) {
   const double points[9] = {1, 2, 3, 1, 2, 3, 1, 2, 3};
   double t[3], p[3];
   int64_t n;
@@ -57,12 +53,4 @@ static void a_point_is_a_polyline(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parameter_is_the_share_of_the_length),
-      cmocka_unit_test(ends_and_vertices_are_exact),
-      cmocka_unit_test(repeated_points_are_dropped),
-      cmocka_unit_test(a_point_is_a_polyline),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -149,8 +149,7 @@ static riis_mesh_cells cells_init(void) {
   return cells;
 }
 
-static void cells_of_every_kind(void **state) {
-  (void)state;
+TEST(cells_of_every_kind) {
   static const int kinds[5] = {4, 5, 6, 8, 0};
   for (int k = 0; k < 5; ++k)
     for (int repeated_nodes = 0; repeated_nodes < 2; ++repeated_nodes)
@@ -193,8 +192,7 @@ static void cells_of_every_kind(void **state) {
 }
 
 /* One cell of each kind, with its edges listed by hand. */
-static void one_cell_of_each_kind(void **state) {
-  (void)state;
+TEST(one_cell_of_each_kind) {
   static const int n_corners[4] = {4, 5, 6, 8}, n_edges[4] = {6, 8, 9, 12};
   static const int64_t edges[4][24] = {
       {0, 1, 0, 2, 0, 3, 1, 2, 1, 3, 2, 3},
@@ -220,8 +218,33 @@ static void one_cell_of_each_kind(void **state) {
   }
 }
 
-static void cells_that_are_refused(void **state) {
-  (void)state;
+/* --- Faces ----------------------------------------------------------------------------------------------------------- */
+
+static riis_mesh_faces faces_init(void) {
+  riis_mesh_faces faces;
+  CHECK_OK(riis_mesh_faces_init(&faces, sizeof faces));
+  return faces;
+}
+
+/* A rank without cells passes no arrays at all. */
+TEST(nothing_makes_empty_rows) {
+  for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
+    riis_adjacency *adjacency = NULL;
+    pair_list none = {0};
+    riis_mesh_cells cells = cells_init();
+    cells.n_nodes = n_nodes;
+    CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
+    check_rows(adjacency, n_nodes, &none);
+    riis_adjacency_destroy(&adjacency);
+    riis_mesh_faces faces = faces_init();
+    faces.n_cells = n_nodes;
+    CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
+    check_rows(adjacency, n_nodes, &none);
+    riis_adjacency_destroy(&adjacency);
+  }
+}
+
+TEST(cells_that_are_refused) {
   int32_t ids[12] = {0, 1, 2, 3, 1, 2, 3, 4, 2, 3, 4, 5}, offsets[4] = {0, 4, 8, 12};
   riis_adjacency *adjacency = NULL;
   riis_mesh_cells good = cells_init(), cells;
@@ -283,8 +306,7 @@ static void cells_that_are_refused(void **state) {
 }
 
 /* The least 64-bit integer is refused as a node, with base 0 and 1. */
-static void wildest_integers_are_refused(void **state) {
-  (void)state;
+TEST(wildest_integers_are_refused) {
   const int64_t ids[4] = {1, 2, 3, INT64_MIN}, offsets[2] = {1, 2}, columns[1] = {INT64_MIN};
   for (int base = 0; base < 2; ++base) {
     const int owned_before = n_owned();
@@ -334,16 +356,7 @@ static void wildest_integers_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, "cell 1", riis_adjacency_create_from_cells(&cells, &adjacency));
 }
 
-/* --- Faces ----------------------------------------------------------------------------------------------------------- */
-
-static riis_mesh_faces faces_init(void) {
-  riis_mesh_faces faces;
-  CHECK_OK(riis_mesh_faces_init(&faces, sizeof faces));
-  return faces;
-}
-
-static void faces_in_every_layout(void **state) {
-  (void)state;
+TEST(faces_in_every_layout) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
     const int64_t n_cells = 1 + (int64_t)(random_bits(&rng) % 9000), n_faces = trial == 5 ? 0 : 4 * n_cells;
@@ -392,27 +405,7 @@ static void faces_in_every_layout(void **state) {
   }
 }
 
-/* A rank without cells passes no arrays at all. */
-static void nothing_makes_empty_rows(void **state) {
-  (void)state;
-  for (int64_t n_nodes = 0; n_nodes <= 3; n_nodes += 3) {
-    riis_adjacency *adjacency = NULL;
-    pair_list none = {0};
-    riis_mesh_cells cells = cells_init();
-    cells.n_nodes = n_nodes;
-    CHECK_OK(riis_adjacency_create_from_cells(&cells, &adjacency));
-    check_rows(adjacency, n_nodes, &none);
-    riis_adjacency_destroy(&adjacency);
-    riis_mesh_faces faces = faces_init();
-    faces.n_cells = n_nodes;
-    CHECK_OK(riis_adjacency_create_from_faces(&faces, &adjacency));
-    check_rows(adjacency, n_nodes, &none);
-    riis_adjacency_destroy(&adjacency);
-  }
-}
-
-static void faces_that_are_refused(void **state) {
-  (void)state;
+TEST(faces_that_are_refused) {
   int32_t owner[3] = {0, 1, 2}, neighbor[3] = {1, 2, -1};
   riis_adjacency *adjacency = NULL;
   riis_mesh_faces good = faces_init(), faces;
@@ -459,8 +452,7 @@ static void faces_that_are_refused(void **state) {
 
 /* --- Grids ----------------------------------------------------------------------------------------------------------- */
 
-static void grids_of_any_dimension(void **state) {
-  (void)state;
+TEST(grids_of_any_dimension) {
   static const int64_t counts[9][3] = {{1, 1, 1}, {7, 1, 1},   {1, 7, 1},    {1, 1, 7}, {5, 4, 1},
                                        {5, 1, 4}, {1, 90, 80}, {20, 21, 22}, {2, 2, 2}};
   for (int g = 0; g < 9; ++g) {
@@ -486,8 +478,7 @@ static void grids_of_any_dimension(void **state) {
   }
 }
 
-static void grids_that_are_refused(void **state) {
-  (void)state;
+TEST(grids_that_are_refused) {
   riis_adjacency *adjacency = NULL;
 #define REFUSED_AS(status, ni, nj, nk, parts) \
   CHECK_REFUSED(status, parts, riis_adjacency_create_from_grid(ni, nj, nk, 1, &adjacency))
@@ -509,13 +500,6 @@ static void grids_that_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cells_of_every_kind),          cmocka_unit_test(one_cell_of_each_kind),
-      cmocka_unit_test(nothing_makes_empty_rows),     cmocka_unit_test(cells_that_are_refused),
-      cmocka_unit_test(wildest_integers_are_refused), cmocka_unit_test(faces_in_every_layout),
-      cmocka_unit_test(faces_that_are_refused),       cmocka_unit_test(grids_of_any_dimension),
-      cmocka_unit_test(grids_that_are_refused),
-  };
   rng = random_start("test_adjacency");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -7,8 +7,7 @@
 #include "handles.h"
 #include "searches.h"
 
-static void handles_of_adjacencies(void **state) {
-  (void)state;
+TEST(handles_of_adjacencies) {
   riis_adjacency *adjacency = NULL;
   riis_csr csr;
   CHECK_OK(riis_adjacency_create_from_grid(3, 2, 1, 0, &adjacency));
@@ -51,8 +50,7 @@ static int has_adjacency(const riis_surface *surface, const riis_mesh *mesh) {
   return 0;
 }
 
-static void rows_that_are_refused(void **state) {
-  (void)state;
+TEST(rows_that_are_refused) {
   enum { n = 5 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * n] = {0};
@@ -125,8 +123,7 @@ static void rows_that_are_refused(void **state) {
   CHECK_OK(riis_mesh_set_adjacency(mesh, NULL));
 }
 
-static void when_an_adjacency_goes(void **state) {
-  (void)state;
+TEST(when_an_adjacency_goes) {
   enum { n = 4 };
   riis_surface *surface = aortic_surface(NULL);
   double xyz[3 * (n + 1)] = {0};
@@ -179,11 +176,4 @@ static void when_an_adjacency_goes(void **state) {
   assert_int_equal(has_adjacency(surface, mesh), 1);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(handles_of_adjacencies),
-      cmocka_unit_test(rows_that_are_refused),
-      cmocka_unit_test(when_an_adjacency_goes),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -73,8 +73,7 @@ static void put(void *to, int64_t i, int64_t value, int bits) {
     ((int64_t *)to)[i] = value;
 }
 
-static void rows_are_those_of_a_set(void **state) {
-  (void)state;
+TEST(rows_are_those_of_a_set) {
   static const int kinds[n_kinds] = {4, 5, 6, 8, 0};
   static random_mesh mesh;
   static int64_t nodes[most_cells * most_corners], offsets[most_cells + 1];
@@ -117,8 +116,7 @@ static void rows_are_those_of_a_set(void **state) {
 }
 
 /* Without nodes or without cells the rows are empty, in each width of integers. */
-static void nothing_makes_empty_rows_in_each_width(void **state) {
-  (void)state;
+TEST(nothing_makes_empty_rows_in_each_width) {
   for (int64_t n_nodes = 0; n_nodes <= 5000; n_nodes += 5000)
     for (int width = 0; width < 2; ++width)
       for (int n_threads = 1; n_threads <= 3; ++n_threads) {
@@ -134,8 +132,7 @@ static void nothing_makes_empty_rows_in_each_width(void **state) {
 }
 
 /* The message names the first wrong cell, whichever block of cells a thread checks first. */
-static void the_first_wrong_cell_is_named(void **state) {
-  (void)state;
+TEST(the_first_wrong_cell_is_named) {
   enum { n_cells = 20000 };
   int32_t *nodes = own(calloc(4 * n_cells, sizeof *nodes)), *offsets = own(calloc(n_cells + 1, sizeof *offsets));
   for (int c = 0; c < n_cells; ++c) offsets[c + 1] = 4 * (c + 1);
@@ -160,11 +157,6 @@ static void the_first_wrong_cell_is_named(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_are_those_of_a_set),
-      cmocka_unit_test(nothing_makes_empty_rows_in_each_width),
-      cmocka_unit_test(the_first_wrong_cell_is_named),
-  };
   rng = random_start("test_adjacency_sets");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

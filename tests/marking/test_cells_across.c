@@ -19,8 +19,7 @@ static riis_cells_across cells_of(const riis_marks *marks, const riis_mesh *mesh
   return cells;
 }
 
-static void graphs_have_the_edges_of_a_serial_search(void **state) {
-  (void)state;
+TEST(graphs_have_the_edges_of_a_serial_search) {
   for (int trial = 0; trial < 60; ++trial) {
     const int owned_before = n_owned();
     const test_mesh graph = random_graph(random_integer(1, 300), random_between(&rng, 0.5, 6));
@@ -69,8 +68,7 @@ static void graphs_have_the_edges_of_a_serial_search(void **state) {
   }
 }
 
-static void a_lattice_has_its_spacing(void **state) {
-  (void)state;
+TEST(a_lattice_has_its_spacing) {
   static const char *const kinds[5] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
   for (int trial = 0; trial < 5; ++trial) {
     riis_surface_options options = surface_options();
@@ -89,8 +87,7 @@ static void a_lattice_has_its_spacing(void **state) {
   }
 }
 
-static void wrong_calls_are_refused(void **state) {
-  (void)state;
+TEST(wrong_calls_are_refused) {
   const riis_surface *surface = aortic_surface(NULL);
   const test_mesh nodes = lattice_around(surface, 0.3, 0.5), fewer = lattice_around(surface, 0.5, 0.5);
   riis_mesh *mesh = mesh_from(&nodes), *other = mesh_from(&fewer);
@@ -112,10 +109,5 @@ static void wrong_calls_are_refused(void **state) {
 
 int main(void) {
   rng = random_start("test_cells_across");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(graphs_have_the_edges_of_a_serial_search),
-      cmocka_unit_test(a_lattice_has_its_spacing),
-      cmocka_unit_test(wrong_calls_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -46,8 +46,7 @@ static riis_surface *valve_surface(const char *kind, riis_surface_options option
 enum { max_nodes = 40000 };
 static double xyz[3 * max_nodes];
 
-static void meshes_of_few_nodes(void **state) {
-  (void)state;
+TEST(meshes_of_few_nodes) {
   riis_surface *surface = aortic_surface(NULL);
   most_within = 0;
   for (int n = 1; n <= 70; ++n) {
@@ -59,8 +58,7 @@ static void meshes_of_few_nodes(void **state) {
 
 /* All nodes are at one point, at few points, on a line or in a plane. Their number is near the size of a leaf, a cluster or a
  * region. */
-static void nodes_without_extent(void **state) {
-  (void)state;
+TEST(nodes_without_extent) {
   static const int counts[] = {1, 2, 31, 33, 100, 511, 513, 1025, 8191, 8193, 20000};
   riis_surface *surface = aortic_surface(NULL);
   for (size_t k = 0; k < sizeof counts / sizeof counts[0]; ++k)
@@ -84,8 +82,7 @@ static void nodes_without_extent(void **state) {
 }
 
 /* Coordinates differ by the smallest number, or by numbers so small that their inverse overflows. */
-static void nodes_that_differ_by_next_to_nothing(void **state) {
-  (void)state;
+TEST(nodes_that_differ_by_next_to_nothing) {
   const double soup[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
   const int32_t ids[3] = {0, 1, 2};
   static const double steps[] = {1e-300, 1e-308, 1e-309, 1e-310, 1e-320, 5e-324};
@@ -110,8 +107,7 @@ static void nodes_that_differ_by_next_to_nothing(void **state) {
 
 /* Both valves are tested in meshes whose spacing grows to one side, and in meshes with cells a hundred times as long as high.
  * Limits reach from nearly 0 to beyond the mesh. */
-static void graded_and_anisotropic_meshes(void **state) {
-  (void)state;
+TEST(graded_and_anisotropic_meshes) {
   static const double limits[] = {0, 1e-3, 0.05, 0.4, 50};
   most_threads = 0;
   for (int mitral = 0; mitral < 2; ++mitral)
@@ -139,8 +135,7 @@ static void graded_and_anisotropic_meshes(void **state) {
   if (omp_get_thread_limit() > 1) assert_true(most_threads > 1);
 }
 
-static void masked_nodes_are_left_out(void **state) {
-  (void)state;
+TEST(masked_nodes_are_left_out) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.09, 0.3);
   riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
@@ -161,8 +156,7 @@ static void masked_nodes_are_left_out(void **state) {
 
 /* Each mesh is one node, so only the allowance for single precision gives its box a size. The limit is the node's distance, or
  * one bit less. */
-static void nodes_at_the_limit_are_found(void **state) {
-  (void)state;
+TEST(nodes_at_the_limit_are_found) {
   riis_surface_options options = surface_options();
   options.half_thickness = 1e-4;
   options.tolerance = 1;
@@ -220,8 +214,7 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
 /* Every point of the surface is equally far from its middle, so the filter leaves far more pairs than its buffer holds. The
  * test counts the pairs that the filter must leave: triangles whose distance is within single precision's error of the
  * smallest. */
-static void more_pairs_than_room(void **state) {
-  (void)state;
+TEST(more_pairs_than_room) {
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);
   const riis_triangles all = triangles_of(surface);
@@ -246,8 +239,7 @@ static void more_pairs_than_room(void **state) {
 
 /* Surfaces from arrays have arbitrary triangles, needles down to 1e-11, sizes over many powers of ten, coplanar triangles, and
  * separate pieces. Units go from 1e-50 to 1e50. Some surfaces are far from the origin, where coordinates round. */
-static void surfaces_from_arrays(void **state) {
-  (void)state;
+TEST(surfaces_from_arrays) {
   enum { max_triangles = 600, n = 1500 };
   static double corners[9 * max_triangles];
   static int32_t ids[3 * max_triangles];
@@ -295,8 +287,7 @@ static void surfaces_from_arrays(void **state) {
 }
 
 /* Needles lie along a diagonal. If the surface's middle is subtracted from their corners, their heights round to 0. */
-static void needles_that_are_lines_in_the_frame(void **state) {
-  (void)state;
+TEST(needles_that_are_lines_in_the_frame) {
   enum { n_triangles = 64, n = 2000 };
   double corners[9 * n_triangles];
   int32_t ids[3 * n_triangles];
@@ -327,8 +318,7 @@ static void needles_that_are_lines_in_the_frame(void **state) {
 }
 
 /* The valve lies far from the origin, as in a scanner's coordinates, or so far that coordinates round. */
-static void valves_far_from_the_origin(void **state) {
-  (void)state;
+TEST(valves_far_from_the_origin) {
   static const double far[] = {300, 1e4, 1e6};
   for (size_t k = 0; k < sizeof far / sizeof far[0]; ++k) {
     const int owned_before = n_owned();
@@ -375,8 +365,7 @@ static void any_point(const riis_surface *surface, int i) {
 
 /* Random valves of every kind, at random openings and placements, with both triangulations. RIIS_TEST_LONG=1 continues until ten
  * million distances were compared. */
-static void every_distance_of_random_valves(void **state) {
-  (void)state;
+TEST(every_distance_of_random_valves) {
   static const char *const kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   enum { n_kinds = 5 };
   const int64_t n_wanted = is_long_test() ? 10000000 : fewer_if_sanitized(80000);
@@ -411,8 +400,7 @@ static void every_distance_of_random_valves(void **state) {
 
 /* Leaves are larger than the surface, and more groups of triangles are near them than the filter takes at once. A few nodes are
  * between the leaflets. */
-static void large_leaves_near_small_triangles(void **state) {
-  (void)state;
+TEST(large_leaves_near_small_triangles) {
   riis_surface_options options = surface_options();
   options.tolerance = is_sanitized() ? 0.02 : 4e-4;
   riis_surface *surface = aortic_surface(&options);
@@ -428,8 +416,7 @@ static void large_leaves_near_small_triangles(void **state) {
 
 /* --- If single precision does not suffice ---------------------------------------------------------------------------- */
 
-static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
-  (void)state;
+TEST(where_it_cannot_be_used_the_exhaustive_search_runs) {
   const int n = fewer_if_sanitized(500);
   riis_surface *surface = aortic_surface(NULL);
   const struct {
@@ -464,8 +451,7 @@ static void where_it_cannot_be_used_the_exhaustive_search_runs(void **state) {
   }
 }
 
-static void what_options_say(void **state) {
-  (void)state;
+TEST(what_options_say) {
   riis_surface *surface = aortic_surface(NULL);
   for (int i = 0; i < 300; ++i) point_near(surface, 0.2, xyz + 3 * i);
   riis_mesh *mesh = mesh_of(100, xyz);
@@ -493,22 +479,6 @@ static void what_options_say(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(meshes_of_few_nodes),
-      cmocka_unit_test(nodes_without_extent),
-      cmocka_unit_test(nodes_that_differ_by_next_to_nothing),
-      cmocka_unit_test(graded_and_anisotropic_meshes),
-      cmocka_unit_test(masked_nodes_are_left_out),
-      cmocka_unit_test(nodes_at_the_limit_are_found),
-      cmocka_unit_test(more_pairs_than_room),
-      cmocka_unit_test(surfaces_from_arrays),
-      cmocka_unit_test(needles_that_are_lines_in_the_frame),
-      cmocka_unit_test(valves_far_from_the_origin),
-      cmocka_unit_test(every_distance_of_random_valves),
-      cmocka_unit_test(large_leaves_near_small_triangles),
-      cmocka_unit_test(where_it_cannot_be_used_the_exhaustive_search_runs),
-      cmocka_unit_test(what_options_say),
-  };
   rng = random_start("test_cluster_search");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

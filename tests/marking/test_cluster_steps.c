@@ -17,8 +17,7 @@ static double xyz[3 * max_nodes];
 
 /* --- From step to step ----------------------------------------------------------------------------------------------- */
 
-static void nodes_and_valve_move(void **state) {
-  (void)state;
+TEST(nodes_and_valve_move) {
   enum { n = 9000 };
   riis_valve *valve = new_valve("mitral");
   riis_surface *surface = new_surface(valve, NULL);
@@ -46,8 +45,7 @@ static void nodes_and_valve_move(void **state) {
 
 /* Nodes move before they are sorted, without riis_mesh_update. The clusters contain the nodes at their present positions,
  * however far they moved. */
-static void nodes_that_moved_without_a_word(void **state) {
-  (void)state;
+TEST(nodes_that_moved_without_a_word) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mark_options options = mark_options();
   riis_marks *result = new_result(), *expected = new_result();
@@ -67,8 +65,7 @@ static void nodes_that_moved_without_a_word(void **state) {
   }
 }
 
-static void non_finite_coordinates(void **state) {
-  (void)state;
+TEST(non_finite_coordinates) {
   enum { n = 3000 };
   riis_surface *surface = aortic_surface(NULL);
   for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
@@ -123,8 +120,7 @@ static int32_t search_of(const riis_surface *surface, const riis_mesh *mesh, int
 
 /* RIIS_SEARCH_AUTO is exhaustive for the first marking of a mesh, and uses clusters for all others. It also uses clusters for
  * the first marking if the mesh is prepared. */
-static void what_auto_is(void **state) {
-  (void)state;
+TEST(what_auto_is) {
   enum { n = 200 };
   riis_surface *surface = aortic_surface(NULL);
   for (int i = 0; i < n; ++i) point_near(surface, 0.2, xyz + 3 * i);
@@ -186,8 +182,7 @@ static int marks_wrong(const riis_surface *surface, riis_mesh *mesh, const riis_
 #define RIIS_TEST_MOST_NESTED 2
 #endif
 
-static void several_callers_of_one_mesh(void **state) {
-  (void)state;
+TEST(several_callers_of_one_mesh) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   riis_mesh *mesh = mesh_of(nodes.n, nodes.xyz);
@@ -215,8 +210,7 @@ static void several_callers_of_one_mesh(void **state) {
 }
 
 /* The mesh has so many nodes that threads share the sorting. */
-static void a_mesh_that_threads_sort_together(void **state) {
-  (void)state;
+TEST(a_mesh_that_threads_sort_together) {
   const int64_t n = 300000;
   riis_surface *surface = aortic_surface(NULL);
   double *many = own(malloc((size_t)n * 3 * sizeof *many));
@@ -243,11 +237,6 @@ static void a_mesh_that_threads_sort_together(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nodes_and_valve_move),        cmocka_unit_test(nodes_that_moved_without_a_word),
-      cmocka_unit_test(non_finite_coordinates),      cmocka_unit_test(what_auto_is),
-      cmocka_unit_test(several_callers_of_one_mesh), cmocka_unit_test(a_mesh_that_threads_sort_together),
-  };
   rng = random_start("test_cluster_steps");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

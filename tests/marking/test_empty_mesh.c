@@ -59,8 +59,7 @@ static void check_nothing_found(const riis_marks *result, int32_t search) {
                 dense_of(result, -1, RIIS_FAR_DISTANCE, NULL, NULL, NULL, NULL));
 }
 
-static void meshes_may_be_empty(void **state) {
-  (void)state;
+TEST(meshes_may_be_empty) {
   const double xyz[6] = {0, 0, 0, 1, 1, 1};
   riis_mesh *mesh = empty_mesh();
   CHECK_OK(riis_mesh_update(mesh, 0, NULL, NULL, NULL, 3));
@@ -78,8 +77,7 @@ static void meshes_may_be_empty(void **state) {
   assert_null(none);
 }
 
-static void adjacencies_may_be_empty(void **state) {
-  (void)state;
+TEST(adjacencies_may_be_empty) {
   riis_mesh *mesh = empty_mesh();
   riis_csr csr = empty_csr(), own;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
@@ -151,8 +149,7 @@ static void adjacencies_may_be_empty(void **state) {
   assert_null(adjacency);
 }
 
-static void every_search_finds_all_of_nothing(void **state) {
-  (void)state;
+TEST(every_search_finds_all_of_nothing) {
   riis_surface *surface = moving_surface();
   const riis_csr csr = empty_csr();
   riis_marks *result = new_result();
@@ -180,8 +177,7 @@ static void every_search_finds_all_of_nothing(void **state) {
   }
 }
 
-static void other_distances_find_nothing_too(void **state) {
-  (void)state;
+TEST(other_distances_find_nothing_too) {
   riis_mesh *mesh = empty_mesh();
   riis_marks *result = new_result();
   riis_surface_options options = surface_options();
@@ -195,8 +191,7 @@ static void other_distances_find_nothing_too(void **state) {
 }
 
 /* The same result and mesh have nodes, then none, then nodes again. */
-static void nodes_come_and_go(void **state) {
-  (void)state;
+TEST(nodes_come_and_go) {
   riis_surface *surface = moving_surface();
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);
   const riis_csr csr = csr_of(&nodes), none = empty_csr();
@@ -226,8 +221,7 @@ static void nodes_come_and_go(void **state) {
   }
 }
 
-static void nothing_leaks(void **state) {
-  (void)state;
+TEST(nothing_leaks) {
   riis_surface *surface = moving_surface();
   riis_mesh *mesh = empty_mesh();
   const riis_csr csr = empty_csr();
@@ -258,8 +252,7 @@ static void nothing_leaks(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }
 
-static void sums_over_no_nodes(void **state) {
-  (void)state;
+TEST(sums_over_no_nodes) {
   riis_surface *surface = moving_surface();
   riis_mesh *mesh = empty_mesh();
   riis_marks *result = new_result();
@@ -293,8 +286,7 @@ static void nobody_is_warned(void *user_data, int32_t level, const char *message
 }
 
 /* Without nodes, the mesh's box has no size to warn about. */
-static void no_warning_of_proportions(void **state) {
-  (void)state;
+TEST(no_warning_of_proportions) {
   int n_warnings = 0;
   riis_surface *surface = moving_surface();
   riis_mesh *mesh = empty_mesh();
@@ -305,16 +297,4 @@ static void no_warning_of_proportions(void **state) {
   assert_int_equal(n_warnings, 0);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(meshes_may_be_empty),
-      cmocka_unit_test(adjacencies_may_be_empty),
-      cmocka_unit_test(every_search_finds_all_of_nothing),
-      cmocka_unit_test(other_distances_find_nothing_too),
-      cmocka_unit_test(nodes_come_and_go),
-      cmocka_unit_test(nothing_leaks),
-      cmocka_unit_test(sums_over_no_nodes),
-      cmocka_unit_test(no_warning_of_proportions),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

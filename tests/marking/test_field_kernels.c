@@ -19,8 +19,7 @@ static void cross(const double *a, const double *b, double *c) {
   for (int i = 0; i < 3; ++i) c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-static void numbers_are_mixed_by_weights(void **state) {
-  (void)state;
+TEST(numbers_are_mixed_by_weights) {
   enum { n_vertices = 20, n_numbers = 8 };
   for (int trial = 0; trial < 5000; ++trial) {
     double numbers[n_numbers * n_vertices], weights[3 * n_lanes], mixed[n_numbers * n_lanes];
@@ -49,8 +48,7 @@ static void numbers_are_mixed_by_weights(void **state) {
 
 /* A derivative is -n.V with the unit vector n from the closest point to the point and the mean V of the rates. It is 0 at
  * distance 0. Nothing is written behind the last point. */
-static void distances_are_differentiated(void **state) {
-  (void)state;
+TEST(distances_are_differentiated) {
   enum { n_vertices = 20, most_directions = 3, room = most_directions * n_lanes + 1 };
   for (int trial = 0; trial < 5000; ++trial) {
     double points[3 * n_lanes], on[3 * n_lanes], weights[3 * n_lanes], made[room];
@@ -93,8 +91,7 @@ static void distances_are_differentiated(void **state) {
   }
 }
 
-static void sides_follow_the_height_over_the_plane(void **state) {
-  (void)state;
+TEST(sides_follow_the_height_over_the_plane) {
   int64_t n_of_side[3] = {0, 0, 0};
   for (int trial = 0; trial < 5000; ++trial) {
     double points[3 * n_lanes], on[3 * n_lanes], normals[3 * n_lanes];
@@ -123,8 +120,7 @@ static void sides_follow_the_height_over_the_plane(void **state) {
   for (int k = 0; k < 3; ++k) assert_true(n_of_side[k] > 1000);
 }
 
-static void triangles_are_measured(void **state) {
-  (void)state;
+TEST(triangles_are_measured) {
   enum { n_vertices = 24, n_measures = 6 };
   for (int trial = 0; trial < 5000; ++trial) {
     double vertices[3 * n_vertices], measures[n_measures * n_lanes];
@@ -158,11 +154,5 @@ static void triangles_are_measured(void **state) {
 
 int main(void) {
   rng = random_start("test_field_kernels");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(numbers_are_mixed_by_weights),
-      cmocka_unit_test(distances_are_differentiated),
-      cmocka_unit_test(sides_follow_the_height_over_the_plane),
-      cmocka_unit_test(triangles_are_measured),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -257,8 +257,7 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
   check_part(result);
 }
 
-static void fields_of_valves_are_those_of_single_queries(void **state) {
-  (void)state;
+TEST(fields_of_valves_are_those_of_single_queries) {
   for (int trial = 0; trial < 24; ++trial) {
     const int is_mitral = trial % 2, owned_before = n_owned();
     const char *kind = is_mitral ? "mitral" : "aortic";
@@ -287,8 +286,7 @@ static void fields_of_valves_are_those_of_single_queries(void **state) {
 
 /* The surface is a crumpled sheet with holes and with triangles without area. Triangles have corners of their own or share
  * them. */
-static void fields_of_arrays_are_those_of_single_queries(void **state) {
-  (void)state;
+TEST(fields_of_arrays_are_those_of_single_queries) {
   enum { side = 9, max_vertices = 6 * side * side };
   riis_surface *surface = surface_of_kind("mitral", NULL); /* updates from arrays must replace the mitral valve's rim */
   for (int trial = 0; trial < 24; ++trial) {
@@ -357,8 +355,7 @@ static double *beyond_edges(const riis_triangles *c, double off) {
 
 /* No valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has none
  * along its free edges. */
-static void valves_have_a_rim_all_around_and_none_inside(void **state) {
-  (void)state;
+TEST(valves_have_a_rim_all_around_and_none_inside) {
   const int step = is_sanitized() ? 4 : 1;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n_rim = 0, n_inside = 0, n_free = 0, n_free_closed = 0;
@@ -415,8 +412,7 @@ static void valves_have_a_rim_all_around_and_none_inside(void **state) {
 }
 
 /* No triangle of another patch touches the middle of a rim edge of a valve at a random opening. */
-static void no_other_patch_touches_the_rim(void **state) {
-  (void)state;
+TEST(no_other_patch_touches_the_rim) {
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n = 0;
     for (int trial = 0; trial < 20; ++trial) {
@@ -468,8 +464,7 @@ static void no_other_patch_touches_the_rim(void **state) {
 
 /* --- Parameters ------------------------------------------------------------------------------------------------------ */
 
-static void parameters_turn_as_the_header_says(void **state) {
-  (void)state;
+TEST(parameters_turn_as_the_header_says) {
   for (int trial = 0; trial < 24; ++trial) {
     const int is_mitral = trial % 2, is_flipped = trial / 2 % 2;
     riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
@@ -490,8 +485,7 @@ static void parameters_turn_as_the_header_says(void **state) {
 
 /* --- Other distances ------------------------------------------------------------------------------------------------- */
 
-static void other_distances_have_fields_of_patches(void **state) {
-  (void)state;
+TEST(other_distances_have_fields_of_patches) {
   for (int32_t distance = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance)
     for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
       riis_valve *valve = new_valve(is_mitral ? "mitral" : "aortic");
@@ -542,8 +536,7 @@ static void other_distances_have_fields_of_patches(void **state) {
 
 /* --- Refusals -------------------------------------------------------------------------------------------------------- */
 
-static void fields_are_refused_by_name(void **state) {
-  (void)state;
+TEST(fields_are_refused_by_name) {
   const double corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const int32_t ids[3] = {0, 1, 2};
   const riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
@@ -593,8 +586,7 @@ static void fields_are_refused_by_name(void **state) {
 }
 
 /* Arrays that were not requested are NULL, even if the marking before had them. A result without nodes has no arrays. */
-static void what_is_not_asked_for_is_null(void **state) {
-  (void)state;
+TEST(what_is_not_asked_for_is_null) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = nodes_near(surface, 300, 0.1);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -620,16 +612,6 @@ static void what_is_not_asked_for_is_null(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(fields_of_valves_are_those_of_single_queries),
-      cmocka_unit_test(fields_of_arrays_are_those_of_single_queries),
-      cmocka_unit_test(valves_have_a_rim_all_around_and_none_inside),
-      cmocka_unit_test(no_other_patch_touches_the_rim),
-      cmocka_unit_test(parameters_turn_as_the_header_says),
-      cmocka_unit_test(other_distances_have_fields_of_patches),
-      cmocka_unit_test(fields_are_refused_by_name),
-      cmocka_unit_test(what_is_not_asked_for_is_null),
-  };
   rng = random_start("test_fields");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

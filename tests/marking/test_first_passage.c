@@ -53,8 +53,7 @@ static riis_passage passage_at(riis_valve *valve, double opening, const riis_mes
 }
 
 /* The valve fills a tube, so that a path can only lead through the valve. */
-static void valves_first_open_where_a_ladder_says(void **state) {
-  (void)state;
+TEST(valves_first_open_where_a_ladder_says) {
   static const char *const kinds[4] = {"trileaflet", "bileaflet", "mitral", "coapting"};
   for (int trial = 0; trial < 8; ++trial) {
     const int owned_before = n_owned(), kind = trial % 4;
@@ -107,8 +106,7 @@ static void valves_first_open_where_a_ladder_says(void **state) {
 
 /* Two plates slide apart along x. The slit between them is 2 * opening wide. A path through the slit exists if the nodes in its
  * middle are farther from both plates than the half thickness. */
-static void slits_open_at_their_width(void **state) {
-  (void)state;
+TEST(slits_open_at_their_width) {
   const double wide = 3;
   shape closed = {0}, open = {0};
   for (int is_open = 0; is_open < 2; ++is_open) {
@@ -172,8 +170,7 @@ static void slits_open_at_their_width(void **state) {
   assert_int_equal(none.n_openings, 1);
 }
 
-static void wrong_calls_are_refused(void **state) {
-  (void)state;
+TEST(wrong_calls_are_refused) {
   riis_valve *valve = new_valve("trileaflet");
   const test_mesh nodes = tube(1.2, -2, 2.5, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -221,10 +218,5 @@ static void wrong_calls_are_refused(void **state) {
 
 int main(void) {
   rng = random_start("test_first_passage");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(valves_first_open_where_a_ladder_says),
-      cmocka_unit_test(slits_open_at_their_width),
-      cmocka_unit_test(wrong_calls_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

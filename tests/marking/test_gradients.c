@@ -319,8 +319,7 @@ static void compare(const riis_surface *at, const placed_valve *state, const cha
   free_owned_after(owned_before);
 }
 
-static void derivatives_are_central_differences(void **state_) {
-  (void)state_;
+TEST(derivatives_are_central_differences) {
   static double xyz[3 * n_points], gradient[n_points], K_gradient[n_points];
   const int n_trials = is_long_test() ? 20 : 1;
   for (int kind = 0; kind < n_kinds; ++kind)
@@ -444,8 +443,7 @@ static riis_mark_list opening_of(const char *kind, double tolerance, int32_t tri
 
 /* The table of docs/theory.md, "Sensitivities". "Smooth" is the difference from central differences of distances to triangles
  * with the tolerance 0.0005. "Velocity" and "direction" are differences from central differences on the fixed triangles. */
-static void derivatives_approach_those_of_the_smooth_valve(void **state) {
-  (void)state;
+TEST(derivatives_approach_those_of_the_smooth_valve) {
   static double xyz[3 * n_points], distance[3][n_points], off[3][n_points];
   static const double tolerances[] = {0.05, 0.01, 0.003};
   const double fine = is_long_test() ? 0.0005 : 0.002;
@@ -527,8 +525,7 @@ static riis_mark_list gradients_of(const riis_surface *surface, int64_t n, const
 }
 
 /* A square that shifts by (1, 2, 3). */
-static void rims_and_the_surface_itself(void **state) {
-  (void)state;
+TEST(rims_and_the_surface_itself) {
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square);
   riis_surface_options options = surface_options(), after, before;
@@ -558,8 +555,7 @@ static void rims_and_the_surface_itself(void **state) {
 
 /* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the derivative is that of the triangle in
  * triangle_id, the lower one. The distance has a kink there: its derivatives on both sides are 0 and -1. */
-static void ties_take_the_first_triangle(void **state) {
-  (void)state;
+TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);
   add_line(&two, 0, 1, 1, 1, 1, 1);
@@ -586,8 +582,7 @@ static void ties_take_the_first_triangle(void **state) {
 /* --- Bits, updates and refusals -------------------------------------------------------------------------------------- */
 
 /* The derivatives do not depend on threads, search, instructions or the number of directions, and an update ends them. */
-static void bits_and_updates(void **state) {
-  (void)state;
+TEST(bits_and_updates) {
   static double xyz[3 * n_points];
   riis_valve *valve = new_valve("mitral"), *after = new_valve("mitral"), *before = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -645,8 +640,7 @@ static void bits_and_updates(void **state) {
 
 /* A derivative of a distance is that of the rates at the closest point, and rates do not depend on the number of threads. Later
  * directions leave the arrays of earlier ones in place. */
-static void rates_give_the_derivatives(void **state) {
-  (void)state;
+TEST(rates_give_the_derivatives) {
   static double xyz[3 * n_points];
   riis_valve *valve = new_valve("mitral"), *after = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -686,8 +680,7 @@ static void rates_give_the_derivatives(void **state) {
   }
 }
 
-static void missing_directions_are_refused(void **state) {
-  (void)state;
+TEST(missing_directions_are_refused) {
   riis_valve *valve = new_valve("aortic");
   riis_surface *surface = new_surface(valve, NULL);
   riis_direction got;
@@ -716,8 +709,7 @@ static void missing_directions_are_refused(void **state) {
 #undef REFUSED
 }
 
-static void bad_directions_are_refused(void **state) {
-  (void)state;
+TEST(bad_directions_are_refused) {
   riis_valve *valve = new_valve("aortic"), *coapting = new_valve("coapting"), *warped = new_valve("aortic");
   riis_valve *skirted = new_valve("aortic"), *wrong = new_valve("aortic");
   warp_valve(warped, no_shifts);
@@ -766,16 +758,6 @@ static void bad_directions_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(derivatives_are_central_differences),
-      cmocka_unit_test(derivatives_approach_those_of_the_smooth_valve),
-      cmocka_unit_test(rims_and_the_surface_itself),
-      cmocka_unit_test(ties_take_the_first_triangle),
-      cmocka_unit_test(bits_and_updates),
-      cmocka_unit_test(rates_give_the_derivatives),
-      cmocka_unit_test(missing_directions_are_refused),
-      cmocka_unit_test(bad_directions_are_refused),
-  };
   rng = random_start("test_gradients");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -115,8 +115,7 @@ static void random_point_near(const double *abc, double reach, double *p) {
 
 /* --- Decisions ------------------------------------------------------------------------------------------------------- */
 
-static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
-  (void)state;
+TEST(decisions_have_the_bits_of_the_scalar_kernel) {
   enum { n_triangles = 64, n_points = 200, max_pairs = 600 };
   static double corners[9 * n_triangles], points[3 * n_points], decided[max_pairs + 7], expected[max_pairs];
   static double on[3 * max_pairs], weights[3 * max_pairs];
@@ -170,8 +169,7 @@ static void decisions_have_the_bits_of_the_scalar_kernel(void **state) {
 
 /* Triangles are random or needles, have coinciding corners, or lie on lattices. A register of eight mixes these kinds. Some
  * points are at corners and on edges. In some units, squares of coordinates nearly overflow or underflow. */
-static void located_points_have_the_bits_of_the_scalar_kernel(void **state) {
-  (void)state;
+TEST(located_points_have_the_bits_of_the_scalar_kernel) {
   enum { n = 8 };
   static const int32_t each[n] = {0, 1, 2, 3, 4, 5, 6, 7};
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0, n_without_area = 0;
@@ -249,8 +247,7 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
 
 /* Compares filtered distances with decided ones, as fractions of the allowed error. Too small distances and too large ones are
  * checked separately, because the margin makes most distances too large. */
-static void single_precision_is_right_to_its_error(void **state) {
-  (void)state;
+TEST(single_precision_is_right_to_its_error) {
   enum { n_lanes = 16 };
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -400,8 +397,7 @@ static double decided_sq(const leaf_case *c, int node, int triangle) {
   return kernel_point_triangle(c->points + 3 * node, c->corners[triangle / 16] + 9 * (triangle % 16), on, weight);
 }
 
-static void lower_bounds_and_boxes_lose_nothing(void **state) {
-  (void)state;
+TEST(lower_bounds_and_boxes_lose_nothing) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     double below = -1;
@@ -467,8 +463,7 @@ static void lower_bounds_and_boxes_lose_nothing(void **state) {
 
 /* The pairs contain the closest triangle of every node within the limit, and all closest triangles if several are equally
  * near. This holds with a buffer for all pairs, and with one so small that the filter must stop and continue. */
-static void no_pair_that_matters_is_lost(void **state) {
-  (void)state;
+TEST(no_pair_that_matters_is_lost) {
   static const int32_t rooms[] = {100000, 16, 64, 65, 79, 200};
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -534,8 +529,7 @@ static void no_pair_that_matters_is_lost(void **state) {
 
 /* --- What goes into groups ------------------------------------------------------------------------------------------- */
 
-static void corners_are_bounded_and_framed(void **state) {
-  (void)state;
+TEST(corners_are_bounded_and_framed) {
   enum { most = 100, n_lanes = 16 };
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -576,8 +570,7 @@ static void corners_are_bounded_and_framed(void **state) {
 }
 
 /* The nodes of a leaf have the bits of a plain loop. Some coordinates are far outside the frame, infinite or not numbers. */
-static void leaves_are_framed(void **state) {
-  (void)state;
+TEST(leaves_are_framed) {
   enum { n_nodes = 32 };
   for (int trial = 0; trial < fewer_if_sanitized(5000); ++trial) {
     double nodes[3 * n_nodes], centre[3];
@@ -609,8 +602,7 @@ static void leaves_are_framed(void **state) {
 
 /* Triangles have heights around the least height. A triangle without area never passes. A triangle of a hundred times the
  * least height always passes. */
-static void triangles_without_area_are_noticed(void **state) {
-  (void)state;
+TEST(triangles_without_area_are_noticed) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     int n_flat = 0, n_high = 0;
@@ -640,8 +632,7 @@ static void triangles_without_area_are_noticed(void **state) {
 }
 
 /* Sums of cubes are those of a plain loop, and have the same bits with every instruction set. */
-static void cubes_are_summed(void **state) {
-  (void)state;
+TEST(cubes_are_summed) {
   enum { most = 40 };
   for (int trial = 0; trial < 200; ++trial) {
     const int n = 8 * (1 + (int)(random_bits(&rng) % 5));
@@ -671,8 +662,7 @@ static void cubes_are_summed(void **state) {
 }
 
 /* If triangles pass the check for a shift, they still have an area after their corners have moved by an eighth of that shift. */
-static void triangles_keep_their_area_when_corners_move(void **state) {
-  (void)state;
+TEST(triangles_keep_their_area_when_corners_move) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     int n_passed = 0, n_stopped = 0;
@@ -710,8 +700,7 @@ static void triangles_keep_their_area_when_corners_move(void **state) {
 }
 
 /* Points have the bits of plain products and sums, from left to right. Nothing after the last point is written. */
-static void points_are_placed(void **state) {
-  (void)state;
+TEST(points_are_placed) {
   enum { most = 20 };
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -739,8 +728,7 @@ static void points_are_placed(void **state) {
 /* --- Without any instruction set ------------------------------------------------------------------------------------- */
 
 /* On processors without any of these instruction sets, the portable code does the same operations as the baseline set. */
-static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
-  (void)state;
+TEST(portable_kernels_have_the_bits_of_the_baseline) {
   if (!kernels_there(portable_set) || !kernels_baseline_rounds_twice()) skip();
   static const int32_t rooms[] = {100000, 64};
   enum { n_both = 2 };
@@ -804,8 +792,7 @@ static void portable_kernels_have_the_bits_of_the_baseline(void **state) {
 
 /* --- The order of nodes ---------------------------------------------------------------------------------------------- */
 
-static void keys_are_ranked(void **state) {
-  (void)state;
+TEST(keys_are_ranked) {
   enum { n_keys = 64 };
   for (int trial = 0; trial < fewer_if_sanitized(5000); ++trial) {
     int32_t key[n_keys], n_less[n_keys];
@@ -829,8 +816,7 @@ static void keys_are_ranked(void **state) {
 }
 
 /* The arrays have exactly the promised sizes, so a sanitizer finds what is read or written beyond them. */
-static void marked_numbers_are_selected(void **state) {
-  (void)state;
+TEST(marked_numbers_are_selected) {
   for (int trial = 0; trial < fewer_if_sanitized(3000); ++trial) {
     const int32_t n = (int32_t)(random_bits(&rng) % 100), bit = (int32_t)(random_bits(&rng) % 16);
     int32_t *numbers = malloc((size_t)n * sizeof *numbers), *to = malloc((size_t)n * sizeof *to);
@@ -856,22 +842,6 @@ static void marked_numbers_are_selected(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(decisions_have_the_bits_of_the_scalar_kernel),
-      cmocka_unit_test(located_points_have_the_bits_of_the_scalar_kernel),
-      cmocka_unit_test(single_precision_is_right_to_its_error),
-      cmocka_unit_test(lower_bounds_and_boxes_lose_nothing),
-      cmocka_unit_test(no_pair_that_matters_is_lost),
-      cmocka_unit_test(corners_are_bounded_and_framed),
-      cmocka_unit_test(leaves_are_framed),
-      cmocka_unit_test(triangles_without_area_are_noticed),
-      cmocka_unit_test(cubes_are_summed),
-      cmocka_unit_test(triangles_keep_their_area_when_corners_move),
-      cmocka_unit_test(points_are_placed),
-      cmocka_unit_test(portable_kernels_have_the_bits_of_the_baseline),
-      cmocka_unit_test(keys_are_ranked),
-      cmocka_unit_test(marked_numbers_are_selected),
-  };
   rng = random_start("test_kernels");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

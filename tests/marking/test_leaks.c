@@ -225,8 +225,7 @@ static int64_t check_case(const whole_case *c) {
   return n;
 }
 
-static void random_meshes_leak_where_the_loop_says(void **state) {
-  (void)state;
+TEST(random_meshes_leak_where_the_loop_says) {
   const int n = is_long_test() ? 400000 : 400;
   int n_leaking = 0;
   static whole_case c;
@@ -245,8 +244,7 @@ static void random_meshes_leak_where_the_loop_says(void **state) {
  * ---------------------------------------------------------------------------------------------- */
 
 /* If a case is turned by right angles, mirrored, moved and renumbered, it has the same leaking edges. */
-static void motion_and_order_do_not_matter(void **state) {
-  (void)state;
+TEST(motion_and_order_do_not_matter) {
   static whole_case c, moved;
   for (int trial = 0; trial < 60; ++trial) {
     make_case(&c);
@@ -279,8 +277,7 @@ static void motion_and_order_do_not_matter(void **state) {
 }
 
 /* The mesh has many blocks of rows. */
-static void threads_do_not_matter(void **state) {
-  (void)state;
+TEST(threads_do_not_matter) {
   const int64_t counts[3] = {24, 24, 20};
   const double lower[3] = {-1.6, -1.6, -1.5}, upper[3] = {1.6, 1.6, 1.5};
   test_mesh nodes = lattice(counts, lower, upper);
@@ -309,11 +306,6 @@ static void threads_do_not_matter(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_meshes_leak_where_the_loop_says),
-      cmocka_unit_test(motion_and_order_do_not_matter),
-      cmocka_unit_test(threads_do_not_matter),
-  };
   rng = random_start("test_leaks");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -21,8 +21,7 @@ static double *random_nodes(int64_t n, double r, double z0, double z1) {
   return xyz;
 }
 
-static void aortic_marks_equal_the_oracle(void **state) {
-  (void)state;
+TEST(aortic_marks_equal_the_oracle) {
   enum { n = 4000 };
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
@@ -65,8 +64,7 @@ static void aortic_marks_equal_the_oracle(void **state) {
 
 /* The nodes of a lattice around the rectangle [0,4] x [0,2] in z = 0. The number of nodes within 1/2 is known by arithmetic,
  * including nodes exactly at 1/2. */
-static void lattice_around_a_rectangle_is_counted(void **state) {
-  (void)state;
+TEST(lattice_around_a_rectangle_is_counted) {
   const double corners[12] = {0, 0, 0, 4, 0, 0, 4, 2, 0, 0, 2, 0};
   const int32_t quad[4] = {0, 1, 2, 3};
   riis_surface_arrays arrays = triangle_arrays(4, corners, 1, quad);
@@ -90,8 +88,7 @@ static void lattice_around_a_rectangle_is_counted(void **state) {
   assert_true(expected > 500);
 }
 
-static void wider_limit_lists_more_and_marks_the_same(void **state) {
-  (void)state;
+TEST(wider_limit_lists_more_and_marks_the_same) {
   enum { n = 20000 };
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
@@ -142,8 +139,7 @@ static void wider_limit_lists_more_and_marks_the_same(void **state) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "n_nodes is 19999|20000", dense_of(wide, n - 1, 1e30, mark, NULL, NULL, NULL));
 }
 
-static void mask_leaves_nodes_out(void **state) {
-  (void)state;
+TEST(mask_leaves_nodes_out) {
   enum { n = 10000 };
   static uint8_t mask[n];
   riis_surface *surface = aortic_surface(NULL);
@@ -175,8 +171,7 @@ static void mask_leaves_nodes_out(void **state) {
   assert_null(node_id);
 }
 
-static void any_number_of_threads_gives_the_same_bits(void **state) {
-  (void)state;
+TEST(any_number_of_threads_gives_the_same_bits) {
   enum { n = 60000 };
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
@@ -201,8 +196,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state) {
     }
 }
 
-static void coordinates_may_move_and_results_are_reused(void **state) {
-  (void)state;
+TEST(coordinates_may_move_and_results_are_reused) {
   enum { n = 5000 };
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
@@ -240,8 +234,7 @@ static void coordinates_may_move_and_results_are_reused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_MESH, text, riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
 }
 
-static void separate_coordinate_arrays_are_the_same_mesh(void **state) {
-  (void)state;
+TEST(separate_coordinate_arrays_are_the_same_mesh) {
   enum { n = 5000 };
   riis_surface *surface = aortic_surface(NULL);
   double *xyz = random_nodes(n, 1.6, -1.2, 0.3);
@@ -286,8 +279,7 @@ static riis_marks *marks_of(const riis_surface *surface, const riis_mesh *mesh) 
 
 /* A mesh of copied coordinates gets the same marks as a mesh that borrows them, whatever happens to the arrays. A mesh may
  * change from copying to borrowing and back. */
-static void copies_and_single_precision_are_the_same_mesh(void **state) {
-  (void)state;
+TEST(copies_and_single_precision_are_the_same_mesh) {
   riis_surface *surface = aortic_surface(NULL);
   for (int real_bits = 32; real_bits <= 64; real_bits += 32) {
     const int owned_before = n_owned();
@@ -339,8 +331,7 @@ static void copies_and_single_precision_are_the_same_mesh(void **state) {
 }
 
 /* Points, vertices, velocities and frames in single precision give the same bits as the same numbers in double precision. */
-static void single_precision_is_double_precision(void **state) {
-  (void)state;
+TEST(single_precision_is_double_precision) {
   make_exact(0);
   riis_surface *surface = aortic_surface(NULL);
   static double distance[2][n_exact];
@@ -387,17 +378,6 @@ static void single_precision_is_double_precision(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(aortic_marks_equal_the_oracle),
-      cmocka_unit_test(lattice_around_a_rectangle_is_counted),
-      cmocka_unit_test(wider_limit_lists_more_and_marks_the_same),
-      cmocka_unit_test(mask_leaves_nodes_out),
-      cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
-      cmocka_unit_test(coordinates_may_move_and_results_are_reused),
-      cmocka_unit_test(separate_coordinate_arrays_are_the_same_mesh),
-      cmocka_unit_test(copies_and_single_precision_are_the_same_mesh),
-      cmocka_unit_test(single_precision_is_double_precision),
-  };
   rng = random_start("test_marking");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

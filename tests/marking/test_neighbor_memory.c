@@ -165,8 +165,7 @@ static int64_t allocations_of_a_cycle(moving_valve *valve) {
 }
 #endif
 
-static void a_steady_step_allocates_nothing(void **state) {
-  (void)state;
+TEST(a_steady_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.09, 0.2);
@@ -193,8 +192,7 @@ static void a_steady_step_allocates_nothing(void **state) {
 }
 
 /* After the first cycles all memory has been allocated. Embree's own allocations do not count. */
-static void a_steady_moving_step_allocates_nothing(void **state) {
-  (void)state;
+TEST(a_steady_moving_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[6] = {"aortic", "trileaflet", "mitral", "bileaflet", "aortic", "coapting"};
   for (int kind = 0; kind < 6; ++kind)
@@ -215,8 +213,7 @@ static void a_steady_moving_step_allocates_nothing(void **state) {
 /* An annulus that moves: new targets for 200 landmarks in each step, for two valves in turn. Each valve has its memory after
  * two steps. The adapted triangulation needs more triangles at some time of the beat, so its surface has its memory after one
  * beat. */
-static void a_steady_warped_step_allocates_nothing(void **state) {
-  (void)state;
+TEST(a_steady_warped_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[4] = {"trileaflet", "aortic", "mitral", "coapting"};
   enum { n = 200, n_of_beat = 40 };
@@ -271,8 +268,7 @@ static void a_steady_warped_step_allocates_nothing(void **state) {
 }
 
 /* Several threads may need more blocks at once than ever before, but the number of blocks is limited. */
-static void allocations_of_several_threads_do_not_grow(void **state) {
-  (void)state;
+TEST(allocations_of_several_threads_do_not_grow) {
 #if defined(COUNTS_ALLOCATIONS)
   for (int32_t n_threads = 2; n_threads <= 4; n_threads += 2) {
     const int owned_before = n_owned();
@@ -289,12 +285,4 @@ static void allocations_of_several_threads_do_not_grow(void **state) {
 #endif
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_steady_step_allocates_nothing),
-      cmocka_unit_test(a_steady_moving_step_allocates_nothing),
-      cmocka_unit_test(a_steady_warped_step_allocates_nothing),
-      cmocka_unit_test(allocations_of_several_threads_do_not_grow),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

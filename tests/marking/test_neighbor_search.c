@@ -27,8 +27,7 @@ static int64_t missed_by_the_paper(const riis_surface *surface, const riis_mesh 
 
 /* --- Bands and meshes in pieces -------------------------------------------------------------------------------------- */
 
-static void three_separate_cusps(void **state) {
-  (void)state;
+TEST(three_separate_cusps) {
   static const char *const names[3] = {"right.translation", "left.translation", "non_coronary.translation"};
   static const double angle[3] = {0, 119.5, -121.5};
   riis_valve *valve = new_valve("aortic");
@@ -56,8 +55,7 @@ static void three_separate_cusps(void **state) {
 
 /* The mesh consists of slabs that no edge joins. It has the same region twice, and the second copy is shifted by half a spacing.
    */
-static void mesh_of_several_components(void **state) {
-  (void)state;
+TEST(mesh_of_several_components) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh one = lattice_around(surface, 0.09, 0.15), two = {.n = 2 * one.n};
   two.xyz = own(malloc((size_t)two.n * 3 * sizeof *two.xyz));
@@ -78,8 +76,7 @@ static void mesh_of_several_components(void **state) {
   assert_true(missed_by_the_paper(surface, mesh, NULL) > stats.n_marked / 2);
 }
 
-static void bands_that_fall_apart_on_a_coarse_mesh(void **state) {
-  (void)state;
+TEST(bands_that_fall_apart_on_a_coarse_mesh) {
   static const double half_thickness[4] = {0.05, 0.02, 0.005, 0.0005};
   for (int k = 0; k < 4; ++k) {
     const int owned_before = n_owned();
@@ -96,8 +93,7 @@ static void bands_that_fall_apart_on_a_coarse_mesh(void **state) {
   }
 }
 
-static void valve_that_sticks_out_of_the_mesh(void **state) {
-  (void)state;
+TEST(valve_that_sticks_out_of_the_mesh) {
   riis_surface *surface = aortic_surface(NULL);
   const riis_surface_info info = info_of(surface);
   static const int64_t counts[3] = {24, 22, 26};
@@ -120,8 +116,7 @@ static void valve_that_sticks_out_of_the_mesh(void **state) {
   }
 }
 
-static void isolated_nodes(void **state) {
-  (void)state;
+TEST(isolated_nodes) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.07, 0.15);
   set_rows(&nodes, 0, NULL);
@@ -139,8 +134,7 @@ static void isolated_nodes(void **state) {
 }
 
 /* The adjacency only determines the order of queries, so the result does not depend on it. */
-static void any_adjacency_is_right(void **state) {
-  (void)state;
+TEST(any_adjacency_is_right) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.3);
   for (int trial = 0; trial < 8; ++trial) {
@@ -166,8 +160,7 @@ static void any_adjacency_is_right(void **state) {
 }
 
 /* Rows also contain nodes of other ranks. Indices have every width and base. */
-static void ghosts_are_passed_over(void **state) {
-  (void)state;
+TEST(ghosts_are_passed_over) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.15);
   const int64_t n_entries = nodes.offsets[nodes.n] + nodes.n, n_all = nodes.n + 1000;
@@ -198,8 +191,7 @@ static void ghosts_are_passed_over(void **state) {
   assert_int_equal(stats.n_unreached, plain.n_unreached);
 }
 
-static void mesh_of_one_node(void **state) {
-  (void)state;
+TEST(mesh_of_one_node) {
   riis_surface *surface = aortic_surface(NULL);
   const double *vertices = triangles_of(surface).xyz;
   const double places[3][3] = {{vertices[0], vertices[1], vertices[2] + 0.05}, {0, 0, 50}, {1e60, -1e60, 1e60}};
@@ -222,8 +214,7 @@ static void mesh_of_one_node(void **state) {
 }
 
 /* The nodes coincide, lie on a line or in a plane, or are far apart from each other. */
-static void degenerate_meshes(void **state) {
-  (void)state;
+TEST(degenerate_meshes) {
   riis_surface *surface = aortic_surface(NULL);
   static const int64_t counts[5][3] = {{3000, 1, 1}, {1, 60, 50}, {1, 1, 2000}, {12, 12, 12}, {12, 12, 12}};
   for (int k = 0; k < 5; ++k) {
@@ -246,8 +237,7 @@ static void degenerate_meshes(void **state) {
 
 /* A column of nodes stands over a triangle of any size. The limit is the distance that the library computes for the first node.
  * Up to rounding, all other distances in the search's check equal this limit. Rounding must not lose the node. */
-static void nodes_at_the_limit_are_found(void **state) {
-  (void)state;
+TEST(nodes_at_the_limit_are_found) {
   static const int32_t ids[3] = {0, 1, 2};
   for (int trial = 0; trial < 3000; ++trial) {
     const int owned_before = n_owned();
@@ -283,8 +273,7 @@ static void nodes_at_the_limit_are_found(void **state) {
 
 /* The triangles are needles whose height is nearly 0, and the nodes are as close to the needles as this height. The limit is the
  * first node's distance. The rounding of distances to needles must not lose a node. */
-static void needles_lose_no_node(void **state) {
-  (void)state;
+TEST(needles_lose_no_node) {
   static const int32_t ids[3] = {0, 1, 2};
   int n_surfaces = 0;
   for (int trial = 0; trial < 6000; ++trial) {
@@ -325,8 +314,7 @@ static void needles_lose_no_node(void **state) {
 
 /* --- Masks, limits --------------------------------------------------------------------------------------------------- */
 
-static void masked_nodes_are_left_out(void **state) {
-  (void)state;
+TEST(masked_nodes_are_left_out) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.08, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -355,8 +343,7 @@ static void masked_nodes_are_left_out(void **state) {
 }
 
 /* A wall of one layer of masked nodes cuts a connected band, and no walk passes it. */
-static void mask_that_cuts_the_band(void **state) {
-  (void)state;
+TEST(mask_that_cuts_the_band) {
   const double corners[9] = {-1, -1, 0, 1, -1, 0, 0, 2, 0};
   const int32_t ids[3] = {0, 1, 2};
   riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
@@ -382,8 +369,7 @@ static void mask_that_cuts_the_band(void **state) {
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, missed);
 }
 
-static void limits_wider_than_the_half_thickness(void **state) {
-  (void)state;
+TEST(limits_wider_than_the_half_thickness) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.25, 1);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -402,8 +388,7 @@ static void limits_wider_than_the_half_thickness(void **state) {
 
 /* The paper's algorithm must find exactly the marked nodes that are connected, by marked neighbours, to the node nearest to
  * the first vertex. */
-static void paper_finds_the_piece_that_it_starts_in(void **state) {
-  (void)state;
+TEST(paper_finds_the_piece_that_it_starts_in) {
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
   for (int k = 0; k < 4; ++k) {
     const int owned_before = n_owned();
@@ -439,8 +424,7 @@ static void paper_finds_the_piece_that_it_starts_in(void **state) {
 }
 
 /* The default search is chosen by the library. It is complete with or without an adjacency. */
-static void auto_is_never_incomplete(void **state) {
-  (void)state;
+TEST(auto_is_never_incomplete) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -471,24 +455,6 @@ static void auto_is_never_incomplete(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(three_separate_cusps),
-      cmocka_unit_test(mesh_of_several_components),
-      cmocka_unit_test(bands_that_fall_apart_on_a_coarse_mesh),
-      cmocka_unit_test(valve_that_sticks_out_of_the_mesh),
-      cmocka_unit_test(isolated_nodes),
-      cmocka_unit_test(any_adjacency_is_right),
-      cmocka_unit_test(ghosts_are_passed_over),
-      cmocka_unit_test(mesh_of_one_node),
-      cmocka_unit_test(degenerate_meshes),
-      cmocka_unit_test(nodes_at_the_limit_are_found),
-      cmocka_unit_test(needles_lose_no_node),
-      cmocka_unit_test(masked_nodes_are_left_out),
-      cmocka_unit_test(mask_that_cuts_the_band),
-      cmocka_unit_test(limits_wider_than_the_half_thickness),
-      cmocka_unit_test(paper_finds_the_piece_that_it_starts_in),
-      cmocka_unit_test(auto_is_never_incomplete),
-  };
   rng = random_start("test_neighbor_search");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -22,8 +22,7 @@ static riis_surface *mitral_surface(double opening) {
 
 /* --- From step to step ----------------------------------------------------------------------------------------------- */
 
-static void a_valve_moves(void **state) {
-  (void)state;
+TEST(a_valve_moves) {
   riis_surface *surface = mitral_surface(0);
   test_mesh nodes = lattice_around(surface, 0.12, 0.8);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -42,8 +41,7 @@ static void a_valve_moves(void **state) {
   assert_true(n_unreached < n_marked / 10); /* the walk reaches most nodes, because the last marking is a good start */
 }
 
-static void a_valve_jumps(void **state) {
-  (void)state;
+TEST(a_valve_jumps) {
   riis_valve *valve = new_valve("aortic");
   riis_surface *surface = new_surface(valve, NULL);
   const int64_t counts[3] = {60, 30, 30};
@@ -63,8 +61,7 @@ static void a_valve_jumps(void **state) {
   }
 }
 
-static void a_result_goes_from_mesh_to_mesh(void **state) {
-  (void)state;
+TEST(a_result_goes_from_mesh_to_mesh) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh a = lattice_around(surface, 0.15, 0.2), b = lattice_around(surface, 0.11, 0.3),
             c = lattice_around(surface, 0.15, 0.2);
@@ -88,8 +85,7 @@ static void a_result_goes_from_mesh_to_mesh(void **state) {
 }
 
 /* The test makes more steps than a counter of 8 bits could hold. */
-static void many_steps(void **state) {
-  (void)state;
+TEST(many_steps) {
   riis_surface *surface = aortic_band(0.1);
   test_mesh nodes = lattice_around(surface, 0.3, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -99,8 +95,7 @@ static void many_steps(void **state) {
   for (int step = 0; step < 600; ++step) check_same_as_exhaustive(surface, mesh, options, result);
 }
 
-static void nodes_move(void **state) {
-  (void)state;
+TEST(nodes_move) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.12, 0.3);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -133,8 +128,7 @@ static void nodes_move(void **state) {
 }
 
 /* Coordinates become non-finite without an update of the handle, before the first search or between two searches. */
-static void non_finite_coordinates_are_refused(void **state) {
-  (void)state;
+TEST(non_finite_coordinates_are_refused) {
   static const double bad[3] = {NAN, INFINITY, -INFINITY};
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.13, 0.15);
@@ -171,8 +165,7 @@ static void non_finite_coordinates_are_refused(void **state) {
 }
 
 /* Nodes that moved in place are searched at their new positions, even if an update refused these coordinates. */
-static void a_refused_update_forgets_where_nodes_were(void **state) {
-  (void)state;
+TEST(a_refused_update_forgets_where_nodes_were) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.13, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -196,15 +189,6 @@ static void a_refused_update_forgets_where_nodes_were(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_valve_moves),
-      cmocka_unit_test(a_valve_jumps),
-      cmocka_unit_test(a_result_goes_from_mesh_to_mesh),
-      cmocka_unit_test(many_steps),
-      cmocka_unit_test(nodes_move),
-      cmocka_unit_test(non_finite_coordinates_are_refused),
-      cmocka_unit_test(a_refused_update_forgets_where_nodes_were),
-  };
   rng = random_start("test_neighbor_steps");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

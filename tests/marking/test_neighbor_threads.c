@@ -14,8 +14,7 @@
 
 /* --- Threads --------------------------------------------------------------------------------------------------------- */
 
-static void any_number_of_threads_gives_the_same_bits(void **state) {
-  (void)state;
+TEST(any_number_of_threads_gives_the_same_bits) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.05, 0.3);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -91,9 +90,46 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
+/* The numbers of threads that a search of a mesh reports: by default, and if two are requested. Both searches find the same
+ * nodes. */
+typedef struct reported_threads {
+  int32_t by_default, if_two;
+} reported_threads;
+
+static reported_threads threads_of(const riis_surface *surface, const test_mesh *nodes, int32_t search) {
+  riis_mesh *mesh = mesh_from(nodes);
+  riis_marks *found = marked_by(surface, mesh, search, 0, NULL);
+  riis_marks *by_two = marked_by(surface, mesh, search, 2, NULL);
+  const reported_threads reported = {stats_of(found).n_threads, stats_of(by_two).n_threads};
+  assert_true(same_results(found, by_two));
+  return reported;
+}
+
+TEST(the_default_has_the_threads_that_the_work_feeds) {
+  const int32_t more = omp_get_num_procs() > 1 ? 2 : 1;
+  riis_surface_options tiny = surface_options();
+  tiny.scale = 0.05;
+  riis_surface *surface = aortic_surface(NULL), *dot = aortic_surface(&tiny);
+  const test_mesh few = lattice_around(surface, 0.12, 0.3), many = lattice_around(surface, 0.04, 0.3);
+  assert_true(few.n > 8000 && few.n < 16384 && many.n > 250000);
+  static const int32_t searches[3] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
+  for (int k = 0; k < 3; ++k) {
+    const int32_t search = searches[k];
+    const reported_threads of_few = threads_of(surface, &few, search), of_many = threads_of(surface, &many, search),
+                           of_dot = threads_of(dot, &many, search);
+    assert_int_equal(of_few.by_default, 1);
+    assert_int_equal(of_few.if_two, 2);
+    assert_in_range(of_many.by_default, more, omp_get_num_procs());
+    assert_int_equal(of_many.if_two, 2);
+    /* The exhaustive search queries all nodes. The other searches query only the few nodes near the surface, so they use fewer
+     * threads. */
+    assert_in_range(of_dot.by_default, search == RIIS_SEARCH_EXHAUSTIVE ? more : 1,
+                    search == RIIS_SEARCH_EXHAUSTIVE ? omp_get_num_procs() : 1);
+  }
+}
+
 /* All threads use one surface and one mesh for the first time. The first caller makes the mesh's balls of nodes. */
-static void several_caller_threads_at_once(void **state) {
-  (void)state;
+TEST(several_caller_threads_at_once) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -119,8 +155,7 @@ static void several_caller_threads_at_once(void **state) {
       }
 }
 
-static void inside_the_callers_openmp(void **state) {
-  (void)state;
+TEST(inside_the_callers_openmp) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   riis_mesh *mesh = mesh_from(&nodes);
@@ -159,8 +194,7 @@ static void inside_the_callers_openmp(void **state) {
     }
 }
 
-static void the_callers_openmp_settings_stay(void **state) {
-  (void)state;
+TEST(the_callers_openmp_settings_stay) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = lattice_around(surface, 0.1, 0.2);
   const int threads = omp_get_max_threads(), dynamic = omp_get_dynamic(), levels = omp_get_max_active_levels();
@@ -189,52 +223,4 @@ static void the_callers_openmp_settings_stay(void **state) {
   omp_set_max_active_levels(levels);
 }
 
-/* The numbers of threads that a search of a mesh reports: by default, and if two are requested. Both searches find the same
- * nodes. */
-typedef struct reported_threads {
-  int32_t by_default, if_two;
-} reported_threads;
-
-static reported_threads threads_of(const riis_surface *surface, const test_mesh *nodes, int32_t search) {
-  riis_mesh *mesh = mesh_from(nodes);
-  riis_marks *found = marked_by(surface, mesh, search, 0, NULL);
-  riis_marks *by_two = marked_by(surface, mesh, search, 2, NULL);
-  const reported_threads reported = {stats_of(found).n_threads, stats_of(by_two).n_threads};
-  assert_true(same_results(found, by_two));
-  return reported;
-}
-
-static void the_default_has_the_threads_that_the_work_feeds(void **state) {
-  (void)state;
-  const int32_t more = omp_get_num_procs() > 1 ? 2 : 1;
-  riis_surface_options tiny = surface_options();
-  tiny.scale = 0.05;
-  riis_surface *surface = aortic_surface(NULL), *dot = aortic_surface(&tiny);
-  const test_mesh few = lattice_around(surface, 0.12, 0.3), many = lattice_around(surface, 0.04, 0.3);
-  assert_true(few.n > 8000 && few.n < 16384 && many.n > 250000);
-  static const int32_t searches[3] = {RIIS_SEARCH_EXHAUSTIVE, RIIS_SEARCH_NEIGHBOR, RIIS_SEARCH_CLUSTERS};
-  for (int k = 0; k < 3; ++k) {
-    const int32_t search = searches[k];
-    const reported_threads of_few = threads_of(surface, &few, search), of_many = threads_of(surface, &many, search),
-                           of_dot = threads_of(dot, &many, search);
-    assert_int_equal(of_few.by_default, 1);
-    assert_int_equal(of_few.if_two, 2);
-    assert_in_range(of_many.by_default, more, omp_get_num_procs());
-    assert_int_equal(of_many.if_two, 2);
-    /* The exhaustive search queries all nodes. The other searches query only the few nodes near the surface, so they use fewer
-     * threads. */
-    assert_in_range(of_dot.by_default, search == RIIS_SEARCH_EXHAUSTIVE ? more : 1,
-                    search == RIIS_SEARCH_EXHAUSTIVE ? omp_get_num_procs() : 1);
-  }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
-      cmocka_unit_test(the_default_has_the_threads_that_the_work_feeds),
-      cmocka_unit_test(several_caller_threads_at_once),
-      cmocka_unit_test(inside_the_callers_openmp),
-      cmocka_unit_test(the_callers_openmp_settings_stay),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

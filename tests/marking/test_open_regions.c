@@ -36,8 +36,7 @@ static int64_t check_labels(const test_mesh *graph, const riis_mesh *mesh, const
   return n_regions;
 }
 
-static void graphs_are_labelled_as_the_flood_fill_does(void **state) {
-  (void)state;
+TEST(graphs_are_labelled_as_the_flood_fill_does) {
   const int n_trials = is_long_test() ? 20000 : 100;
   int n_many = 0;
   for (int trial = 0; trial < n_trials; ++trial) {
@@ -67,8 +66,7 @@ static riis_surface *far_surface(void) {
 }
 
 /* A chain's nodes are numbered in any order, so the labelling joins trees many times. Some links are missing. */
-static void chains_are_labelled_as_the_flood_fill_does(void **state) {
-  (void)state;
+TEST(chains_are_labelled_as_the_flood_fill_does) {
   riis_surface *surface = far_surface();
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
@@ -88,8 +86,7 @@ static void chains_are_labelled_as_the_flood_fill_does(void **state) {
   }
 }
 
-static void meshes_round_valves_are_labelled_as_the_flood_fill_does(void **state) {
-  (void)state;
+TEST(meshes_round_valves_are_labelled_as_the_flood_fill_does) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = new_valve(trial % 2 ? "mitral" : "aortic");
@@ -110,8 +107,7 @@ static void meshes_round_valves_are_labelled_as_the_flood_fill_does(void **state
 }
 
 /* The rows have 32 bits and count from 1, as in Fortran codes. The ids in the labels count from 0. */
-static void rows_that_count_from_1_give_the_same_labels(void **state) {
-  (void)state;
+TEST(rows_that_count_from_1_give_the_same_labels) {
   static const int32_t offsets[6] = {1, 2, 2, 3, 4, 4}, columns[3] = {3, 5, 2}; /* the edges 0-2, 2-4 and 1-3 */
   static const double xyz[15] = {0};
   riis_mesh *mesh = mesh_of(5, xyz);
@@ -128,8 +124,7 @@ static void rows_that_count_from_1_give_the_same_labels(void **state) {
   assert_int_equal(n_regions, 2);
 }
 
-static void what_makes_no_sense_is_refused(void **state) {
-  (void)state;
+TEST(what_makes_no_sense_is_refused) {
   const test_mesh nodes = tube(0.5, 0, 1, 0.25);
   riis_mesh *mesh = mesh_from(&nodes), *bare = mesh_of(nodes.n, nodes.xyz), *fewer = mesh_of(3, nodes.xyz);
   const int64_t none[4] = {0};
@@ -170,13 +165,6 @@ static void what_makes_no_sense_is_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(graphs_are_labelled_as_the_flood_fill_does),
-      cmocka_unit_test(chains_are_labelled_as_the_flood_fill_does),
-      cmocka_unit_test(meshes_round_valves_are_labelled_as_the_flood_fill_does),
-      cmocka_unit_test(rows_that_count_from_1_give_the_same_labels),
-      cmocka_unit_test(what_makes_no_sense_is_refused),
-  };
   rng = random_start("test_open_regions");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -24,8 +24,7 @@ static int by_node(const void *a, const void *b) {
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
 /* Nodes are spread over the mesh, or they are in a range that has about twice as many numbers. */
-static void nodes_ascend(void **state) {
-  (void)state;
+TEST(nodes_ascend) {
   enum { most = 20000 };
   static found_node sorted[most];
   static int64_t node[most], triangle[most], within_node[most], within_triangle[most], marked_node[most];
@@ -78,9 +77,6 @@ static void nodes_ascend(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nodes_ascend),
-  };
   rng = random_start("test_order");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -133,8 +133,7 @@ static int check_graph(const test_mesh *graph, const riis_surface *surface) {
   return expected.state;
 }
 
-static void graphs_have_the_passage_of_the_serial_search(void **state) {
-  (void)state;
+TEST(graphs_have_the_passage_of_the_serial_search) {
   int64_t n_of_state[3] = {0}, n = is_long_test() ? 20000 : 200;
   for (int64_t trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
@@ -148,8 +147,7 @@ static void graphs_have_the_passage_of_the_serial_search(void **state) {
 }
 
 /* In lattices around a plate, many nodes are at equal distances. */
-static void meshes_have_the_passage_of_the_serial_search(void **state) {
-  (void)state;
+TEST(meshes_have_the_passage_of_the_serial_search) {
   int64_t n_of_state[3] = {0}, n = is_long_test() ? 4000 : 100;
   for (int64_t trial = 0; trial < n; ++trial) {
     const int owned_before = n_owned();
@@ -171,8 +169,7 @@ static void meshes_have_the_passage_of_the_serial_search(void **state) {
 
 /* If the half thickness is the passage's distance, nothing joins the ends. If the half thickness is smaller, a path joins them.
  * */
-static void the_distance_is_what_just_closes(void **state) {
-  (void)state;
+TEST(the_distance_is_what_just_closes) {
   static const int32_t ids[18] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
   double xyz[54];
   for (int trial = 0; trial < 20; ++trial) {
@@ -233,8 +230,7 @@ static riis_surface *plate_with_hole(const double *place, double radius, double 
 }
 
 /* One node is the middle of the hole. The node's distance is the distance to the polygon's sides. */
-static void a_hole_is_found_where_it_is(void **state) {
-  (void)state;
+TEST(a_hole_is_found_where_it_is) {
   const test_mesh nodes = tube(1.2, -1, 1, 0.05);
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1)}};
@@ -265,8 +261,7 @@ static riis_valve *aortic_with_free_edges_at(double radius_in) {
 
 /* The paper's aortic valve at opening 0 has a hole along its axis that no usual half thickness closes. With inner radii of
  * 0.02 the cusps nearly meet there. */
-static void the_papers_aortic_valve_leaks_along_its_axis(void **state) {
-  (void)state;
+TEST(the_papers_aortic_valve_leaks_along_its_axis) {
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.05);
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
@@ -327,8 +322,7 @@ static const double *centre_of_hole(const riis_triangles *all) {
   }
 }
 
-static void a_pierced_leaflet_is_found_where_it_is(void **state) {
-  (void)state;
+TEST(a_pierced_leaflet_is_found_where_it_is) {
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.05);
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
@@ -348,8 +342,7 @@ static void a_pierced_leaflet_is_found_where_it_is(void **state) {
 }
 
 /* Passages also exist for distances to points of the patches, by the paper's method. */
-static void other_distances_have_passages(void **state) {
-  (void)state;
+TEST(other_distances_have_passages) {
   const test_mesh nodes = tube(1.2, -1, 1.5, 0.15);
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
@@ -365,8 +358,7 @@ static void other_distances_have_passages(void **state) {
 
 /* --- Refusals ------------------------------------------------------------------------------------------------------------ */
 
-static void what_makes_no_sense_is_refused(void **state) {
-  (void)state;
+TEST(what_makes_no_sense_is_refused) {
   const test_mesh nodes = tube(1.2, -1, 1, 0.2);
   riis_mesh *mesh = mesh_from(&nodes), *bare = mesh_of(nodes.n, nodes.xyz);
   static const double place[2] = {0, 0};
@@ -406,16 +398,6 @@ static void what_makes_no_sense_is_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(graphs_have_the_passage_of_the_serial_search),
-      cmocka_unit_test(meshes_have_the_passage_of_the_serial_search),
-      cmocka_unit_test(the_distance_is_what_just_closes),
-      cmocka_unit_test(a_hole_is_found_where_it_is),
-      cmocka_unit_test(the_papers_aortic_valve_leaks_along_its_axis),
-      cmocka_unit_test(a_pierced_leaflet_is_found_where_it_is),
-      cmocka_unit_test(other_distances_have_passages),
-      cmocka_unit_test(what_makes_no_sense_is_refused),
-  };
   rng = random_start("test_passage");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

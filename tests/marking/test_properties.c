@@ -48,8 +48,7 @@ static void make_nodes(void) {
   }
 }
 
-static void rigid_motion_and_unit_do_not_matter(void **state) {
-  (void)state;
+TEST(rigid_motion_and_unit_do_not_matter) {
   static double plain[n], moved[n], moved_nodes[3 * n];
   static int32_t leaflet[n], moved_leaflet[n];
   riis_surface *surface = aortic_surface(NULL);
@@ -88,8 +87,7 @@ static void rigid_motion_and_unit_do_not_matter(void **state) {
   }
 }
 
-static void order_of_nodes_does_not_matter(void **state) {
-  (void)state;
+TEST(order_of_nodes_does_not_matter) {
   static double plain[n], shuffled[n], shuffled_nodes[3 * n];
   static int order[n];
   riis_surface *surface = aortic_surface(NULL);
@@ -104,8 +102,7 @@ static void order_of_nodes_does_not_matter(void **state) {
   for (int i = 0; i < n; ++i) CHECK_SAME(shuffled[i], plain[order[i]]);
 }
 
-static void order_of_triangles_does_not_matter(void **state) {
-  (void)state;
+TEST(order_of_triangles_does_not_matter) {
   static double plain[n], shuffled[n];
   double *xyz;
   int32_t *ids;
@@ -127,8 +124,7 @@ static void order_of_triangles_does_not_matter(void **state) {
 }
 
 /* Each cusp of the valve is its own mirror image, so the distances are also symmetric. */
-static void cusps_are_symmetric(void **state) {
-  (void)state;
+TEST(cusps_are_symmetric) {
   static double plain[n], mirrored[n], mirrored_nodes[3 * n];
   riis_surface *surface = aortic_surface(NULL);
   const double angle[3] = {0, 119.5, -121.5};
@@ -154,13 +150,7 @@ static void cusps_are_symmetric(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rigid_motion_and_unit_do_not_matter),
-      cmocka_unit_test(order_of_nodes_does_not_matter),
-      cmocka_unit_test(order_of_triangles_does_not_matter),
-      cmocka_unit_test(cusps_are_symmetric),
-  };
   rng = random_start("test_properties");
   make_nodes();
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

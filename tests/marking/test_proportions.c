@@ -75,8 +75,7 @@ static int n_warnings(double scale, double half_thickness, double centre, double
   return warnings.n - before;
 }
 
-static void sizes_that_fit_are_no_news(void **state) {
-  (void)state;
+TEST_WITH(sizes_that_fit_are_no_news, start_listening, stop_listening) {
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4), 0);
   assert_int_equal(n_warnings(0.01, RIIS_AUTO, 0, 0.04), 0);
   assert_int_equal(n_warnings(10, RIIS_AUTO, 0, 400), 0);
@@ -93,8 +92,7 @@ static void expect_text(const char *a, const char *b, const char *c) {
   assert_null(strchr(warnings.last, '\n'));
 }
 
-static void sizes_that_do_not_fit_are_told(void **state) {
-  (void)state;
+TEST_WITH(sizes_that_do_not_fit_are_told, start_listening, stop_listening) {
   /* The valve is in centimetres, and the mesh in metres or micrometres. */
   assert_int_equal(n_warnings(1, 0.001, 0, 0.04), 1);
   expect_text("the surface is more than 50 times as large as the mesh", "0.04 (mesh of 1331 nodes)",
@@ -110,8 +108,7 @@ static void sizes_that_do_not_fit_are_told(void **state) {
   assert_int_equal(n_warnings(1, RIIS_AUTO, 1e6, 4e4), 1);
 }
 
-static void one_warning_a_mesh_and_surface(void **state) {
-  (void)state;
+TEST_WITH(one_warning_a_mesh_and_surface, start_listening, stop_listening) {
   riis_surface *first = aortic_surface(NULL), *second = aortic_surface(NULL);
   riis_mesh *mesh = cube(0, 0.01);
   for (int step = 0; step < 5; ++step) {
@@ -135,8 +132,7 @@ static void one_warning_a_mesh_and_surface(void **state) {
 }
 
 /* If no log function is set, a warning does not count as given. */
-static void a_late_listener_is_told(void **state) {
-  (void)state;
+TEST_WITH(a_late_listener_is_told, start_listening, stop_listening) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = cube(0, 0.01);
   riis_set_log(NULL, NULL);
@@ -167,8 +163,7 @@ static void *mark_by_thread(void *argument) {
   return NULL;
 }
 
-static void threads_share_the_one_warning(void **state) {
-  (void)state;
+TEST_WITH(threads_share_the_one_warning, start_listening, stop_listening) {
   enum { n_threads = 8 };
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = cube(0, 0.01);
@@ -204,8 +199,7 @@ static riis_status create(const layout *lies, int n, riis_mesh **mesh) {
 
 /* All nodes but one are within a hundredth of the surface, so the warning is absent only if the box contains that node. The test
  * puts this node into every lane of the registers, on every axis and in both directions. */
-static void the_box_holds_every_node(void **state) {
-  (void)state;
+TEST_WITH(the_box_holds_every_node, start_listening, stop_listening) {
   riis_surface *surface = aortic_surface(NULL);
   for (int l = 0; l < n_layouts; ++l)
     for (int n = 1000; n < most_nodes; ++n)
@@ -228,8 +222,7 @@ static void the_box_holds_every_node(void **state) {
 }
 
 /* The message names the first of two bad coordinates, wherever they are. */
-static void the_first_bad_coordinate_is_named(void **state) {
-  (void)state;
+TEST_WITH(the_first_bad_coordinate_is_named, start_listening, stop_listening) {
   const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e60, -1.1e60};
   for (int l = 0; l < n_layouts; ++l)
     for (int n = 1; n < 14; ++n)
@@ -252,13 +245,4 @@ static void the_first_bad_coordinate_is_named(void **state) {
   own(mesh);
 }
 
-#define TEST(f) cmocka_unit_test_setup_teardown(f, start_listening, stop_listening)
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      TEST(sizes_that_fit_are_no_news),        TEST(sizes_that_do_not_fit_are_told),
-      TEST(one_warning_a_mesh_and_surface),    TEST(a_late_listener_is_told),
-      TEST(threads_share_the_one_warning),     TEST(the_box_holds_every_node),
-      TEST(the_first_bad_coordinate_is_named),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

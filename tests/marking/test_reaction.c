@@ -143,8 +143,7 @@ static plate new_plate(double spin, const double *along) {
 
 /* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. The same formula with the area of a
  * leaflet or of a strip along an edge gives the force on this part. */
-static void a_closed_plate_takes_the_drop(void **state) {
-  (void)state;
+TEST(a_closed_plate_takes_the_drop) {
   for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     const double u[3] = {between(-1, 1), between(-1, 1), between(-2, 2)}, r = pow(10, between(-2, 4));
     const plate p = new_plate(0, u);
@@ -190,8 +189,7 @@ static void a_closed_plate_takes_the_drop(void **state) {
 /* A plate of width w and length a turns about its hinge in a fluid at rest. The force is (R / eps) spin w a^2 / 2. The moment
  * about the hinge is (R / eps) spin w a^3 / 3, against the spin. The sum over cells gives the integral of a^2 times the factor
  * 1 - (h / 2a)^2. The power of the forces at the nodes must be the moment times the spin. */
-static void a_hinged_plate_has_its_moment(void **state) {
-  (void)state;
+TEST(a_hinged_plate_has_its_moment) {
   for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     static const double rest[3] = {0, 0, 0};
     const double spin = between(-5, 5), r = pow(10, between(-2, 4));
@@ -235,8 +233,7 @@ static void a_hinged_plate_has_its_moment(void **state) {
 }
 
 /* If two edges have the same distance from a node, the first edge gets the whole force of the node. */
-static void the_first_of_equally_near_edges_gets_the_share(void **state) {
-  (void)state;
+TEST(the_first_of_equally_near_edges_gets_the_share) {
   static const double u[3] = {0, 0, 1}, about[3] = {0, 0, 0};
   const plate p = new_plate(0, u);
   const riis_resistance resistance = resistance_of(1);
@@ -536,8 +533,7 @@ static void check_case(int kind, int32_t triangulation, int trial) {
   for (int i = 0; i < n_sums; ++i) CHECK_NEAR(other->all[i], got->all[i], of_moments);
 }
 
-static void sums_are_those_of_plain_loops(void **state) {
-  (void)state;
+TEST(sums_are_those_of_plain_loops) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int32_t how = RIIS_TRIANGULATION_ADAPTED; how <= RIIS_TRIANGULATION_FIXED; ++how)
       for (int trial = 0; trial < (is_sanitized() ? 1 : 3); ++trial) {
@@ -553,8 +549,7 @@ static void sums_are_those_of_plain_loops(void **state) {
 /* In a flow along the axis of a symmetric valve, a turn about the axis takes the force on one leaflet to the force on the next.
  * The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two closed
  * leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
-static void leaflets_of_symmetric_valves_share_alike(void **state) {
-  (void)state;
+TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;
     int n_leaflets;
@@ -623,8 +618,7 @@ static void leaflets_of_symmetric_valves_share_alike(void **state) {
 
 /* --- Refusals -------------------------------------------------------------------------------------------------------- */
 
-static void refusals_leave_the_sums(void **state) {
-  (void)state;
+TEST(refusals_leave_the_sums) {
   case_of_flow f = random_case(1, RIIS_TRIANGULATION_ADAPTED, 0.09);
   const riis_resistance resistance = resistance_of(1);
   const riis_flow_arrays flow = flow_of(f.nodes.n, f.velocity, f.weight);
@@ -703,14 +697,6 @@ static void refusals_leave_the_sums(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_closed_plate_takes_the_drop),
-      cmocka_unit_test(a_hinged_plate_has_its_moment),
-      cmocka_unit_test(the_first_of_equally_near_edges_gets_the_share),
-      cmocka_unit_test(sums_are_those_of_plain_loops),
-      cmocka_unit_test(leaflets_of_symmetric_valves_share_alike),
-      cmocka_unit_test(refusals_leave_the_sums),
-  };
   rng = random_start("test_reaction");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

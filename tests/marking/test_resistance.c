@@ -112,8 +112,7 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
 /* Without the rim, the integral of K is the area times R / eps. This is exact for a plane. It is also exact for a cylinder,
  * because the excess outside balances the deficit inside. For a sphere there is an additional factor 1 + c eps^2 / r^2. Here c
  * = 1/3 - 2/pi^2 is the integral of x^2 (1 + cos pi x) from 0 to 1. */
-static void the_integral_is_the_area(void **state) {
-  (void)state;
+TEST(the_integral_is_the_area) {
   const double c = 1.0 / 3 - 2 / (pi * pi);
   CHECK_NEAR(c, 0.1307, 1e-4);
   const struct {
@@ -185,8 +184,7 @@ static riis_mark_list fields_of(const flow *f) {
 
 /* Compares K, K times the surface's velocity, and the force with a plain loop over all nodes, whatever fields the marking
  * keeps. */
-static void sums_are_those_of_plain_loops(void **state) {
-  (void)state;
+TEST(sums_are_those_of_plain_loops) {
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
     const double limit = trial % 3 ? between(0.1, 0.25) : 0;
@@ -250,8 +248,7 @@ static void sums_are_those_of_plain_loops(void **state) {
 
 /* K and K u in the result's lists equal those in the arrays, to the last bit. Arrays by component and with gaps get the same
  * bits. Both lists have K and K u, and the marking does not need the field of velocities for them. */
-static void lists_and_layouts_have_the_same_bits(void **state) {
-  (void)state;
+TEST(lists_and_layouts_have_the_same_bits) {
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
     const double limit = trial % 3 ? between(0.11, 0.25) : 0.1;
@@ -310,8 +307,7 @@ static void lists_and_layouts_have_the_same_bits(void **state) {
 }
 
 /* The force on the surface is the momentum that the flow loses. Ranks that share the nodes add their parts. */
-static void ranks_add_up(void **state) {
-  (void)state;
+TEST(ranks_add_up) {
   for (int trial = 0; trial < 8; ++trial) {
     const int owned_before = n_owned();
     flow f = random_flow(all_fields, 0.2);
@@ -357,8 +353,7 @@ static void ranks_add_up(void **state) {
   }
 }
 
-static void two_surfaces_add_up(void **state) {
-  (void)state;
+TEST(two_surfaces_add_up) {
   flow f = random_flow(all_fields, 0);
   const int64_t n = f.nodes.n;
   riis_surface_options options = surface_options();
@@ -380,8 +375,7 @@ static void two_surfaces_add_up(void **state) {
   assert_true(n_both > 10);
 }
 
-static void band_sums_are_those_of_a_plain_loop(void **state) {
-  (void)state;
+TEST(band_sums_are_those_of_a_plain_loop) {
   int64_t n_rim = 0;
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
@@ -420,8 +414,7 @@ static void band_sums_are_those_of_a_plain_loop(void **state) {
 }
 
 /* The pressure jumps across the surface. The mean on each side is the pressure there. */
-static void a_jump_of_pressure_is_measured(void **state) {
-  (void)state;
+TEST(a_jump_of_pressure_is_measured) {
   random_frame();
   riis_surface *surface = surface_of(disc, 100, 10, 0.1);
   test_mesh nodes = lattice_around(surface, 0.05, 0.2);
@@ -449,8 +442,7 @@ static void a_jump_of_pressure_is_measured(void **state) {
 
 /* --- Refusals -------------------------------------------------------------------------------------------------------- */
 
-static void refusals_leave_the_arrays(void **state) {
-  (void)state;
+TEST(refusals_leave_the_arrays) {
   flow f = random_flow(all_fields, 0.2), bare = random_flow(0, 0);
   const int64_t n = f.nodes.n, m = bare.nodes.n;
   const size_t size = (size_t)(n > m ? n : m) * 4 * sizeof(double);
@@ -607,16 +599,6 @@ static void refusals_leave_the_arrays(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_integral_is_the_area),
-      cmocka_unit_test(sums_are_those_of_plain_loops),
-      cmocka_unit_test(lists_and_layouts_have_the_same_bits),
-      cmocka_unit_test(ranks_add_up),
-      cmocka_unit_test(two_surfaces_add_up),
-      cmocka_unit_test(band_sums_are_those_of_a_plain_loop),
-      cmocka_unit_test(a_jump_of_pressure_is_measured),
-      cmocka_unit_test(refusals_leave_the_arrays),
-  };
   rng = random_start("test_resistance");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -306,8 +306,33 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   free_owned_after(owned_before);
 }
 
-static void random_cases_equal_brute_force(void **state) {
-  (void)state;
+/* Brute force with boxes gives the same distances as a plain loop. */
+TEST(boxes_leave_nothing_out) {
+  for (int trial = 0; trial < 12; ++trial) {
+    const int owned_before = n_owned();
+    shape s = random_shape();
+    riis_surface *surface = NULL;
+    update_surface(&surface, &s, NULL);
+    const riis_surface_info info = info_of(surface);
+    brute_force b = brute_force_of(surface);
+    const double *vertices = triangles_of(surface).xyz;
+    const int64_t n_triangles = triangles_of(surface).n_triangles;
+    const int64_t *vertex_id = triangles_of(surface).vertex_id;
+    for (int k = 0; k < 40; ++k) {
+      double p[3];
+      int64_t triangle;
+      for (int c = 0; c < 3; ++c) p[c] = random_between(&rng, info.lower[c] - 0.5, info.upper[c] + 0.5);
+      const long double expected = oracle_distance(p, n_triangles, vertex_id, vertices, &triangle);
+      const double reach = random_between(&rng, 0, 1);
+      assert_true(brute_force_distance(&b, p, 1e9) == expected);
+      const long double got = brute_force_distance(&b, p, reach);
+      assert_true(expected <= reach ? got == expected : got > reach);
+    }
+    free_owned_after(owned_before);
+  }
+}
+
+TEST(random_cases_equal_brute_force) {
   const int is_long = is_long_test();
   const int64_t n_cases = fewer_if_sanitized(140), n_pairs = is_long ? 10000000 : 0;
   int64_t n_meshes = 0;
@@ -343,38 +368,7 @@ static void random_cases_equal_brute_force(void **state) {
   assert_true(totals.undecided < totals.pairs / 1000);
 }
 
-/* Brute force with boxes gives the same distances as a plain loop. */
-static void boxes_leave_nothing_out(void **state) {
-  (void)state;
-  for (int trial = 0; trial < 12; ++trial) {
-    const int owned_before = n_owned();
-    shape s = random_shape();
-    riis_surface *surface = NULL;
-    update_surface(&surface, &s, NULL);
-    const riis_surface_info info = info_of(surface);
-    brute_force b = brute_force_of(surface);
-    const double *vertices = triangles_of(surface).xyz;
-    const int64_t n_triangles = triangles_of(surface).n_triangles;
-    const int64_t *vertex_id = triangles_of(surface).vertex_id;
-    for (int k = 0; k < 40; ++k) {
-      double p[3];
-      int64_t triangle;
-      for (int c = 0; c < 3; ++c) p[c] = random_between(&rng, info.lower[c] - 0.5, info.upper[c] + 0.5);
-      const long double expected = oracle_distance(p, n_triangles, vertex_id, vertices, &triangle);
-      const double reach = random_between(&rng, 0, 1);
-      assert_true(brute_force_distance(&b, p, 1e9) == expected);
-      const long double got = brute_force_distance(&b, p, reach);
-      assert_true(expected <= reach ? got == expected : got > reach);
-    }
-    free_owned_after(owned_before);
-  }
-}
-
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(boxes_leave_nothing_out),
-      cmocka_unit_test(random_cases_equal_brute_force),
-  };
   rng = random_start("test_search_suite");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -152,8 +152,7 @@ static void check_searches(const riis_surface *surface, const test_mesh *from, c
   assert_memory_equal(fields_in(all[0]).velocity, fields_in(all[1]).velocity, (size_t)from->n * 24);
 }
 
-static void valves_have_the_means_of_their_leaflets(void **state) {
-  (void)state;
+TEST(valves_have_the_means_of_their_leaflets) {
   tie_counts all = {0, 0, 0, 0, 0};
   for (int trial = 0; trial < fewer_if_sanitized(2 * n_kinds); ++trial) {
     const int owned_before = n_owned();
@@ -179,8 +178,7 @@ static void valves_have_the_means_of_their_leaflets(void **state) {
 }
 
 /* Random triangles occur three times, with permuted coordinates. Nodes on the diagonal are equally far from all three. */
-static void three_leaflets_of_arrays_count_alike(void **state) {
-  (void)state;
+TEST(three_leaflets_of_arrays_count_alike) {
   tie_counts all = {0, 0, 0, 0, 0};
   for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
     const int owned_before = n_owned();
@@ -258,8 +256,7 @@ static double largest_difference(const double *a, const double *b, size_t n) {
   return largest;
 }
 
-static void rounding_does_not_change_k_u(void **state) {
-  (void)state;
+TEST(rounding_does_not_change_k_u) {
   for (int trial = 0; trial < fewer_if_sanitized(4 * n_kinds); ++trial) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial % n_kinds];
@@ -284,8 +281,7 @@ static void rounding_does_not_change_k_u(void **state) {
 }
 
 /* The reaction of a flow at rest is the weighted sum of -K u. */
-static void reaction_takes_the_means(void **state) {
-  (void)state;
+TEST(reaction_takes_the_means) {
   riis_surface *surface = moving_surface("trileaflet", 0, 0.01, NULL);
   const test_mesh mesh = symmetric_cells(surface, 0.1);
   const size_t n = (size_t)mesh.n;
@@ -309,8 +305,7 @@ static void reaction_takes_the_means(void **state) {
 /* --- Nodes without ties ---------------------------------------------------------------------------------------------- */
 
 /* If the same triangles are one leaflet from arrays, there are no ties. Each node has the velocity of its closest triangle. */
-static void other_nodes_have_the_closest_triangle_s(void **state) {
-  (void)state;
+TEST(other_nodes_have_the_closest_triangle_s) {
   int64_t n_single = 0, n_other = 0;
   for (int trial = 0; trial < fewer_if_sanitized(2 * n_kinds); ++trial) {
     const int owned_before = n_owned();
@@ -347,8 +342,7 @@ static void other_nodes_have_the_closest_triangle_s(void **state) {
 }
 
 /* The sheets are z = 0 and z = 2. A node is nearer to one of them by a given fraction of the half thickness. */
-static void ties_end_at_a_millionth(void **state) {
-  (void)state;
+TEST(ties_end_at_a_millionth) {
   static const struct {
     double nearer;
     int ties, of_one_leaflet;
@@ -378,13 +372,5 @@ static void ties_end_at_a_millionth(void **state) {
 
 int main(void) {
   rng = random_start("test_ties");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(valves_have_the_means_of_their_leaflets, free_owned),
-      cmocka_unit_test_teardown(three_leaflets_of_arrays_count_alike, free_owned),
-      cmocka_unit_test_teardown(rounding_does_not_change_k_u, free_owned),
-      cmocka_unit_test_teardown(reaction_takes_the_means, free_owned),
-      cmocka_unit_test_teardown(other_nodes_have_the_closest_triangle_s, free_owned),
-      cmocka_unit_test_teardown(ties_end_at_a_millionth, free_owned),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

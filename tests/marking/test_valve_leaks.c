@@ -93,8 +93,7 @@ static riis_surface *valve_surface(const char *kind, double opening, int32_t dis
 }
 
 /* The marks may come from any method of measuring distances. */
-static void valves_leak_where_the_loop_says(void **state) {
-  (void)state;
+TEST(valves_leak_where_the_loop_says) {
   static const char *const kinds[2] = {"aortic", "mitral"};
   int64_t n_leaking[3] = {0, 0, 0};
   for (int trial = 0; trial < 12; ++trial) {
@@ -113,8 +112,7 @@ static void valves_leak_where_the_loop_says(void **state) {
 }
 
 /* Edges of at most two half thicknesses cannot leak, even if a plane cuts an edge of exactly that length in half. */
-static void short_edges_do_not_leak(void **state) {
-  (void)state;
+TEST(short_edges_do_not_leak) {
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
     riis_surface *surface = valve_surface(trial % 2 ? "mitral" : "aortic", 0, RIIS_MEASURE_TRIANGLES);
@@ -147,8 +145,7 @@ static test_mesh column_of_nodes(int64_t n, double from, double step) {
 }
 
 /* If the search may have missed nodes, short edges are also examined. */
-static void what_the_papers_search_misses_leaks(void **state) {
-  (void)state;
+TEST(what_the_papers_search_misses_leaks) {
   test_mesh nodes = column_of_nodes(121, -1, 0.1);
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0);
@@ -165,8 +162,7 @@ static void what_the_papers_search_misses_leaks(void **state) {
 }
 
 /* The list reflects the present mesh and adjacency, and the last marking. */
-static void changes_are_seen(void **state) {
-  (void)state;
+TEST(changes_are_seen) {
   test_mesh nodes = column_of_nodes(12, -0.5, 1);
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0);
@@ -202,8 +198,7 @@ static void changes_are_seen(void **state) {
 
 /* --- Refusals ---------------------------------------------------------------------------------------------------------- */
 
-static void what_makes_no_sense_is_refused(void **state) {
-  (void)state;
+TEST(what_makes_no_sense_is_refused) {
   test_mesh nodes = column_of_nodes(12, -0.5, 1), fewer = column_of_nodes(5, 0, 1);
   riis_surface *surface = two_plates();
   riis_mesh *mesh = mesh_with_rows(&nodes, 0), *other = mesh_with_rows(&fewer, 0);
@@ -254,11 +249,6 @@ static void what_makes_no_sense_is_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(valves_leak_where_the_loop_says),     cmocka_unit_test(short_edges_do_not_leak),
-      cmocka_unit_test(what_the_papers_search_misses_leaks), cmocka_unit_test(changes_are_seen),
-      cmocka_unit_test(what_makes_no_sense_is_refused),
-  };
   rng = random_start("test_valve_leaks");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -24,8 +24,7 @@ static void expect_walk(walk_seen seen, int arena) {
   assert_int_equal(seen.arena, arena);
 }
 
-static void one_caller_has_one_arena(void **state) {
-  (void)state;
+TEST_WITH(one_caller_has_one_arena, keep, let_go) {
   for (int i = 0; i < 200; ++i) {
     expect_walk(walk_once(2), 2);
   }
@@ -34,15 +33,13 @@ static void one_caller_has_one_arena(void **state) {
   assert_int_equal(arenas_made(), 1);
 }
 
-static void each_number_of_threads_has_one(void **state) {
-  (void)state;
+TEST_WITH(each_number_of_threads_has_one, keep, let_go) {
   for (int i = 0; i < 100; ++i)
     for (int n_threads = 2; n_threads <= 4; ++n_threads) expect_walk(walk_once(n_threads), n_threads);
   assert_int_equal(arenas_made(), 3);
 }
 
-static void callers_at_once_have_one_each(void **state) {
-  (void)state;
+TEST_WITH(callers_at_once_have_one_each, keep, let_go) {
   assert_true(walk_at_once(2, 1));
   assert_int_equal(arenas_made(), 2);
   /* Arenas of two threads exist for all five callers at the same time. At most five arenas of three threads exist. */
@@ -50,8 +47,7 @@ static void callers_at_once_have_one_each(void **state) {
   assert_in_range(arenas_made(), 6, 10);
 }
 
-static void the_callers_limit_is_kept(void **state) {
-  (void)state;
+TEST_WITH(the_callers_limit_is_kept, keep, let_go) {
   const int limits[] = {4, 1, 2, 1, 3, 4};
   for (int repeat = 0; repeat < 20; ++repeat)
     for (int i = 0; i < 6; ++i) {
@@ -61,8 +57,7 @@ static void the_callers_limit_is_kept(void **state) {
   assert_int_equal(arenas_made(), 4); /* with 1, 2, 3 and 4 threads */
 }
 
-static void an_arena_comes_back_when_a_body_throws(void **state) {
-  (void)state;
+TEST_WITH(an_arena_comes_back_when_a_body_throws, keep, let_go) {
   for (int i = 0; i < 100; ++i) {
     assert_true(walk_that_throws(3));
     expect_walk(walk_once(3), 3);
@@ -70,34 +65,33 @@ static void an_arena_comes_back_when_a_body_throws(void **state) {
   assert_int_equal(arenas_made(), 1);
 }
 
-static void the_callers_tasks_have_at_most_one_each(void **state) {
-  (void)state;
+TEST_WITH(the_callers_tasks_have_at_most_one_each, keep, let_go) {
   assert_true(walk_in_tasks(500));
   assert_in_range(arenas_made(), 1, 4);
 }
 
-static void arenas_go_with_the_last_who_keeps_them(void **state) {
+TEST_WITH(arenas_go_with_the_last_who_keeps_them, keep, let_go) {
   arenas_keeper *second = arenas_keep();
   expect_walk(walk_once(2), 2);
-  arenas_let_go((arenas_keeper **)state);
+  arenas_let_go((arenas_keeper **)fixture);
   assert_int_equal(arenas_made(), 1);
   expect_walk(walk_once(3), 3);
   arenas_let_go(&second);
   assert_int_equal(arenas_made(), 0);
   assert_true(end_tbb());
-  *state = arenas_keep();
+  *fixture = arenas_keep();
   expect_walk(walk_once(2), 2);
   assert_int_equal(arenas_made(), 1);
 }
 
-static void a_child_of_fork_walks_alone_and_ends(void **state) {
+TEST_WITH(a_child_of_fork_walks_alone_and_ends, keep, let_go) {
   expect_walk(walk_once(2), 2);
   fflush(NULL);
   const pid_t child = fork();
   assert_true(child >= 0);
   if (child == 0) {
     const int is_right = walk_once(1).is_right;
-    arenas_let_go((arenas_keeper **)state);
+    arenas_let_go((arenas_keeper **)fixture);
     exit(is_right ? 0 : 1);
   }
   int status = -1;
@@ -121,16 +115,5 @@ static void walk_at_exit(void) {
 int main(void) {
   process = getpid();
   if (atexit(walk_at_exit) != 0) return 2;
-#define KEPT(test) cmocka_unit_test_setup_teardown(test, keep, let_go)
-  const struct CMUnitTest tests[] = {
-      KEPT(one_caller_has_one_arena),
-      KEPT(each_number_of_threads_has_one),
-      KEPT(callers_at_once_have_one_each),
-      KEPT(the_callers_limit_is_kept),
-      KEPT(an_arena_comes_back_when_a_body_throws),
-      KEPT(the_callers_tasks_have_at_most_one_each),
-      KEPT(arenas_go_with_the_last_who_keeps_them),
-      KEPT(a_child_of_fork_walks_alone_and_ends),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -9,8 +9,7 @@
 #include "searches.h"
 
 /* The ten-line example in the header's comment gives the same marks as C. */
-static void marks_are_those_of_c(void **state) {
-  (void)state;
+TEST(marks_are_those_of_c) {
   riis_valve *valve = new_valve("mitral");
   riis_surface_options options = surface_options();
   options.half_thickness = 0.15;
@@ -27,34 +26,17 @@ static void marks_are_those_of_c(void **state) {
   assert_memory_equal(node_id, list.node_id, (size_t)list.n_nodes * sizeof *node_id);
 }
 
-static void refusals_are_exceptions(void **state) {
-  (void)state;
+TEST(refusals_are_exceptions) {
   char text[256];
   assert_int_equal(cpp_refusal("tricuspid", text, sizeof text), RIIS_INVALID_PARAMETER);
   assert_non_null(strstr(text, "'tricuspid' is not a kind of valve"));
   assert_int_equal(cpp_refusal("aortic", text, sizeof text), RIIS_OK);
 }
 
-static void handles_own_and_move(void **state) {
-  (void)state;
-  assert_string_equal(cpp_wrong_with_handles(), "");
-}
+TEST(handles_own_and_move) { assert_string_equal(cpp_wrong_with_handles(), ""); }
 
-static void defaults_are_those_of_c(void **state) {
-  (void)state;
-  assert_string_equal(cpp_wrong_with_defaults(), "");
-}
+TEST(defaults_are_those_of_c) { assert_string_equal(cpp_wrong_with_defaults(), ""); }
 
-static void spans_are_arrays(void **state) {
-  (void)state;
-  assert_string_equal(cpp_wrong_with_spans(), "");
-}
+TEST(spans_are_arrays) { assert_string_equal(cpp_wrong_with_spans(), ""); }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(marks_are_those_of_c), cmocka_unit_test(refusals_are_exceptions),
-      cmocka_unit_test(handles_own_and_move), cmocka_unit_test(defaults_are_those_of_c),
-      cmocka_unit_test(spans_are_arrays),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -47,8 +47,7 @@ static uint64_t digest_of_a_step(int threads) {
 
 static uint64_t expected;
 
-static void traps_do_not_fire_and_stay(void **state) {
-  (void)state;
+TEST(traps_do_not_fire_and_stay) {
   feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
   const uint64_t got = digest_of_a_step(2);
   const int traps = fegetexcept();
@@ -57,8 +56,7 @@ static void traps_do_not_fire_and_stay(void **state) {
   assert_int_equal(traps, FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
 }
 
-static void rounding_mode_does_not_matter_and_stays(void **state) {
-  (void)state;
+TEST(rounding_mode_does_not_matter_and_stays) {
   fesetround(FE_UPWARD);
   const uint64_t got = digest_of_a_step(2);
   const int mode = fegetround();
@@ -67,8 +65,7 @@ static void rounding_mode_does_not_matter_and_stays(void **state) {
   assert_int_equal(mode, FE_UPWARD);
 }
 
-static void flush_to_zero_stays(void **state) {
-  (void)state;
+TEST(flush_to_zero_stays) {
 #if defined(__SSE2__)
   const unsigned before = _mm_getcsr();
   _mm_setcsr(before | 0x8040); /* the bits that code compiled with -ffast-math sets */
@@ -82,8 +79,7 @@ static void flush_to_zero_stays(void **state) {
 #endif
 }
 
-static void openmp_settings_stay(void **state) {
-  (void)state;
+TEST(openmp_settings_stay) {
   omp_set_num_threads(3);
   omp_set_dynamic(0);
   omp_set_schedule(omp_sched_guided, 7);
@@ -97,8 +93,7 @@ static void openmp_settings_stay(void **state) {
 }
 
 /* Each of the caller's threads marks on its own. All read one surface and one mesh. */
-static void works_inside_a_parallel_region(void **state) {
-  (void)state;
+TEST(works_inside_a_parallel_region) {
   int n_wrong = 0;
 #pragma omp parallel for num_threads(3) reduction(+ : n_wrong)
   for (int i = 0; i < 6; ++i) n_wrong += digest_of_a_step(i % 3) != expected;
@@ -122,8 +117,7 @@ static void works_inside_a_parallel_region(void **state) {
   assert_true(counts[0] > 0);
 }
 
-static void errors_belong_to_their_thread(void **state) {
-  (void)state;
+TEST(errors_belong_to_their_thread) {
   char texts[4][64];
 #pragma omp parallel num_threads(4)
   {
@@ -150,8 +144,7 @@ static void log_line(void *user_data, int32_t level, const char *message) {
   if (level == RIIS_LOG_INFO && strstr(message, "triangles")) snprintf(to, 256, "%s", message);
 }
 
-static void log_goes_to_the_callers_function_only(void **state) {
-  (void)state;
+TEST(log_goes_to_the_callers_function_only) {
   char line[256] = "";
   riis_set_log(log_line, line);
   riis_surface *surface = aortic_surface(NULL);
@@ -166,8 +159,7 @@ static void log_goes_to_the_callers_function_only(void **state) {
 }
 
 /* A step and a refusal run while both standard streams are redirected to a file, which must stay empty. */
-static void nothing_is_printed(void **state) {
-  (void)state;
+TEST(nothing_is_printed) {
   FILE *file = tmpfile();
   assert_non_null(file);
   fflush(stdout);
@@ -193,16 +185,6 @@ static void nothing_is_printed(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(traps_do_not_fire_and_stay),
-      cmocka_unit_test(rounding_mode_does_not_matter_and_stays),
-      cmocka_unit_test(flush_to_zero_stays),
-      cmocka_unit_test(openmp_settings_stay),
-      cmocka_unit_test(works_inside_a_parallel_region),
-      cmocka_unit_test(errors_belong_to_their_thread),
-      cmocka_unit_test(log_goes_to_the_callers_function_only),
-      cmocka_unit_test(nothing_is_printed),
-  };
   random_source rng = random_start("test_environment");
   for (int i = 0; i < n; ++i) {
     nodes[3 * i] = random_between(&rng, -1.6, 1.6);
@@ -210,5 +192,5 @@ int main(void) {
     nodes[3 * i + 2] = random_between(&rng, -1.2, 0.3);
   }
   expected = digest_of_a_step(1);
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

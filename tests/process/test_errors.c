@@ -10,8 +10,7 @@
 static const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1};
 static const int32_t ids[3] = {0, 1, 2};
 
-static void statuses_have_names(void **state) {
-  (void)state;
+TEST(statuses_have_names) {
   static const char *const names[] = {"RIIS_INTERNAL_ERROR",    "RIIS_OK",
                                       "RIIS_INVALID_ARGUMENT",  "RIIS_INVALID_STRUCT_SIZE",
                                       "RIIS_INVALID_PARAMETER", "RIIS_INVALID_SURFACE",
@@ -23,8 +22,7 @@ static void statuses_have_names(void **state) {
   assert_string_equal(riis_status_name(-2), "unknown status");
 }
 
-static void version_is_the_headers(void **state) {
-  (void)state;
+TEST(version_is_the_headers) {
   int32_t major = -1, minor = -1, patch = -1;
   char text[32];
   riis_get_version(&major, &minor, &patch);
@@ -36,8 +34,7 @@ static void version_is_the_headers(void **state) {
   riis_get_version(NULL, NULL, NULL);
 }
 
-static void null_arguments_are_named(void **state) {
-  (void)state;
+TEST(null_arguments_are_named) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
@@ -143,8 +140,7 @@ static void null_arguments_are_named(void **state) {
 }
 
 /* All handles have one type in Fortran, so a program with swapped handles compiles. */
-static void swapped_handles_are_refused(void **state) {
-  (void)state;
+TEST(swapped_handles_are_refused) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   riis_mesh *mesh = NULL;
@@ -185,8 +181,7 @@ static void swapped_handles_are_refused(void **state) {
   riis_valve_destroy(&valve);
 }
 
-static void parameters_are_refused_by_name(void **state) {
-  (void)state;
+TEST(parameters_are_refused_by_name) {
   riis_valve *valve = NULL;
   double values[3] = {0, 0, NAN};
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'tricuspid'|aortic", riis_valve_create("tricuspid", &valve));
@@ -230,8 +225,7 @@ static void parameters_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "xxx|aortic", riis_valve_set_scalar(valve, long_name, 1));
 }
 
-static void surface_options_are_refused_by_name(void **state) {
-  (void)state;
+TEST(surface_options_are_refused_by_name) {
   riis_surface *surface = NULL;
   riis_surface_options options;
   riis_valve *valve = new_valve("aortic");
@@ -274,8 +268,7 @@ static void surface_options_are_refused_by_name(void **state) {
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
 }
 
-static void surface_arrays_are_refused_by_name(void **state) {
-  (void)state;
+TEST(surface_arrays_are_refused_by_name) {
   riis_surface *surface = NULL;
   riis_surface_arrays arrays;
   double bad[12];
@@ -321,8 +314,7 @@ static void surface_arrays_are_refused_by_name(void **state) {
                 riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
 
-static void points_and_meshes_are_refused_by_name(void **state) {
-  (void)state;
+TEST(points_and_meshes_are_refused_by_name) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = NULL;
   riis_closest closest;
@@ -375,8 +367,7 @@ static void points_and_meshes_are_refused_by_name(void **state) {
                 closest_points_of(surface, 1, xyz, xyz, xyz, 1, &options, &out));
 }
 
-static void marking_options_are_refused_by_name(void **state) {
-  (void)state;
+TEST(marking_options_are_refused_by_name) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = mesh_of(4, xyz);
   riis_marks *result = new_result();
@@ -398,8 +389,7 @@ static void marking_options_are_refused_by_name(void **state) {
 
 /* A caller with an older header passes a smaller struct, and only its fields are exchanged. A caller with a newer header is
  * refused. */
-static void struct_sizes_are_checked(void **state) {
-  (void)state;
+TEST(struct_sizes_are_checked) {
   riis_surface_options options;
   memset(&options, 0x5a, sizeof options);
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 119|120", riis_surface_options_init(&options, 119));
@@ -425,18 +415,4 @@ static void struct_sizes_are_checked(void **state) {
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "arrays is 80", riis_surface_update_from_arrays(surface, &arrays, NULL));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(statuses_have_names),
-      cmocka_unit_test(version_is_the_headers),
-      cmocka_unit_test(null_arguments_are_named),
-      cmocka_unit_test(swapped_handles_are_refused),
-      cmocka_unit_test(parameters_are_refused_by_name),
-      cmocka_unit_test(surface_options_are_refused_by_name),
-      cmocka_unit_test(surface_arrays_are_refused_by_name),
-      cmocka_unit_test(points_and_meshes_are_refused_by_name),
-      cmocka_unit_test(marking_options_are_refused_by_name),
-      cmocka_unit_test(struct_sizes_are_checked),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

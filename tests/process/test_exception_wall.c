@@ -11,17 +11,6 @@
 #include "handles.h"
 #include "sanitized.h"
 
-static void every_exception_becomes_a_status(void **state) {
-  (void)state;
-  CHECK_OK(wall_meets("nothing"));
-  CHECK_REFUSED(RIIS_INVALID_MESH, "error 7", wall_meets("error"));
-  CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", wall_meets("memory"));
-  CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: boom", wall_meets("standard"));
-  CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: unknown exception", wall_meets("other"));
-  CHECK_REFUSED(RIIS_INVALID_MESH, "a worker's error", wall_meets("worker"));
-  CHECK_REFUSED(RIIS_INVALID_MESH, "error of block 0", wall_meets("workers"));
-}
-
 /* Updates a surface in a child process with little address space left. An update that needs much more is refused, and the
  * surface stays. Returns 0 if this holds. */
 static int update_without_memory(void) {
@@ -108,23 +97,19 @@ static void check_in_child(int (*returns_0)(void)) {
   assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-static void memory_that_runs_out_changes_nothing(void **state) {
-  (void)state;
-  check_in_child(update_without_memory);
+/* The test that forks must be first, because OpenMP does not survive a fork after it has started threads. */
+TEST(memory_that_runs_out_changes_nothing) { check_in_child(update_without_memory); }
+
+TEST(what_is_too_much_is_not_made) { check_in_child(refusal_with_little_memory); }
+
+TEST(every_exception_becomes_a_status) {
+  CHECK_OK(wall_meets("nothing"));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "error 7", wall_meets("error"));
+  CHECK_REFUSED(RIIS_OUT_OF_MEMORY, "out of memory", wall_meets("memory"));
+  CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: boom", wall_meets("standard"));
+  CHECK_REFUSED(RIIS_INTERNAL_ERROR, "internal error: unknown exception", wall_meets("other"));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "a worker's error", wall_meets("worker"));
+  CHECK_REFUSED(RIIS_INVALID_MESH, "error of block 0", wall_meets("workers"));
 }
 
-static void what_is_too_much_is_not_made(void **state) {
-  (void)state;
-  check_in_child(refusal_with_little_memory);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(
-          /* The test that forks must be first, because OpenMP does not survive a fork after it has started threads. */
-          memory_that_runs_out_changes_nothing),
-      cmocka_unit_test(what_is_too_much_is_not_made),
-      cmocka_unit_test(every_exception_becomes_a_status),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

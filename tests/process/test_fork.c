@@ -101,16 +101,6 @@ static void children_go_on_beside(void *(*other)(void *)) {
   assert_int_equal(n_passed, n_forks);
 }
 
-static void memory_is_free_in_children(void **state) {
-  (void)state;
-  children_go_on_beside(go_on_stepping);
-}
-
-static void locks_are_free_in_children(void **state) {
-  (void)state;
-  children_go_on_beside(go_on_locking);
-}
-
 /* The objects that the parent made before the fork. */
 typedef struct scene {
   riis_valve *valve;
@@ -259,15 +249,13 @@ static int has_threads(const scene *s) {
 }
 
 /* The test of a parent with one thread runs first, while the process has not used threads yet. */
-static void a_child_of_one_thread_has_threads(void **state) {
-  (void)state;
+TEST(a_child_of_one_thread_has_threads) {
   const scene s = scene_by(1);
   CHECK_OK(mark(&s, RIIS_SEARCH_CLUSTERS, 1, s.result));
   assert_true(run_child(has_threads, &s));
 }
 
-static void a_child_of_several_threads_has_one(void **state) {
-  (void)state;
+TEST(a_child_of_several_threads_has_one) {
   const scene s = scene_by(2);
   for (int32_t search = RIIS_SEARCH_NEIGHBOR; search <= RIIS_SEARCH_CLUSTERS; ++search)
     CHECK_OK(mark(&s, search, 2, s.result));
@@ -277,12 +265,8 @@ static void a_child_of_several_threads_has_one(void **state) {
   assert_int_equal(n_ran, 2);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(a_child_of_one_thread_has_threads, free_owned),
-      cmocka_unit_test_teardown(a_child_of_several_threads_has_one, free_owned),
-      cmocka_unit_test_teardown(memory_is_free_in_children, free_owned),
-      cmocka_unit_test_teardown(locks_are_free_in_children, free_owned),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TEST(memory_is_free_in_children) { children_go_on_beside(go_on_stepping); }
+
+TEST(locks_are_free_in_children) { children_go_on_beside(go_on_locking); }
+
+int main(void) { return run_cases(NULL, NULL); }

@@ -11,8 +11,16 @@
 
 static int is_bound(void) { return omp_get_proc_bind() != omp_proc_bind_false; }
 
-static void each_block_runs_once(void **state) {
-  (void)state;
+/* First, while a team has one worker. */
+TEST(loops_end_while_a_thread_is_held) {
+  assert_true(loops_while_a_thread_is_held(200));
+  for (int i = 0; i < 2000 && !is_sanitized(); ++i) assert_true(loops_while_a_thread_is_held(10));
+}
+
+/* Before all loops of OpenMP. One of them may wait long, and then all loops are on teams for a while. */
+TEST(more_threads_than_processors_are_a_team) { assert_int_equal(too_many_threads_are_a_team(), !is_bound()); }
+
+TEST(each_block_runs_once) {
   const int n_threads[] = {2, 5, 3, 1, 4, 2};
   for (int repeat = 0; repeat < 50; ++repeat)
     for (int i = 0; i < 6; ++i)
@@ -24,8 +32,7 @@ static void each_block_runs_once(void **state) {
       }
 }
 
-static void the_lowest_failing_block_is_reported(void **state) {
-  (void)state;
+TEST(the_lowest_failing_block_is_reported) {
   random_source random = random_start("the_lowest_failing_block_is_reported");
   for (int repeat = 0; repeat < 300; ++repeat) {
     const int64_t n_blocks = 2 + (int64_t)(random_bits(&random) % 200);
@@ -41,8 +48,7 @@ static void the_lowest_failing_block_is_reported(void **state) {
   }
 }
 
-static void lower_blocks_run_after_a_failure(void **state) {
-  (void)state;
+TEST(lower_blocks_run_after_a_failure) {
   int64_t n_higher = 0;
   assert_int_equal(block_that_fails_first(100, 30, &n_higher), 30);
   /* The exception may be stored only after the calling thread has gone on. That is rare. */
@@ -54,19 +60,14 @@ static void lower_blocks_run_after_a_failure(void **state) {
   assert_true(n_with_none > 0);
 }
 
-static void callers_do_not_disturb_each_other(void **state) {
-  (void)state;
-  assert_true(loops_at_once(5, is_bound() ? 5 : 100));
-}
+TEST(callers_do_not_disturb_each_other) { assert_true(loops_at_once(5, is_bound() ? 5 : 100)); }
 
-static void a_callers_region_may_nest(void **state) {
-  (void)state;
+TEST(a_callers_region_may_nest) {
   assert_int_equal(loop_in_a_region(1), 1);
   assert_int_equal(loop_in_a_region(2), 2);
 }
 
-static void the_threads_leave_signals_to_the_caller(void **state) {
-  (void)state;
+TEST(the_threads_leave_signals_to_the_caller) {
   const loop_threads seen = threads_of_a_loop();
   assert_false(seen.takes_signals);
   assert_true(seen.takes_error_signals);
@@ -75,23 +76,11 @@ static void the_threads_leave_signals_to_the_caller(void **state) {
 /* This would wait for ever if a loop waited for all of its threads, or for a lock that a held thread has. The thread has to be
  * held at many points to show the latter. A sanitizer's own locks must not be held, so there the thread is held once, asleep. It
  * is the first test, so the team has only one more thread. */
-static void loops_end_while_a_thread_is_held(void **state) {
-  (void)state;
-  assert_true(loops_while_a_thread_is_held(200));
-  for (int i = 0; i < 2000 && !is_sanitized(); ++i) assert_true(loops_while_a_thread_is_held(10));
-}
-
-static void a_long_wait_chooses_a_team(void **state) {
-  (void)state;
+TEST(a_long_wait_chooses_a_team) {
   if (is_bound())
     assert_false(wait_long_for_a_thread());
   else
     assert_true(wait_long_for_a_thread());
-}
-
-static void more_threads_than_processors_are_a_team(void **state) {
-  (void)state;
-  assert_int_equal(too_many_threads_are_a_team(), !is_bound());
 }
 
 /* Times are in milliseconds here. */
@@ -104,8 +93,7 @@ static int takes_team_at(double now, int n_loops, const double *waited, const do
   return choice_after(n_loops, times[0], times[1], (int64_t)(1e6 * now));
 }
 
-static void the_choice_lasts_for_a_while(void **state) {
-  (void)state;
+TEST(the_choice_lasts_for_a_while) {
   const double brief[] = {1.9}, waits[8] = {10, 5, 5, 5, 5, 5, 5, 5};
   const double ended[] = {100, 400, 1000};
   assert_false(takes_team_at(1, 0, NULL, NULL));
@@ -133,8 +121,7 @@ static int takes_team_after_calm(double now, int n_calm) {
 }
 
 /* On a quiet machine, too, a loop now and then waits long. */
-static void rare_waits_do_not_prolong_the_choice(void **state) {
-  (void)state;
+TEST(rare_waits_do_not_prolong_the_choice) {
   assert_true(takes_team_after_calm(1999, 31));
   assert_false(takes_team_after_calm(2001, 31));
   assert_true(takes_team_after_calm(1249, 32));
@@ -151,8 +138,7 @@ static double alone_at(double now, int n_loops, const double *lost, const double
   return 1e-6 * (double)time_alone_after(n_loops, times[0], times[1], (int64_t)(1e6 * now));
 }
 
-static void a_loop_is_alone_for_the_mean_loss(void **state) {
-  (void)state;
+TEST(a_loop_is_alone_for_the_mean_loss) {
   double lost[64] = {4}, ended[64] = {0};
   for (int i = 0; i < 64; ++i) ended[i] = 100;
   assert_true(alone_at(1, 0, NULL, NULL) == 0);
@@ -169,29 +155,9 @@ static void a_loop_is_alone_for_the_mean_loss(void **state) {
   CHECK_NEAR(alone_at(100, 64, lost, ended), 4 * (1 - pow(15.0 / 16, 64)), 1e-5);
 }
 
-static void the_caller_calls_a_team_late(void **state) {
-  (void)state;
+TEST(the_caller_calls_a_team_late) {
   assert_true(caller_begins_alone());
   assert_true(caller_calls_a_team_later());
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      /* First, while a team has one worker. */
-      cmocka_unit_test(loops_end_while_a_thread_is_held),
-      /* Before all loops of OpenMP. One of them may wait long, and then all loops are on teams for a while. */
-      cmocka_unit_test(more_threads_than_processors_are_a_team),
-      cmocka_unit_test(each_block_runs_once),
-      cmocka_unit_test(the_lowest_failing_block_is_reported),
-      cmocka_unit_test(lower_blocks_run_after_a_failure),
-      cmocka_unit_test(callers_do_not_disturb_each_other),
-      cmocka_unit_test(a_callers_region_may_nest),
-      cmocka_unit_test(the_threads_leave_signals_to_the_caller),
-      cmocka_unit_test(a_long_wait_chooses_a_team),
-      cmocka_unit_test(the_choice_lasts_for_a_while),
-      cmocka_unit_test(rare_waits_do_not_prolong_the_choice),
-      cmocka_unit_test(a_loop_is_alone_for_the_mean_loss),
-      cmocka_unit_test(the_caller_calls_a_team_late),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

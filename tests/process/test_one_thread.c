@@ -101,16 +101,14 @@ static void check_surfaces(int32_t triangulation, double tolerance) {
   }
 }
 
-static void surfaces_of_valves(void **state) {
-  (void)state;
+TEST(surfaces_of_valves) {
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.05);
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.005);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.05);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.01);
 }
 
-static void other_distances(void **state) {
-  (void)state;
+TEST(other_distances) {
   const double point[3] = {0.3, 0.2, 0.1};
   for (int32_t distance = RIIS_MEASURE_SAMPLING; distance <= RIIS_MEASURE_MINIMIZATION; ++distance) {
     riis_surface_options options = options_with(n_threads_asked, RIIS_TRIANGULATION_ADAPTED, 0.05);
@@ -124,8 +122,7 @@ static void other_distances(void **state) {
   }
 }
 
-static void surfaces_from_arrays(void **state) {
-  (void)state;
+TEST(surfaces_from_arrays) {
   enum { n_triangles = 3000 };
   random_source random = random_start("one thread");
   double *corners;
@@ -221,14 +218,10 @@ static void check_markings(int64_t side) {
   CALL_ALONE(closest_points_of(surface, n_points, xyz, xyz + 1, xyz + 2, 3, &of_points, &found));
 }
 
-static void markings(void **state) {
-  (void)state;
-  check_markings(most_side);
-}
+TEST(markings) { check_markings(most_side); }
 
 /* On a machine with one processor, the default never starts a thread. */
-static void little_work_by_default(void **state) {
-  (void)state;
+TEST(little_work_by_default) {
   n_threads_asked = 0;
   check_surfaces(RIIS_TRIANGULATION_ADAPTED, 0.05);
   check_surfaces(RIIS_TRIANGULATION_FIXED, 0.05);
@@ -236,8 +229,7 @@ static void little_work_by_default(void **state) {
 }
 
 /* OpenMP and TBB each start at most one more thread. After a long wait for OpenMP's thread, the library starts one of its own. */
-static void two_threads_are_more(void **state) {
-  (void)state;
+TEST(two_threads_are_more) {
   const riis_surface_options options = options_with(2, RIIS_TRIANGULATION_ADAPTED, 0.005);
   new_surface(new_valve("aortic"), &options);
   assert_in_range(n_threads_now(), n_threads_at_first + 1, n_threads_at_first + 3);
@@ -246,8 +238,5 @@ static void two_threads_are_more(void **state) {
 int main(void) {
   n_threads_at_first = n_threads_now();
   n_threads_asked = 1;
-  const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_of_valves),     cmocka_unit_test(other_distances),
-                                     cmocka_unit_test(surfaces_from_arrays),   cmocka_unit_test(markings),
-                                     cmocka_unit_test(little_work_by_default), cmocka_unit_test(two_threads_are_more)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -123,8 +123,7 @@ static int64_t try_all(const scenario *s, int whose) {
 
 /* --- The tests ------------------------------------------------------------------------------------------------------- */
 
-static void the_librarys_memory_runs_out(void **state) {
-  (void)state;
+TEST(the_librarys_memory_runs_out) {
   for (int i = 0; i < n_scenarios; ++i) {
     const int64_t n = try_all(scenarios + i, MEMORY_OF_LIBRARY);
     printf("%s: allocations to the %lld. failed\n", scenarios[i].name, (long long)n);
@@ -132,8 +131,7 @@ static void the_librarys_memory_runs_out(void **state) {
   }
 }
 
-static void embrees_memory_runs_out(void **state) {
-  (void)state;
+TEST(embrees_memory_runs_out) {
   for (int i = 0; i < n_scenarios; ++i) {
     if (!(scenarios[i].flags & MAKES_A_SCENE)) continue;
     const int64_t n = try_all(scenarios + i, MEMORY_OF_EMBREE);
@@ -145,8 +143,7 @@ static void embrees_memory_runs_out(void **state) {
 
 /* Chance decides which thread does which work, so the test repeats until another thread allocates. The mesh is large enough to
  * give work to all threads. */
-static void memory_of_other_threads_runs_out(void **state) {
-  (void)state;
+TEST(memory_of_other_threads_runs_out) {
   set_nodes(45);
   for (int i = 0; i < n_scenarios; ++i) {
     const scenario *s = scenarios + i;
@@ -163,8 +160,7 @@ static void memory_of_other_threads_runs_out(void **state) {
 }
 
 /* All allocations fail, even those for the C++ library's exceptions and for the message. */
-static void all_memory_runs_out(void **state) {
-  (void)state;
+TEST(all_memory_runs_out) {
   if (!memory_of_all_can_fail()) skip();
   for (int i = 0; i < n_scenarios; ++i) {
     const scenario *s = scenarios + i;
@@ -182,8 +178,7 @@ static void all_memory_runs_out(void **state) {
 }
 
 /* The requests are valid, but no machine has enough memory for them. */
-static void requests_beyond_any_memory_are_refused(void **state) {
-  (void)state;
+TEST(requests_beyond_any_memory_are_refused) {
   const int64_t n = INT64_C(1) << 56;
   const int32_t ids[4] = {0, 1, 2, 3};
   riis_adjacency *adjacency = NULL;
@@ -231,10 +226,5 @@ static int tear_down(void **state) {
 
 int main(void) {
   rng = random_start("test_out_of_memory");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_librarys_memory_runs_out),           cmocka_unit_test(embrees_memory_runs_out),
-      cmocka_unit_test(memory_of_other_threads_runs_out),       cmocka_unit_test(all_memory_runs_out),
-      cmocka_unit_test(requests_beyond_any_memory_are_refused),
-  };
-  return cmocka_run_group_tests(tests, set_up, tear_down);
+  return run_cases(set_up, tear_down);
 }

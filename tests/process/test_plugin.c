@@ -12,8 +12,10 @@
 
 typedef int64_t mark_function(int32_t n_threads);
 
+static const char *path; /* of the plug-in */
+
 /* Loads the plug-in, marks and unloads it. The pause afterwards lets waiting threads run their code. */
-static int64_t mark_by_plugin(const char *path, int32_t n_threads) {
+static int64_t mark_by_plugin(int32_t n_threads) {
   void *const plugin = dlopen(path, RTLD_NOW | RTLD_LOCAL);
   mark_function *mark = NULL;
   if (!plugin) fail_msg("%s", dlerror());
@@ -25,16 +27,15 @@ static int64_t mark_by_plugin(const char *path, int32_t n_threads) {
   return n_marked;
 }
 
-static void a_plugin_that_marked_can_be_closed(void **state) {
-  const char *const path = *state;
-  const int64_t n_marked = mark_by_plugin(path, 1);
+TEST(a_plugin_that_marked_can_be_closed) {
+  const int64_t n_marked = mark_by_plugin(1);
   assert_true(n_marked > 100);
-  for (int i = 0; i < 3; ++i) assert_int_equal(mark_by_plugin(path, 2), n_marked);
-  assert_int_equal(mark_by_plugin(path, 3), n_marked);
+  for (int i = 0; i < 3; ++i) assert_int_equal(mark_by_plugin(2), n_marked);
+  assert_int_equal(mark_by_plugin(3), n_marked);
 }
 
 int main(int argc, char **argv) {
   if (argc != 2) return 2;
-  const struct CMUnitTest tests[] = {cmocka_unit_test_prestate(a_plugin_that_marked_can_be_closed, argv[1])};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  path = argv[1];
+  return run_cases(NULL, NULL);
 }

@@ -111,8 +111,7 @@ static laws through_a_file(const laws *written) {
   return read;
 }
 
-static void a_restart_in_mid_cycle_has_the_same_resistance_to_the_end(void **unused) {
-  (void)unused;
+TEST(a_restart_in_mid_cycle_has_the_same_resistance_to_the_end) {
   double *xyz = own(malloc((size_t)3 * n_nodes * sizeof *xyz));
   for (int i = 0; i < n_nodes; ++i) {
     const int at[3] = {i % per_side, i / per_side % per_side, i / (per_side * per_side)};
@@ -141,9 +140,4 @@ static void a_restart_in_mid_cycle_has_the_same_resistance_to_the_end(void **unu
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_restart_in_mid_cycle_has_the_same_resistance_to_the_end),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

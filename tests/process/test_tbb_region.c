@@ -69,38 +69,20 @@ static void expect_same_as_outside(int region) {
   if (region == TBB_ARENA_OF_ONE || region == TBB_LIMIT_OF_ONE) assert_int_equal(most_at_once, 1);
 }
 
-static void in_the_callers_loop(void **state) {
-  (void)state;
-  expect_same_as_outside(TBB_OWN_ARENA);
-}
+TEST(in_the_callers_loop) { expect_same_as_outside(TBB_OWN_ARENA); }
 
-static void in_the_callers_arena_of_four(void **state) {
-  (void)state;
-  expect_same_as_outside(TBB_ARENA_OF_FOUR);
-}
+TEST(in_the_callers_arena_of_four) { expect_same_as_outside(TBB_ARENA_OF_FOUR); }
 
-static void in_the_callers_arena_of_one(void **state) {
-  (void)state;
-  expect_same_as_outside(TBB_ARENA_OF_ONE);
-}
+TEST(in_the_callers_arena_of_one) { expect_same_as_outside(TBB_ARENA_OF_ONE); }
 
-static void under_the_callers_limit_of_one(void **state) {
-  (void)state;
-  expect_same_as_outside(TBB_LIMIT_OF_ONE);
-}
+TEST(under_the_callers_limit_of_one) { expect_same_as_outside(TBB_LIMIT_OF_ONE); }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(in_the_callers_loop),
-      cmocka_unit_test(in_the_callers_arena_of_four),
-      cmocka_unit_test(in_the_callers_arena_of_one),
-      cmocka_unit_test(under_the_callers_limit_of_one),
-  };
   /* Nothing may be printed. TBB reports on stderr if more threads are requested than it can give. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;
-  int n_failed = cmocka_run_group_tests(tests, NULL, NULL); /* cmocka also writes to stderr */
+  int n_failed = run_cases(NULL, NULL); /* cmocka also writes to stderr */
   char line[256];
   dup2(terminal, STDERR_FILENO);
   for (rewind(captured); fgets(line, sizeof line, captured);) {

@@ -126,7 +126,7 @@ DEFINE_OWN(warp)
       void *: own_memory)(object)
 
 /* In a file that includes this header, every test has the teardown. */
-#undef cmocka_unit_test
-#define cmocka_unit_test(function) cmocka_unit_test_teardown(function, free_owned)
+#undef TEST
+#define TEST(name) TEST_WITH(name, NULL, free_owned)
 
 #endif

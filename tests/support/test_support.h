@@ -1,20 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Provides the common parts of all tests: CMocka's headers in the right order, checks on doubles (CMocka 1.1.5 compares
+ * Provides the common parts of all tests: the definition of cases, checks on doubles (CMocka 1.1.5 compares
  * floats), and random numbers with a printed seed. */
 #ifndef RIIS_TEST_SUPPORT_H
 #define RIIS_TEST_SUPPORT_H
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include <cmocka.h>
+#include "test_cases.h"
 
 /* Checks that |a - b| <= tolerance and that neither is NaN. */
 #define CHECK_NEAR(a, b, tolerance)                                                                                   \

@@ -56,8 +56,7 @@ static double distance_to_parabola(double x, double z) {
 
 static double curvature_of_parabola(double x) { return 1 / (2 * focal) / pow(1 + x * x / (4 * focal * focal), 1.5); }
 
-static void points_normals_and_curvatures_of_a_parabola(void **state) {
-  (void)state;
+TEST(points_normals_and_curvatures_of_a_parabola) {
   const riis_patches patches = parabola();
   random_source rng = random_start("test_accuracy");
   for (int trial = 0; trial < 100; ++trial) {
@@ -74,8 +73,7 @@ static void points_normals_and_curvatures_of_a_parabola(void **state) {
   }
 }
 
-static void distances_to_a_parabola_are_true(void **state) {
-  (void)state;
+TEST(distances_to_a_parabola_are_true) {
   const riis_patches patches = parabola();
   random_source rng = random_start("test_accuracy");
   const uint64_t seed = random_bits(&rng);
@@ -103,8 +101,7 @@ static void distances_to_a_parabola_are_true(void **state) {
 
 /* Two unit squares lie at z = 0 and z = 0.15. A point one half thickness from one square, towards the other, is nearer to the
  * other. */
-static void points_nearer_to_another_sheet_are_left_out(void **state) {
-  (void)state;
+TEST(points_nearer_to_another_sheet_are_left_out) {
   static const double gap = 0.15;
   int32_t degree[8], curve_id[8];
   double control[48], *at = control;
@@ -143,8 +140,7 @@ static void points_nearer_to_another_sheet_are_left_out(void **state) {
 }
 
 /* The smooth leaflets agree with their triangles. Otherwise truth_of fails. */
-static void leaflets_agree_with_their_triangles(void **state) {
-  (void)state;
+TEST(leaflets_agree_with_their_triangles) {
   static const char *const kinds[2] = {"aortic", "mitral"};
   for (int i = 0; i < 2; ++i) {
     known_truth truth;
@@ -157,12 +153,4 @@ static void leaflets_agree_with_their_triangles(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(points_normals_and_curvatures_of_a_parabola),
-      cmocka_unit_test(distances_to_a_parabola_are_true),
-      cmocka_unit_test(points_nearer_to_another_sheet_are_left_out),
-      cmocka_unit_test(leaflets_agree_with_their_triangles),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

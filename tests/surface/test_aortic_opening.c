@@ -23,8 +23,7 @@ static riis_valve *copy_of(const riis_valve *valve) {
   return own(copy);
 }
 
-static void opens_at_once(void **state) {
-  (void)state;
+TEST(opens_at_once) {
   const double orifice = check_opening(new_valve("aortic"), 1.29, turn, half_angle, 0.1, "aortic");
   assert_true(orifice > 3 && orifice < 4);
 }
@@ -71,8 +70,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
 }
 
 /* At any opening the surface equals the surface of a valve that was given the same open state. */
-static void state_is_the_one_of_the_formulas(void **state) {
-  (void)state;
+TEST(state_is_the_one_of_the_formulas) {
   random_source random = random_start("test_aortic_opening");
   for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();
@@ -99,8 +97,7 @@ static void state_is_the_one_of_the_formulas(void **state) {
 }
 
 /* The free edge at opening 1 is a parabola in its cusp's frame. */
-static void open_free_edges_are_parabolas(void **state) {
-  (void)state;
+TEST(open_free_edges_are_parabolas) {
   static const double radius_out[3] = {1.365, 1.495, 1.38};
   const riis_triangles all = triangles_of(new_surface(valve_at("aortic", 1), NULL));
   int n = 0;
@@ -137,8 +134,7 @@ static int have_same_shape(const riis_valve *a, const riis_valve *b) {
   return 1;
 }
 
-static void opening_0_is_the_papers_state(void **state) {
-  (void)state;
+TEST(opening_0_is_the_papers_state) {
   riis_valve *valve = new_valve("aortic"), *other = new_valve("aortic"), *given = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.9));
   CHECK_OK(riis_valve_set_scalar(other, "commissure_expansion", 0.3));
@@ -151,8 +147,7 @@ static void opening_0_is_the_papers_state(void **state) {
 }
 
 /* Root radius and heights shape both states. */
-static void parameters_change_both_states(void **state) {
-  (void)state;
+TEST(parameters_change_both_states) {
   static const char *const names[3] = {"root_radius", "leaflet_height", "bending_height"};
   for (int i = 0; i < 3; ++i)
     for (int opening = 0; opening <= 1; ++opening) {
@@ -163,8 +158,7 @@ static void parameters_change_both_states(void **state) {
     }
 }
 
-static void a_given_open_state_wins(void **state) {
-  (void)state;
+TEST(a_given_open_state_wins) {
   riis_valve *valve = valve_at("aortic", 1), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_radius_in", 1.1));
   CHECK_OK(riis_valve_set_open_state(valve, open));
@@ -174,8 +168,7 @@ static void a_given_open_state_wins(void **state) {
   assert_true(is_same_content(surface, new_surface(valve, NULL)));
 }
 
-static void copies_and_moving_updates(void **state) {
-  (void)state;
+TEST(copies_and_moving_updates) {
   riis_valve *valve = valve_at("aortic", 0.75), *before = copy_of(valve);
   CHECK_OK(riis_valve_set_scalar(before, "opening", 0.5));
   riis_surface *surface = new_surface(valve, NULL), *moving = new_surface(valve, NULL);
@@ -197,8 +190,7 @@ static void copies_and_moving_updates(void **state) {
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
  * that end between two vertices of a side, because such a line ends on a chord. */
-static void fixed_triangulations(void **state) {
-  (void)state;
+TEST(fixed_triangulations) {
   const riis_surface_options options = fixed_options();
   riis_valve *valve = valve_at("aortic", 0.75), *before = valve_at("aortic", 0.5), *other = valve_at("aortic", 0.75);
   riis_surface *surface = new_surface(valve, &options), *then = new_surface(before, &options);
@@ -217,8 +209,7 @@ static void fixed_triangulations(void **state) {
 }
 
 /* Absurd values of the open state are refused, but still make a surface at opening 0. */
-static void absurd_open_states_are_refused(void **state) {
-  (void)state;
+TEST(absurd_open_states_are_refused) {
   riis_valve *valve = new_valve("aortic");
   riis_surface *surface = NULL;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'open_radius_ratio' is 2|from 0.05 to 1.5",
@@ -241,17 +232,4 @@ static void absurd_open_states_are_refused(void **state) {
   new_surface(valve, NULL);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(opens_at_once, free_owned),
-      cmocka_unit_test_teardown(state_is_the_one_of_the_formulas, free_owned),
-      cmocka_unit_test_teardown(open_free_edges_are_parabolas, free_owned),
-      cmocka_unit_test_teardown(opening_0_is_the_papers_state, free_owned),
-      cmocka_unit_test_teardown(parameters_change_both_states, free_owned),
-      cmocka_unit_test_teardown(a_given_open_state_wins, free_owned),
-      cmocka_unit_test_teardown(copies_and_moving_updates, free_owned),
-      cmocka_unit_test_teardown(fixed_triangulations, free_owned),
-      cmocka_unit_test_teardown(absurd_open_states_are_refused, free_owned),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -21,8 +21,7 @@ static void check_point(const double *p, double x, double y, double z) {
   CHECK_NEAR(p[2], z, 1e-14);
 }
 
-static void right_cusp_meets_the_table(void **state) {
-  (void)state;
+TEST(right_cusp_meets_the_table) {
   const double a_l = 61 * degree_in_radians, a_b = 47.3 * degree_in_radians;
   const double L[3] = {1.365 * cos(a_l), 1.365 * sin(a_l), 1.02}, B[3] = {1.39 * cos(a_b), 1.39 * sin(a_b), 0.71};
   check_point(control(0, root), 1.29, 0, 0);
@@ -45,8 +44,7 @@ static void right_cusp_meets_the_table(void **state) {
 
 /* The two pieces of the symmetry curve are one cubic, which passes through b at s. Its first inner control point is given by
  * xq and zq. */
-static void symmetry_curve_is_one_cubic(void **state) {
-  (void)state;
+TEST(symmetry_curve_is_one_cubic) {
   const double s = 0.71 / 1.02;
   const double *below = control(0, symmetry_below), *above = control(0, symmetry_above);
   /* After a split at s, (1-s) D0 + s D1 is the first part's second control point. */
@@ -58,8 +56,7 @@ static void symmetry_curve_is_one_cubic(void **state) {
   for (int i = 0; i < 4; ++i) assert_true(below[3 * i + 1] == 0 && above[3 * i + 1] == 0);
 }
 
-static void cusps_are_mirror_images_and_turned(void **state) {
-  (void)state;
+TEST(cusps_are_mirror_images_and_turned) {
   const double angle[3] = {0, 119.5, -121.5}, radius[3] = {0.24, 0.49, 0.2};
   for (int64_t image = 0; image < set.n_images; ++image) {
     const int cusp = set.leaflet_id[image];
@@ -82,8 +79,7 @@ static void cusps_are_mirror_images_and_turned(void **state) {
   }
 }
 
-static void corners_meet_to_the_last_bit(void **state) {
-  (void)state;
+TEST(corners_meet_to_the_last_bit) {
   for (int64_t i = 0; i < set.n_patches; ++i) {
     const int64_t *side = set.sides + 4 * i;
     const double *ends[4][2];
@@ -99,8 +95,7 @@ static void corners_meet_to_the_last_bit(void **state) {
   }
 }
 
-static void twelve_patches_of_three_leaflets(void **state) {
-  (void)state;
+TEST(twelve_patches_of_three_leaflets) {
   int seen[12] = {0};
   assert_int_equal(set.n_curves, 3 * n_of_cusp);
   assert_int_equal(set.n_patches, 6);
@@ -115,8 +110,7 @@ static void twelve_patches_of_three_leaflets(void **state) {
   for (int i = 0; i < 12; ++i) assert_int_equal(seen[i], 1);
 }
 
-static void power_one_is_a_straight_profile(void **state) {
-  (void)state;
+TEST(power_one_is_a_straight_profile) {
   patch_set straight;
   CHECK_OK(aortic_patches("right.leaflet_power", 1, &straight));
   const double *q = straight.control + 12 * leaflet;
@@ -128,8 +122,7 @@ static void power_one_is_a_straight_profile(void **state) {
   CHECK_NEAR(out[2], 0, 1e-15);
 }
 
-static void parameters_that_do_not_go_together_are_refused(void **state) {
-  (void)state;
+TEST(parameters_that_do_not_go_together_are_refused) {
   patch_set none;
 #define IS_REFUSED(name, value, text) CHECK_REFUSED(RIIS_INVALID_PARAMETER, text, aortic_patches(name, value, &none))
   IS_REFUSED("bending_height", 1.02, "bending_height is 1.02|leaflet_height, which is 1.02");
@@ -147,17 +140,8 @@ static void parameters_that_do_not_go_together_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(right_cusp_meets_the_table),
-      cmocka_unit_test(symmetry_curve_is_one_cubic),
-      cmocka_unit_test(cusps_are_mirror_images_and_turned),
-      cmocka_unit_test(corners_meet_to_the_last_bit),
-      cmocka_unit_test(twelve_patches_of_three_leaflets),
-      cmocka_unit_test(power_one_is_a_straight_profile),
-      cmocka_unit_test(parameters_that_do_not_go_together_are_refused),
-  };
   if (aortic_patches(NULL, 0, &set) != RIIS_OK) return 1;
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  const int failed = run_cases(NULL, NULL);
   patch_set_free(&set);
   return failed;
 }

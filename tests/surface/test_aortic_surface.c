@@ -6,8 +6,7 @@
 
 #include "handles.h"
 
-static void numbers_of_the_model(void **state) {
-  (void)state;
+TEST(numbers_of_the_model) {
   /* The area and bounds that the model must have. Triangles lie on chords, so area and bounds approach these from below as the
    * tolerance falls. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
@@ -29,8 +28,7 @@ static void numbers_of_the_model(void **state) {
   }
 }
 
-static void default_half_thickness_follows_the_scale(void **state) {
-  (void)state;
+TEST(default_half_thickness_follows_the_scale) {
   riis_surface_options options = surface_options();
   riis_surface *surface = aortic_surface(NULL);
   CHECK_NEAR(info_of(surface).half_thickness, 0.1, 1e-17);
@@ -45,8 +43,7 @@ static void default_half_thickness_follows_the_scale(void **state) {
 }
 
 /* Checks all data of every triangle. */
-static void triangles_carry_patch_leaflet_u_and_v(void **state) {
-  (void)state;
+TEST(triangles_carry_patch_leaflet_u_and_v) {
   riis_surface *surface = aortic_surface(NULL);
   int64_t per_patch[12] = {0};
   const int64_t n_vertices = triangles_of(surface).n_vertices;
@@ -97,8 +94,7 @@ static void triangles_carry_patch_leaflet_u_and_v(void **state) {
 
 /* Downstream is from the ventricle to the sinus. A point in each sinus, between cusp and wall, is on side +1. A point below the
  * closed middle is on side -1. Flipped normals swap the sides. */
-static void normals_point_downstream(void **state) {
-  (void)state;
+TEST(normals_point_downstream) {
   const double angle[3] = {0, 119.5, -121.5};
   for (int flip = 0; flip < 2; ++flip) {
     const int owned_before = n_owned();
@@ -139,8 +135,7 @@ static void normals_point_downstream(void **state) {
 }
 
 /* The triangles are scaled, then rotated, then moved. */
-static void placement_is_applied_last(void **state) {
-  (void)state;
+TEST(placement_is_applied_last) {
   riis_surface_options options = surface_options();
   options.scale = 0.01;
   options.rotation_axis[0] = 3; /* the x axis, of any length */
@@ -162,8 +157,7 @@ static void placement_is_applied_last(void **state) {
   }
 }
 
-static void three_cusps_are_three_pieces(void **state) {
-  (void)state;
+TEST(three_cusps_are_three_pieces) {
   riis_surface *surface = aortic_surface(NULL);
   const int64_t n_vertices = triangles_of(surface).n_vertices;
   const double *xyz = triangles_of(surface).xyz;
@@ -191,8 +185,7 @@ static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 *
 /* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge in
  * that plane (u = 0 at both ends) belongs to exactly two triangles. Where the cusp is folded, the sides of points depend on this
  * property. */
-static void halves_meet_to_the_last_bit(void **state) {
-  (void)state;
+TEST(halves_meet_to_the_last_bit) {
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};
   riis_valve *valve = new_valve("aortic");
   for (int trial = 0; trial < 3; ++trial) {
@@ -237,8 +230,7 @@ static void halves_meet_to_the_last_bit(void **state) {
   }
 }
 
-static void parameters_change_the_surface_and_update_keeps_the_handle(void **state) {
-  (void)state;
+TEST(parameters_change_the_surface_and_update_keeps_the_handle) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
   const double translation[3] = {0, 0, 4};
@@ -271,8 +263,7 @@ static void parameters_change_the_surface_and_update_keeps_the_handle(void **sta
 }
 
 /* Every parameter but root_height changes the triangles. All parameters of the paper's table exist, with their defaults. */
-static void every_parameter_by_name(void **state) {
-  (void)state;
+TEST(every_parameter_by_name) {
   static const struct {
     const char *name;
     double value;
@@ -358,17 +349,4 @@ static void every_parameter_by_name(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(numbers_of_the_model),
-      cmocka_unit_test(default_half_thickness_follows_the_scale),
-      cmocka_unit_test(triangles_carry_patch_leaflet_u_and_v),
-      cmocka_unit_test(normals_point_downstream),
-      cmocka_unit_test(placement_is_applied_last),
-      cmocka_unit_test(three_cusps_are_three_pieces),
-      cmocka_unit_test(halves_meet_to_the_last_bit),
-      cmocka_unit_test(parameters_change_the_surface_and_update_keeps_the_handle),
-      cmocka_unit_test(every_parameter_by_name),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

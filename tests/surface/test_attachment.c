@@ -66,8 +66,7 @@ static int is_held(const char *kind, int32_t patch_id, const double *uv) {
   return strcmp(kind, "mitral") == 0 ? uv[1] == 0 : uv[0] == 1 || (patch_id % 2 == 0 && uv[1] == 0);
 }
 
-static void edges_are_those_of_one_triangle_on_the_side(void **state) {
-  (void)state;
+TEST(edges_are_those_of_one_triangle_on_the_side) {
   static const char *const kinds[4] = {"aortic", "trileaflet", "mitral", "coapting"};
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
@@ -113,8 +112,7 @@ static void edges_are_those_of_one_triangle_on_the_side(void **state) {
 
 /* Each of three equal cusps has two mirrored halves. Their lines go from a root to a commissure, where the next cusp begins. The
  * mitral annulus is one loop of both leaflets. In each case every end of an edge is also an end of another edge. */
-static void attachments_are_closed_lines(void **state) {
-  (void)state;
+TEST(attachments_are_closed_lines) {
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
     const int is_mitral = trial % 3 == 2;
@@ -150,8 +148,7 @@ static void attachments_are_closed_lines(void **state) {
 
 /* The attachment of a square patch is its side v = 0. A bent side has several edges. A side that two patches share does not
  * belong to the attachment. A bileaflet valve has no attachment. */
-static void patches_are_held_at_v_0(void **state) {
-  (void)state;
+TEST(patches_are_held_at_v_0) {
   for (int trial = 0; trial < 8; ++trial) {
     const riis_surface_options options = placed(trial % 2, 2);
     shape squares = unit_square();
@@ -186,8 +183,7 @@ static void patches_are_held_at_v_0(void **state) {
   }
 }
 
-static void refusals_name_the_argument(void **state) {
-  (void)state;
+TEST(refusals_name_the_argument) {
   static const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   static const int32_t ids[3] = {0, 1, 2};
   const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
@@ -219,12 +215,6 @@ static void refusals_name_the_argument(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(edges_are_those_of_one_triangle_on_the_side),
-      cmocka_unit_test(attachments_are_closed_lines),
-      cmocka_unit_test(patches_are_held_at_v_0),
-      cmocka_unit_test(refusals_name_the_argument),
-  };
   rng = random_start("test_attachment");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -16,8 +16,7 @@ static void random_point(const bileaflet *of, double *p) {
   p[2] += of->hinge_height;
 }
 
-static void defaults_are_as_documented(void **state) {
-  (void)state;
+TEST(defaults_are_as_documented) {
   riis_valve *valve = new_valve("bileaflet");
   const bileaflet expected = bileaflet_defaults();
   int64_t n;
@@ -36,8 +35,7 @@ static void defaults_are_as_documented(void **state) {
 }
 
 /* If the closed angle and the gap are 0, the leaflets are the halves of a disc, and the closed valve is that disc. */
-static void half_discs_have_their_distances(void **state) {
-  (void)state;
+TEST(half_discs_have_their_distances) {
   const double tolerance[3] = {0.05, 1e-3, 1e-5};
   double largest[3] = {0, 0, 0};
   for (int trial = 0; trial < 12; ++trial) {
@@ -68,8 +66,7 @@ static void half_discs_have_their_distances(void **state) {
 }
 
 /* Leaflets that are half ellipses, with slits between them, at any opening. */
-static void leaflets_have_their_distances(void **state) {
-  (void)state;
+TEST(leaflets_have_their_distances) {
   for (int trial = 0; trial < 30; ++trial) {
     const int owned_before = n_owned();
     const bileaflet of = random_bileaflet(&rng, trial % 2 ? 80 : 40);
@@ -88,8 +85,7 @@ static void leaflets_have_their_distances(void **state) {
   }
 }
 
-static void other_distances_are_right_too(void **state) {
-  (void)state;
+TEST(other_distances_are_right_too) {
   const bileaflet of = bileaflet_defaults();
   for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method) {
     riis_surface_options options = surface_options();
@@ -105,8 +101,7 @@ static void other_distances_are_right_too(void **state) {
   }
 }
 
-static void areas_are_those_of_ellipses(void **state) {
-  (void)state;
+TEST(areas_are_those_of_ellipses) {
   for (int trial = 0; trial < 40; ++trial) {
     const int owned_before = n_owned();
     const bileaflet of = random_bileaflet(&rng, 80);
@@ -122,8 +117,7 @@ static void areas_are_those_of_ellipses(void **state) {
 
 /* The rim of closed leaflets lies on the housing. Their middle edges are straight and half a gap from the plane x = 0. A
  * closed valve's x was not rotated, so it is exactly 0 if there is no gap. */
-static void closed_leaflets_fill_the_housing(void **state) {
-  (void)state;
+TEST(closed_leaflets_fill_the_housing) {
   for (int trial = 0; trial < 40; ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
@@ -141,9 +135,30 @@ static void closed_leaflets_fill_the_housing(void **state) {
   }
 }
 
+/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory.md, section 14. */
+TEST(open_leaflets_reach_beyond_the_housing) {
+  for (int trial = 0; trial < 20; ++trial) {
+    const int owned_before = n_owned();
+    bileaflet of = trial ? random_bileaflet(&rng, 60) : bileaflet_defaults();
+    of.gap = 0, of.opening = 1;
+    riis_surface_options options = surface_options();
+    options.tolerance = 1e-4;
+    const riis_surface *surface = bileaflet_surface(&of, &options);
+    const riis_triangles c = triangles_of(surface);
+    const double q = cos(degree * of.open_angle) / cos(degree * of.closed_angle), h = of.hinge_offset;
+    const double expected = sqrt(of.radius * of.radius + h * h * (1 - q) / (1 + q));
+    double farthest = 0;
+    for (int64_t i = 0; i < c.n_vertices; ++i) farthest = fmax(farthest, hypot(c.xyz[3 * i], c.xyz[3 * i + 1]));
+    /* Vertices are within the error bound of the outline, and the outline's farthest point may be between two vertices. */
+    CHECK_AT_MOST(farthest, expected + 1e-8 * of.radius);
+    CHECK_NEAR(farthest, expected, 20 * info_of(surface).error_bound);
+    if (!trial) CHECK_NEAR(farthest / of.radius, 1.016, 5e-4);
+    free_owned_after(owned_before);
+  }
+}
+
 /* The patches are four images of one half leaflet. Closed leaflets without a gap have the same bits where they meet. */
-static void images_are_images(void **state) {
-  (void)state;
+TEST(images_are_images) {
   static const double sign[4][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}};
   for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();
@@ -165,29 +180,6 @@ static void images_are_images(void **state) {
   }
 }
 
-/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory.md, section 14. */
-static void open_leaflets_reach_beyond_the_housing(void **state) {
-  (void)state;
-  for (int trial = 0; trial < 20; ++trial) {
-    const int owned_before = n_owned();
-    bileaflet of = trial ? random_bileaflet(&rng, 60) : bileaflet_defaults();
-    of.gap = 0, of.opening = 1;
-    riis_surface_options options = surface_options();
-    options.tolerance = 1e-4;
-    const riis_surface *surface = bileaflet_surface(&of, &options);
-    const riis_triangles c = triangles_of(surface);
-    const double q = cos(degree * of.open_angle) / cos(degree * of.closed_angle), h = of.hinge_offset;
-    const double expected = sqrt(of.radius * of.radius + h * h * (1 - q) / (1 + q));
-    double farthest = 0;
-    for (int64_t i = 0; i < c.n_vertices; ++i) farthest = fmax(farthest, hypot(c.xyz[3 * i], c.xyz[3 * i + 1]));
-    /* Vertices are within the error bound of the outline, and the outline's farthest point may be between two vertices. */
-    CHECK_AT_MOST(farthest, expected + 1e-8 * of.radius);
-    CHECK_NEAR(farthest, expected, 20 * info_of(surface).error_bound);
-    if (!trial) CHECK_NEAR(farthest / of.radius, 1.016, 5e-4);
-    free_owned_after(owned_before);
-  }
-}
-
 /* Twice the area vector of a triangle. */
 static void area_vector(const riis_triangles *c, int64_t triangle, double *normal) {
   const int64_t *id = c->vertex_id + 3 * triangle;
@@ -199,8 +191,7 @@ static void area_vector(const riis_triangles *c, int64_t triangle, double *norma
 
 /* Every triangle's normal is its plane's normal. It points downstream on the closed valve, and towards the axis on the open
  * one. */
-static void normals_point_downstream(void **state) {
-  (void)state;
+TEST(normals_point_downstream) {
   for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
@@ -227,8 +218,7 @@ static void normals_point_downstream(void **state) {
 }
 
 /* The ring is a closed cylinder that does not move, half of it on each side of the orifice plane. */
-static void a_ring_is_the_housing(void **state) {
-  (void)state;
+TEST(a_ring_is_the_housing) {
   for (int trial = 0; trial < 10; ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 60), without = of;
@@ -272,8 +262,7 @@ static void a_ring_is_the_housing(void **state) {
 
 /* Arcs are approximated by cubic curves and deviate from circles. The error bound includes this deviation. A tolerance as
  * small as the deviation is refused. */
-static void the_bound_counts_that_arcs_are_cubics(void **state) {
-  (void)state;
+TEST(the_bound_counts_that_arcs_are_cubics) {
   riis_valve *valve = new_valve("bileaflet");
   riis_surface *surface = NULL;
   riis_surface_options options = surface_options();
@@ -305,8 +294,7 @@ static void expect_refused(const char *name, double value, const char *parts) {
   free_one_owned(valve);
 }
 
-static void bad_values_are_refused(void **state) {
-  (void)state;
+TEST(bad_values_are_refused) {
   riis_valve *valve = new_valve("bileaflet");
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'radius' is 0", riis_valve_set_scalar(valve, "radius", 0));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'hinge_offset' is -0.1", riis_valve_set_scalar(valve, "hinge_offset", -0.1));
@@ -329,19 +317,5 @@ static void bad_values_are_refused(void **state) {
 
 int main(void) {
   rng = random_start("test_bileaflet");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults_are_as_documented),
-      cmocka_unit_test(half_discs_have_their_distances),
-      cmocka_unit_test(leaflets_have_their_distances),
-      cmocka_unit_test(other_distances_are_right_too),
-      cmocka_unit_test(areas_are_those_of_ellipses),
-      cmocka_unit_test(closed_leaflets_fill_the_housing),
-      cmocka_unit_test(open_leaflets_reach_beyond_the_housing),
-      cmocka_unit_test(images_are_images),
-      cmocka_unit_test(normals_point_downstream),
-      cmocka_unit_test(a_ring_is_the_housing),
-      cmocka_unit_test(the_bound_counts_that_arcs_are_cubics),
-      cmocka_unit_test(bad_values_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

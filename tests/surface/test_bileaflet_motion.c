@@ -49,8 +49,7 @@ static void spin_velocity(const bileaflet *of, int32_t leaflet_id, const double 
   half_turn(leaflet_id, velocity);
 }
 
-static void vertices_and_closest_points_turn_exactly(void **state) {
-  (void)state;
+TEST(vertices_and_closest_points_turn_exactly) {
   for (int trial = 0; trial < 30; ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 80);
@@ -121,8 +120,7 @@ static double from_spin(const bileaflet *of, riis_valve *valve, riis_surface *su
 
 /* The velocity is a backward difference, which is of first order. Its error is half the step times the acceleration, omega^2
  * |r|. */
-static void velocities_tend_to_omega_cross_r(void **state) {
-  (void)state;
+TEST(velocities_tend_to_omega_cross_r) {
   const bileaflet of = bileaflet_defaults();
   riis_valve *valve = bileaflet_valve(&of);
   riis_surface *surface = new_surface(valve, NULL);
@@ -175,8 +173,7 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
 
 /* If an edge of the grid crosses a leaflet, one end of the edge is within half the edge's length of the leaflet. So a half
  * thickness of 0.55 spacings seals: half a spacing plus the tolerance. */
-static void a_closed_valve_seals_its_housing(void **state) {
-  (void)state;
+TEST(a_closed_valve_seals_its_housing) {
   static const double angle[4] = {0, 25, 30, 45};
   for (int trial = 0; trial < 8; ++trial) {
     bileaflet of = bileaflet_defaults();
@@ -207,8 +204,7 @@ static int rim_at(const riis_surface *surface, const double *p) {
 }
 
 /* Where closed leaflets meet, their edge is not a rim, so a band that is cut at rims has no slit there. */
-static void leaflets_that_meet_have_no_rim_there(void **state) {
-  (void)state;
+TEST(leaflets_that_meet_have_no_rim_there) {
   bileaflet of = bileaflet_defaults();
   of.ring_height = 0.4;
   const double z = -0.22 * tan(degree * 30) - 0.05;
@@ -231,8 +227,7 @@ static void leaflets_that_meet_have_no_rim_there(void **state) {
   }
 }
 
-static void fixed_triangles_stay(void **state) {
-  (void)state;
+TEST(fixed_triangles_stay) {
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
     bileaflet of = random_bileaflet(&rng, 60);
@@ -266,8 +261,7 @@ static void fixed_triangles_stay(void **state) {
 
 /* A second state changes all numbers: the outline's numbers, and the angle, which goes from the first state's closed angle to
  * the second state's open angle. */
-static void numbers_blend_to_a_second_state(void **state) {
-  (void)state;
+TEST(numbers_blend_to_a_second_state) {
   for (int trial = 0; trial < 10; ++trial) {
     const int owned_before = n_owned();
     bileaflet from = random_bileaflet(&rng, 40), to = random_bileaflet(&rng, 40);
@@ -304,8 +298,7 @@ static void numbers_blend_to_a_second_state(void **state) {
   }
 }
 
-static void second_states_are_refused(void **state) {
-  (void)state;
+TEST(second_states_are_refused) {
   riis_valve *valve = new_valve("bileaflet"), *open = new_valve("bileaflet"), *aortic = new_valve("aortic");
   riis_surface *surface = new_surface(valve, NULL);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the kind aortic, the valve of the kind bileaflet",
@@ -334,8 +327,7 @@ static void second_states_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state: gap is 3", riis_surface_update(surface, valve, NULL));
 }
 
-static void a_copy_moves_by_itself(void **state) {
-  (void)state;
+TEST(a_copy_moves_by_itself) {
   bileaflet of = random_bileaflet(&rng, 60);
   riis_valve *valve = bileaflet_valve(&of), *copy = NULL;
   CHECK_OK(riis_valve_copy(valve, &copy));
@@ -349,15 +341,5 @@ static void a_copy_moves_by_itself(void **state) {
 
 int main(void) {
   rng = random_start("test_bileaflet_motion");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(vertices_and_closest_points_turn_exactly),
-      cmocka_unit_test(velocities_tend_to_omega_cross_r),
-      cmocka_unit_test(a_closed_valve_seals_its_housing),
-      cmocka_unit_test(leaflets_that_meet_have_no_rim_there),
-      cmocka_unit_test(fixed_triangles_stay),
-      cmocka_unit_test(numbers_blend_to_a_second_state),
-      cmocka_unit_test(second_states_are_refused),
-      cmocka_unit_test(a_copy_moves_by_itself),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -33,8 +33,7 @@ static void single_equals_the_oracle(riis_surface *surface, int n_points, double
   }
 }
 
-static void aortic_valve_equals_the_oracle(void **state) {
-  (void)state;
+TEST(aortic_valve_equals_the_oracle) {
   riis_surface_options options = surface_options();
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
@@ -49,8 +48,7 @@ static void aortic_valve_equals_the_oracle(void **state) {
   }
 }
 
-static void random_soups_equal_the_oracle(void **state) {
-  (void)state;
+TEST(random_soups_equal_the_oracle) {
   for (int trial = 0; trial < 40; ++trial) {
     const int owned_before = n_owned();
     const int64_t n = 1 + (int64_t)(random_bits(&rng) % 300);
@@ -68,8 +66,7 @@ static void random_soups_equal_the_oracle(void **state) {
 }
 
 /* The points are so far away that single precision does not separate the triangles. */
-static void far_points_equal_the_oracle(void **state) {
-  (void)state;
+TEST(far_points_equal_the_oracle) {
   riis_surface *surface = aortic_surface(NULL);
   int64_t triangle;
   const double *xyz = triangles_of(surface).xyz;
@@ -84,8 +81,7 @@ static void far_points_equal_the_oracle(void **state) {
 
 /* A grid of coplanar, repeated and mirrored triangles gives equal distances everywhere. The lowest id must win, whatever the
  * order. */
-static void ties_go_to_the_lowest_id(void **state) {
-  (void)state;
+TEST(ties_go_to_the_lowest_id) {
   enum { copies = 50 };
   double xyz[9 * copies];
   int32_t ids[3 * copies];
@@ -105,8 +101,7 @@ static void ties_go_to_the_lowest_id(void **state) {
 }
 
 /* Every output of a batch equals the single query's bit by bit, for any number of threads, layout and choice of arrays. */
-static void batches_equal_single_queries(void **state) {
-  (void)state;
+TEST(batches_equal_single_queries) {
   enum { n = 3000 };
   static double xyz[3 * n], x[n], y[n], z[n], distance[n], point[3 * n], barycentric[3 * n], normal[3 * n],
       only_distance[n];
@@ -269,21 +264,18 @@ static void check_many_points(int64_t n, bool are_in_order) {
 }
 
 /* The points fill several batches, which all threads share. */
-static void many_points_equal_single_queries(void **state) {
-  (void)state;
+TEST(many_points_equal_single_queries) {
   check_many_points(is_long_test() ? 3000000 : fewer_if_sanitized(140000), false);
 }
 
 /* Near points follow each other, so each thread takes batches of its own. */
-static void many_points_in_order_equal_single_queries(void **state) {
-  (void)state;
+TEST(many_points_in_order_equal_single_queries) {
   check_many_points(is_long_test() ? 3000000 : fewer_if_sanitized(140000), true);
 }
 
 /* Points in a plane, in a line, in one place, most of them in a small part of their box, or near the valve except one. They are
  * sorted into leaves without gaps and give the results of single queries. */
-static void crowded_points_equal_single_queries(void **state) {
-  (void)state;
+TEST(crowded_points_equal_single_queries) {
   enum { n = 3000 };
   static double xyz[3 * n];
   riis_surface *surface = surface_of_kind(random_bits(&rng) % 2 ? "trileaflet" : "bileaflet", NULL);
@@ -313,8 +305,7 @@ static void crowded_points_equal_single_queries(void **state) {
 
 /* The results of a single query are consistent: the point is on the triangle and at the distance, the normal is the
  * triangle's, and the side is the sign of the height. */
-static void closest_is_consistent(void **state) {
-  (void)state;
+TEST(closest_is_consistent) {
   riis_surface *surface = aortic_surface(NULL);
   const double *xyz = triangles_of(surface).xyz;
   const int64_t n = triangles_of(surface).n_triangles;
@@ -346,17 +337,6 @@ static void closest_is_consistent(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(aortic_valve_equals_the_oracle),
-      cmocka_unit_test(random_soups_equal_the_oracle),
-      cmocka_unit_test(far_points_equal_the_oracle),
-      cmocka_unit_test(ties_go_to_the_lowest_id),
-      cmocka_unit_test(batches_equal_single_queries),
-      cmocka_unit_test(many_points_equal_single_queries),
-      cmocka_unit_test(many_points_in_order_equal_single_queries),
-      cmocka_unit_test(crowded_points_equal_single_queries),
-      cmocka_unit_test(closest_is_consistent),
-  };
   rng = random_start("test_closest_points");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -328,8 +328,7 @@ static double largest_crease(const half *of) {
 /* --- The shape --------------------------------------------------------------------------------------------------------- */
 
 /* Every vertex is where the oracle has its label, within the bound of the surface's error. */
-static void vertices_are_where_the_formulas_say(void **state) {
-  (void)state;
+TEST(vertices_are_where_the_formulas_say) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
@@ -365,8 +364,7 @@ static void vertices_are_where_the_formulas_say(void **state) {
 }
 
 /* The measures that the parameters promise, and the coaptation zone beside the planes between the cusps. */
-static void closed_cusps_coapt(void **state) {
-  (void)state;
+TEST(closed_cusps_coapt) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 10; ++trial) {
     const int owned_before = n_owned();
@@ -439,10 +437,135 @@ static int64_t true_crossings(const riis_surface *surface, const riis_valve *val
   return remain;
 }
 
+/* Returns how far the control points of a side of a patch are from those of a cubic. */
+static double off_side(const riis_valve_patches *patches, int32_t patch_id, int side, const cubic *expected) {
+  int64_t patch = 0;
+  while (patches->patch_id[patch] != patch_id) assert_true(++patch < patches->n_patches);
+  const int64_t curve = patches->curve_id[4 * patch + side];
+  const int is_reversed = patches->reversed[4 * patch + side];
+  const double *control = patches->control;
+  assert_int_equal(patches->n_pieces, patches->n_curves);
+  for (int64_t i = 0; i < curve; ++i) control += 3 * (patches->degree[i] + 1);
+  assert_int_equal(patches->degree[curve], 3);
+  double farthest = 0;
+  for (int k = 0; k < 4; ++k) {
+    point got;
+    memcpy(got.x, control + 3 * (is_reversed ? 3 - k : k), sizeof got.x);
+    farthest = fmax(farthest, length_of(sum(1, got, -1, expected->q[k])));
+  }
+  return farthest;
+}
+
+/* A zone that begins just above the root has no crease either. The leaflet turns upwards there with a radius of 4 micrometres, as
+ * docs/theory.md says. A coarser difference than this radius once took the turn for a crease. */
+TEST(a_low_zone_turns_sharply_without_a_crease) {
+  static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
+                                      0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
+  for (int trial = 0; trial < 2; ++trial) {
+    riis_valve *valve = new_valve("coapting");
+    for (int i = 0; i < n_sizes && trial; ++i) CHECK_OK(riis_valve_set_scalar(valve, names[i], low[i]));
+    const sizes v = sizes_of(valve);
+    const half closed = half_of(v.of, v.of, 0);
+    riis_valve_patches patches;
+    CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
+    CHECK_AT_MOST(off_side(&patches, 0, 1, &closed.line), 1e-7); /* smooth_line takes derivatives by differences */
+    CHECK_AT_MOST(off_side(&patches, 0, 2, &closed.below), 1e-12);
+    CHECK_AT_MOST(off_side(&patches, 0, 3, &closed.attachment), 1e-12);
+    CHECK_AT_MOST(off_side(&patches, 1, 1, &closed.edge), 1e-12);
+    const double z = v.of[HE] - v.of[HCO], a = v.of[BOTTOM] * cusp_degree;
+    const double tangent = fmin(v.of[BELLY] * v.of[R], 0.5 * z / sin(a));
+    const double across = v.of[R] - tangent * cos(a) - v.of[GAP] / sqrt(3);
+    const double radius = bend_radius(&closed);
+    printf("the zone begins at %.3f cm: crease %.5f degrees, radius %.5f cm\n", z, largest_crease(&closed), radius);
+    CHECK_NEAR(radius, 0.375 * z * z / across, 1e-9 * radius);
+    CHECK_NEAR(radius, trial ? 0.00037 : 0.163, trial ? 2e-5 : 1e-3);
+    CHECK_AT_MOST(largest_crease(&closed), 0.01);
+  }
+}
+
+/* The leaflet of these sizes is nearly tangent to itself beside the root, at full opening. The triangles of the default tolerance
+ * cross by a fraction of a micrometre, but the valve does not. */
+TEST(a_nearly_tangent_leaflet_does_not_cross) {
+  static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
+                                       0.00534347, 30.093938,  0.3640963,  0.2068927,  0.4116654,
+                                       0.4374171,  0.7326276,  0.0287498};
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  riis_valve *valve = new_valve("coapting");
+  int64_t n_shallow = 0;
+  for (int i = 0; i < n_sizes; ++i) CHECK_OK(riis_valve_set_scalar(valve, names[i], near[i]));
+  for (int i = 0; i <= 10; ++i) {
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
+    assert_int_equal(true_crossings(new_surface(valve, NULL), valve, crossings, &n_shallow), 0);
+  }
+  printf("a nearly tangent leaflet: at %lld of 11 openings only triangles cross\n", (long long)n_shallow);
+}
+
+/* Each cusp is its own mirror image, and a turn by 120 degrees takes the valve to itself. Both hold in either triangulation, also
+ * for random sizes. Cusps meet in the commissures in the same bits. */
+TEST(cusps_are_equal) {
+  random_source random = random_start("test_coapting");
+  for (int trial = 0; trial < 6; ++trial) {
+    const int owned_before = n_owned();
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    riis_valve *valve = trial < 2 ? new_valve("coapting") : random_valve(&random);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", trial % 3 * 0.5));
+    riis_surface *surface = new_surface(valve, &options);
+    options.rotation_angle = 120;
+    riis_surface *turned = new_surface(valve, &options);
+    const riis_triangles all = triangles_of(surface);
+    const double *ends[6] = {0};
+    for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
+      const int64_t v = all.vertex_id[i];
+      const double *p = all.xyz + 3 * v;
+      if (i % 7 == 0) {
+        CHECK_AT_MOST(closest_to(turned, p[0], p[1], p[2]).distance, 1e-14);
+        CHECK_AT_MOST(closest_to(surface, p[0], -p[1], p[2]).distance, 1e-14);
+      }
+      if (all.uv[2 * v] == 1 && all.uv[2 * v + 1] == 1)
+        for (int k = 0; k < 6; ++k) {
+          if (!ends[k]) ends[k] = p;
+          if (hypot(hypot(p[0] - ends[k][0], p[1] - ends[k][1]), p[2] - ends[k][2]) > 0.01) continue;
+          for (int c = 0; c < 3; ++c) CHECK_SAME(p[c] + 0.0, ends[k][c] + 0.0);
+          break;
+        }
+    }
+    for (int k = 0; k < 6; ++k) assert_true(!ends[k] == (k >= 3));
+    free_owned_after(owned_before);
+  }
+}
+
+/* A placed valve is the valve in another place: points at equal places have equal distances. */
+TEST(placements_move_the_valve) {
+  random_source random = random_start("test_coapting");
+  for (int trial = 0; trial < 4; ++trial) {
+    riis_surface_options options = surface_options();
+    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+    riis_valve *valve = random_valve(&random);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(&random, 0, 1)));
+    riis_surface *surface = new_surface(valve, &options);
+    options.rotation_axis[0] = 0, options.rotation_axis[1] = 0, options.rotation_axis[2] = 1;
+    options.rotation_angle = random_between(&random, -180, 180);
+    for (int c = 0; c < 3; ++c) options.translation[c] = random_between(&random, -3, 3);
+    riis_surface *placed = new_surface(valve, &options);
+    const double a = options.rotation_angle * cusp_degree;
+    for (int i = 0; i < 50; ++i) {
+      const double x = random_between(&random, -2, 2), y = random_between(&random, -2, 2),
+                   z = random_between(&random, -1, 3);
+      const riis_closest here = closest_to(surface, x, y, z);
+      const riis_closest there =
+          closest_to(placed, x * cos(a) - y * sin(a) + options.translation[0],
+                     x * sin(a) + y * cos(a) + options.translation[1], z + options.translation[2]);
+      CHECK_NEAR(here.distance, there.distance, 1e-12);
+    }
+  }
+}
+
 /* Random valves at 11 openings do not cross, their free edges keep their length, and the coaptation line is no crease. Cusps
  * stay in their sectors, which is a proof that two cusps do not cross. RIIS_TEST_LONG=1 takes 300 valves. */
-static void random_valves_open_well(void **state) {
-  (void)state;
+TEST(random_valves_open_well) {
   random_source random = random_start("test_coapting");
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
@@ -498,141 +621,10 @@ static void random_valves_open_well(void **state) {
   assert_int_equal(n_wrong, 0);
 }
 
-/* Returns how far the control points of a side of a patch are from those of a cubic. */
-static double off_side(const riis_valve_patches *patches, int32_t patch_id, int side, const cubic *expected) {
-  int64_t patch = 0;
-  while (patches->patch_id[patch] != patch_id) assert_true(++patch < patches->n_patches);
-  const int64_t curve = patches->curve_id[4 * patch + side];
-  const int is_reversed = patches->reversed[4 * patch + side];
-  const double *control = patches->control;
-  assert_int_equal(patches->n_pieces, patches->n_curves);
-  for (int64_t i = 0; i < curve; ++i) control += 3 * (patches->degree[i] + 1);
-  assert_int_equal(patches->degree[curve], 3);
-  double farthest = 0;
-  for (int k = 0; k < 4; ++k) {
-    point got;
-    memcpy(got.x, control + 3 * (is_reversed ? 3 - k : k), sizeof got.x);
-    farthest = fmax(farthest, length_of(sum(1, got, -1, expected->q[k])));
-  }
-  return farthest;
-}
-
-/* A zone that begins just above the root has no crease either. The leaflet turns upwards there with a radius of 4 micrometres, as
- * docs/theory.md says. A coarser difference than this radius once took the turn for a crease. */
-static void a_low_zone_turns_sharply_without_a_crease(void **state) {
-  (void)state;
-  static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
-                                      0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
-  for (int trial = 0; trial < 2; ++trial) {
-    riis_valve *valve = new_valve("coapting");
-    for (int i = 0; i < n_sizes && trial; ++i) CHECK_OK(riis_valve_set_scalar(valve, names[i], low[i]));
-    const sizes v = sizes_of(valve);
-    const half closed = half_of(v.of, v.of, 0);
-    riis_valve_patches patches;
-    CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
-    CHECK_AT_MOST(off_side(&patches, 0, 1, &closed.line), 1e-7); /* smooth_line takes derivatives by differences */
-    CHECK_AT_MOST(off_side(&patches, 0, 2, &closed.below), 1e-12);
-    CHECK_AT_MOST(off_side(&patches, 0, 3, &closed.attachment), 1e-12);
-    CHECK_AT_MOST(off_side(&patches, 1, 1, &closed.edge), 1e-12);
-    const double z = v.of[HE] - v.of[HCO], a = v.of[BOTTOM] * cusp_degree;
-    const double tangent = fmin(v.of[BELLY] * v.of[R], 0.5 * z / sin(a));
-    const double across = v.of[R] - tangent * cos(a) - v.of[GAP] / sqrt(3);
-    const double radius = bend_radius(&closed);
-    printf("the zone begins at %.3f cm: crease %.5f degrees, radius %.5f cm\n", z, largest_crease(&closed), radius);
-    CHECK_NEAR(radius, 0.375 * z * z / across, 1e-9 * radius);
-    CHECK_NEAR(radius, trial ? 0.00037 : 0.163, trial ? 2e-5 : 1e-3);
-    CHECK_AT_MOST(largest_crease(&closed), 0.01);
-  }
-}
-
-/* The leaflet of these sizes is nearly tangent to itself beside the root, at full opening. The triangles of the default tolerance
- * cross by a fraction of a micrometre, but the valve does not. */
-static void a_nearly_tangent_leaflet_does_not_cross(void **state) {
-  (void)state;
-  static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
-                                       0.00534347, 30.093938,  0.3640963,  0.2068927,  0.4116654,
-                                       0.4374171,  0.7326276,  0.0287498};
-  riis_crossings *crossings = NULL;
-  CHECK_OK(riis_crossings_create(&crossings));
-  own(crossings);
-  riis_valve *valve = new_valve("coapting");
-  int64_t n_shallow = 0;
-  for (int i = 0; i < n_sizes; ++i) CHECK_OK(riis_valve_set_scalar(valve, names[i], near[i]));
-  for (int i = 0; i <= 10; ++i) {
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
-    assert_int_equal(true_crossings(new_surface(valve, NULL), valve, crossings, &n_shallow), 0);
-  }
-  printf("a nearly tangent leaflet: at %lld of 11 openings only triangles cross\n", (long long)n_shallow);
-}
-
-/* Each cusp is its own mirror image, and a turn by 120 degrees takes the valve to itself. Both hold in either triangulation, also
- * for random sizes. Cusps meet in the commissures in the same bits. */
-static void cusps_are_equal(void **state) {
-  (void)state;
-  random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < 6; ++trial) {
-    const int owned_before = n_owned();
-    riis_surface_options options = surface_options();
-    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-    riis_valve *valve = trial < 2 ? new_valve("coapting") : random_valve(&random);
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", trial % 3 * 0.5));
-    riis_surface *surface = new_surface(valve, &options);
-    options.rotation_angle = 120;
-    riis_surface *turned = new_surface(valve, &options);
-    const riis_triangles all = triangles_of(surface);
-    const double *ends[6] = {0};
-    for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
-      const int64_t v = all.vertex_id[i];
-      const double *p = all.xyz + 3 * v;
-      if (i % 7 == 0) {
-        CHECK_AT_MOST(closest_to(turned, p[0], p[1], p[2]).distance, 1e-14);
-        CHECK_AT_MOST(closest_to(surface, p[0], -p[1], p[2]).distance, 1e-14);
-      }
-      if (all.uv[2 * v] == 1 && all.uv[2 * v + 1] == 1)
-        for (int k = 0; k < 6; ++k) {
-          if (!ends[k]) ends[k] = p;
-          if (hypot(hypot(p[0] - ends[k][0], p[1] - ends[k][1]), p[2] - ends[k][2]) > 0.01) continue;
-          for (int c = 0; c < 3; ++c) CHECK_SAME(p[c] + 0.0, ends[k][c] + 0.0);
-          break;
-        }
-    }
-    for (int k = 0; k < 6; ++k) assert_true(!ends[k] == (k >= 3));
-    free_owned_after(owned_before);
-  }
-}
-
-/* A placed valve is the valve in another place: points at equal places have equal distances. */
-static void placements_move_the_valve(void **state) {
-  (void)state;
-  random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < 4; ++trial) {
-    riis_surface_options options = surface_options();
-    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-    riis_valve *valve = random_valve(&random);
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", random_between(&random, 0, 1)));
-    riis_surface *surface = new_surface(valve, &options);
-    options.rotation_axis[0] = 0, options.rotation_axis[1] = 0, options.rotation_axis[2] = 1;
-    options.rotation_angle = random_between(&random, -180, 180);
-    for (int c = 0; c < 3; ++c) options.translation[c] = random_between(&random, -3, 3);
-    riis_surface *placed = new_surface(valve, &options);
-    const double a = options.rotation_angle * cusp_degree;
-    for (int i = 0; i < 50; ++i) {
-      const double x = random_between(&random, -2, 2), y = random_between(&random, -2, 2),
-                   z = random_between(&random, -1, 3);
-      const riis_closest here = closest_to(surface, x, y, z);
-      const riis_closest there =
-          closest_to(placed, x * cos(a) - y * sin(a) + options.translation[0],
-                     x * sin(a) + y * cos(a) + options.translation[1], z + options.translation[2]);
-      CHECK_NEAR(here.distance, there.distance, 1e-12);
-    }
-  }
-}
-
 /* --- Sealing and opening ----------------------------------------------------------------------------------------------- */
 
 /* A flood fill over a grid finds no way through closed valves with a cylindrical root, and a way through open ones. */
-static void closes_cylinders(void **state) {
-  (void)state;
+TEST(closes_cylinders) {
   random_source random = random_start("test_coapting");
   const int n = is_long_test() ? 20 : 2;
   for (int trial = 0; trial < n; ++trial) {
@@ -652,8 +644,7 @@ static void closes_cylinders(void **state) {
   }
 }
 
-static void opens_by_itself(void **state) {
-  (void)state;
+TEST(opens_by_itself) {
   double orifice = -1;
   for (int i = 0; i <= 10; ++i) {
     const double wider = orifice_area(new_surface(valve_at("coapting", i / 10.0), NULL), 1.25, 300);
@@ -667,8 +658,7 @@ static void opens_by_itself(void **state) {
 }
 
 /* A smooth path has no kinks: on fixed triangles the second difference over a small step is the same for half the step. */
-static void path_is_smooth(void **state) {
-  (void)state;
+TEST(path_is_smooth) {
   random_source random = random_start("test_coapting");
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
@@ -701,8 +691,7 @@ static void path_is_smooth(void **state) {
 }
 
 /* The same state has the same bits, whatever was computed before and with any number of threads. */
-static void results_repeat(void **state) {
-  (void)state;
+TEST(results_repeat) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 4; ++trial) {
     riis_valve *valve = random_valve(&random), *before = NULL;
@@ -722,8 +711,7 @@ static void results_repeat(void **state) {
 }
 
 /* With a second valve, the closed shape comes from the first valve, and the open shape from the second. */
-static void opens_to_another_valves_open_state(void **state) {
-  (void)state;
+TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("coapting"), *other = new_valve("coapting"), *plain = new_valve("coapting");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.7));
   CHECK_OK(riis_valve_set_scalar(other, "effective_height", 0.95));
@@ -758,8 +746,7 @@ static double middle_crease(const half *of) {
 }
 
 /* The measures that follow from the default sizes are those of the literature. The table is printed for docs/theory.md. */
-static void measures_are_those_of_the_literature(void **state) {
-  (void)state;
+TEST(measures_are_those_of_the_literature) {
   riis_valve *valve = new_valve("coapting");
   const sizes v = sizes_of(valve);
   const half closed = half_of(v.of, v.of, 0), open = half_of(v.of, v.of, 1);
@@ -805,8 +792,7 @@ static void measures_are_those_of_the_literature(void **state) {
 
 /* --- Parameters -------------------------------------------------------------------------------------------------------- */
 
-static void every_parameter_by_name(void **state) {
-  (void)state;
+TEST(every_parameter_by_name) {
   static const double values[n_sizes] = {1.25, 1.25, 1.75, 1.75 - 0.6745 * 1.25, 0.375, 0.02, 20, 0.5, 0.3, 0.6,
                                          0.5,  0.85, 0.05};
   riis_valve *valve = new_valve("coapting");
@@ -836,8 +822,7 @@ static void every_parameter_by_name(void **state) {
 }
 
 /* Sizes that are not set follow from others, in any order of setting, and the shape scales with them. */
-static void sizes_follow(void **state) {
-  (void)state;
+TEST(sizes_follow) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 10; ++trial) {
     const double r = random_between(&random, 0.2, 20), rc = r * random_between(&random, 0.8, 1.2);
@@ -872,8 +857,7 @@ static void sizes_follow(void **state) {
   CHECK_NEAR(value, 0.6 * 0.24, 1e-15);
 }
 
-static void values_that_do_not_go_together_are_refused(void **state) {
-  (void)state;
+TEST(values_that_do_not_go_together_are_refused) {
   riis_surface *surface = NULL;
 #define IS_REFUSED(name, value, text)                                                        \
   do {                                                                                       \
@@ -916,24 +900,4 @@ static void values_that_do_not_go_together_are_refused(void **state) {
                 riis_surface_create(valve, NULL, &surface));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(vertices_are_where_the_formulas_say, free_owned),
-      cmocka_unit_test_teardown(closed_cusps_coapt, free_owned),
-      cmocka_unit_test_teardown(a_low_zone_turns_sharply_without_a_crease, free_owned),
-      cmocka_unit_test_teardown(a_nearly_tangent_leaflet_does_not_cross, free_owned),
-      cmocka_unit_test_teardown(cusps_are_equal, free_owned),
-      cmocka_unit_test_teardown(placements_move_the_valve, free_owned),
-      cmocka_unit_test_teardown(random_valves_open_well, free_owned),
-      cmocka_unit_test_teardown(closes_cylinders, free_owned),
-      cmocka_unit_test_teardown(opens_by_itself, free_owned),
-      cmocka_unit_test_teardown(path_is_smooth, free_owned),
-      cmocka_unit_test_teardown(results_repeat, free_owned),
-      cmocka_unit_test_teardown(opens_to_another_valves_open_state, free_owned),
-      cmocka_unit_test_teardown(measures_are_those_of_the_literature, free_owned),
-      cmocka_unit_test_teardown(every_parameter_by_name, free_owned),
-      cmocka_unit_test_teardown(sizes_follow, free_owned),
-      cmocka_unit_test_teardown(values_that_do_not_go_together_are_refused, free_owned),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -68,8 +68,7 @@ static void expect_pairs_of(riis_surface *surface) {
   if (!strstr(warnings.last, part)) fail_msg("'%s' has no '%s'", warnings.last, part);
 }
 
-static void a_shape_is_named_once(void **state) {
-  (void)state;
+TEST_WITH(a_shape_is_named_once, start_listening, stop_listening) {
   riis_valve *valve = new_valve("trileaflet");
   set(valve, "bending_height", 0.55);
   riis_surface *surface = new_surface(valve, NULL);
@@ -103,8 +102,7 @@ static void a_shape_is_named_once(void **state) {
 }
 
 /* A valve that is open at first closes later. Each new range of the opening is searched until a crossing is found. */
-static void a_valve_that_begins_open_is_named(void **state) {
-  (void)state;
+TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
   riis_valve *valve = new_valve("trileaflet");
   set(valve, "bending_height", 0.55);
   set(valve, "opening", 1);
@@ -121,8 +119,7 @@ static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet
 
 /* Default shapes do not cross at any opening. Other sound shapes do not cross either. Closed mitral leaflets touch. Their fixed
  * triangles go through each other by less than the depth that counts as a crossing. */
-static void sound_shapes_are_not_named(void **state) {
-  (void)state;
+TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   for (int kind = 0; kind < 5; ++kind)
     for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {
       riis_surface_options options = surface_options();
@@ -153,8 +150,7 @@ static void sound_shapes_are_not_named(void **state) {
 
 /* One unit square lies at z = 0. An upright one at y = 0.5 cuts through it. Both belong to one leaflet, or each is a leaflet
  * of its own. */
-static void patches_are_a_shape_of_the_user(void **state) {
-  (void)state;
+TEST_WITH(patches_are_a_shape_of_the_user, start_listening, stop_listening) {
   for (int32_t second = 0; second < 2; ++second) {
     const double control[] = {0,  0,  0, 1,  0,  0, 0,   1,  0,  1,  1,   0,  0,   0,   0,  0,
                               1,  0,  1, 0,  0,  1, 1,   0,  .5, 0,  -.4, .5, 1,   -.4, .5, 0,
@@ -180,8 +176,7 @@ static void patches_are_a_shape_of_the_user(void **state) {
 }
 
 /* The open state is a part of the shape. */
-static void an_open_state_makes_another_shape(void **state) {
-  (void)state;
+TEST_WITH(an_open_state_makes_another_shape, start_listening, stop_listening) {
   riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
   set(valve, "bending_height", 0.55);
   riis_surface *surface = new_surface(valve, NULL);
@@ -205,8 +200,7 @@ static int64_t allocations_of_updates(double height) {
   return n_allocations - before;
 }
 
-static void nobody_searches_in_silence(void **state) {
-  (void)state;
+TEST_WITH(nobody_searches_in_silence, start_listening, stop_listening) {
   riis_set_log(NULL, NULL);
   const int64_t of_default = allocations_of_updates(0), in_silence = allocations_of_updates(0.55);
   riis_set_log(listen, &warnings);
@@ -231,13 +225,4 @@ static void nobody_searches_in_silence(void **state) {
   assert_int_equal(warnings.n, 21);
 }
 
-int main(void) {
-#define HEARD(test) cmocka_unit_test_setup_teardown(test, start_listening, stop_listening)
-  const struct CMUnitTest tests[] = {HEARD(a_shape_is_named_once),
-                                     HEARD(a_valve_that_begins_open_is_named),
-                                     HEARD(sound_shapes_are_not_named),
-                                     HEARD(patches_are_a_shape_of_the_user),
-                                     HEARD(an_open_state_makes_another_shape),
-                                     HEARD(nobody_searches_in_silence)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -166,8 +166,7 @@ static double true_distance(const reference *of, const double *p) {
   return of->distance ? of->distance(p) : closest_to(of->fine, p[0], p[1], p[2]).distance;
 }
 
-static void sampling_is_within_its_bound(void **state) {
-  (void)state;
+TEST(sampling_is_within_its_bound) {
   random_source rng = random_start("sampling_is_within_its_bound");
   const double tolerances[] = {0.5, 0.1, 0.03};
   for (int i = 0; i < n_references; ++i)
@@ -206,8 +205,7 @@ static void keep_message(void *user_data, int32_t level, const char *message) {
   if (strstr(message, "samples")) snprintf(last_message, sizeof last_message, "%s", message);
 }
 
-static void samples_are_as_many_as_the_rule_says(void **state) {
-  (void)state;
+TEST(samples_are_as_many_as_the_rule_says) {
   riis_valve *valve = rectangle();
   riis_set_log(keep_message, NULL);
   /* The tolerance is 0.05, so the steps are sqrt(2) times 0.05. */
@@ -225,8 +223,7 @@ static void samples_are_as_many_as_the_rule_says(void **state) {
 }
 
 /* The tree of boxes misses no sample: the nearest sample is found, and the first of several equally near ones. */
-static void nearest_samples_are_found(void **state) {
-  (void)state;
+TEST(nearest_samples_are_found) {
   random_source rng = random_start("nearest_samples_are_found");
   for (int of = 0; of < n_references; ++of) {
     const int owned_before = n_owned();
@@ -255,21 +252,6 @@ static void nearest_samples_are_found(void **state) {
   }
 }
 
-/* The distances of two points differ by at most the distance between the points. The neighbour search's proof relies on this. */
-static void sampling_is_lipschitz(void **state) {
-  (void)state;
-  random_source rng = random_start("sampling_is_lipschitz");
-  riis_surface *surface = measured(references[3].valve, RIIS_MEASURE_SAMPLING, 0.2);
-  for (int n = 0; n < 2000; ++n) {
-    double p[3], q[3];
-    random_point(&rng, surface, 0.2, p);
-    const double apart = pow(10, random_between(&rng, -6, 0));
-    for (int c = 0; c < 3; ++c) q[c] = p[c] + apart * random_between(&rng, -1, 1);
-    const double d = closest_to(surface, p[0], p[1], p[2]).distance, e = closest_to(surface, q[0], q[1], q[2]).distance;
-    CHECK_AT_MOST(fabs(d - e), distance_between(p, q) + 1e-14);
-  }
-}
-
 static double narrow_valley(double u, double v) {
   const double a = u - 0.3, b = v - 0.8;
   return 1 + a * a + b * b - 1.99 * a * b;
@@ -280,8 +262,7 @@ static double on_a_side(double u, double v) { return 1 + (u - 2) * (u - 2) + 3 *
 static double flat(double u, double v) { return u * 0 + v * 0 + 2; }
 
 /* Powell's method finds minima exactly: inside the square, where its directions must turn, at a corner and on a side. */
-static void powell_finds_minima(void **state) {
-  (void)state;
+TEST(powell_finds_minima) {
   const struct {
     double (*f)(double u, double v);
     double u, v, value, tolerance;
@@ -300,10 +281,23 @@ static void powell_finds_minima(void **state) {
   }
 }
 
+/* The distances of two points differ by at most the distance between the points. The neighbour search's proof relies on this. */
+TEST(sampling_is_lipschitz) {
+  random_source rng = random_start("sampling_is_lipschitz");
+  riis_surface *surface = measured(references[3].valve, RIIS_MEASURE_SAMPLING, 0.2);
+  for (int n = 0; n < 2000; ++n) {
+    double p[3], q[3];
+    random_point(&rng, surface, 0.2, p);
+    const double apart = pow(10, random_between(&rng, -6, 0));
+    for (int c = 0; c < 3; ++c) q[c] = p[c] + apart * random_between(&rng, -1, 1);
+    const double d = closest_to(surface, p[0], p[1], p[2]).distance, e = closest_to(surface, q[0], q[1], q[2]).distance;
+    CHECK_AT_MOST(fabs(d - e), distance_between(p, q) + 1e-14);
+  }
+}
+
 /* Minimisation never gives a distance that is too small. It is exact on a rectangle, where the squared distance has one
  * minimum. Elsewhere it may end in a local minimum. Most answers are right, and the test prints how many are wrong. */
-static void minimisation_is_never_below(void **state) {
-  (void)state;
+TEST(minimisation_is_never_below) {
   random_source rng = random_start("minimisation_is_never_below");
   const double tolerances[] = {0.01, 0.001}; /* the tolerances of the paper */
   for (int i = 0; i < n_references; ++i)
@@ -338,8 +332,7 @@ static void minimisation_is_never_below(void **state) {
 
 /* A known failure: from the middle the search goes to the wrong arm of the hairpin and stays there. The distance and the mark
  * are wrong. */
-static void minimisation_ends_in_local_minima(void **state) {
-  (void)state;
+TEST(minimisation_ends_in_local_minima) {
   riis_valve *valve = hairpin();
   riis_surface_options options = surface_options();
   options.half_thickness = 0.5;
@@ -366,8 +359,7 @@ static void minimisation_ends_in_local_minima(void **state) {
 }
 
 /* The patch with the nearest box may not have the nearest point. Here that box contains the query's point. */
-static void all_near_patches_are_asked(void **state) {
-  (void)state;
+TEST(all_near_patches_are_asked) {
   /* A slope through [0,1]^3, and a floor below the slope. */
   const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
   riis_valve *valve = patches_between(2, 1, sides);
@@ -380,8 +372,7 @@ static void all_near_patches_are_asked(void **state) {
 }
 
 /* Surfaces are placed, flipped or mirrored. The normals are the triangles', and distances are proportional to the scale. */
-static void placement_and_normals(void **state) {
-  (void)state;
+TEST(placement_and_normals) {
   random_source rng = random_start("placement_and_normals");
   riis_valve *valve = valve_of("aortic");
   for (int32_t method = RIIS_MEASURE_SAMPLING; method <= RIIS_MEASURE_MINIMIZATION; ++method)
@@ -423,8 +414,7 @@ static void mark(const riis_surface *surface, const riis_mesh *mesh, int32_t sea
 
 /* All complete searches find the same nodes as a query of every node, for any number of threads. The paper's search finds a part
  * of them. */
-static void searches_agree(void **state) {
-  (void)state;
+TEST(searches_agree) {
   random_source rng = random_start("searches_agree");
   riis_valve *hairpin_valve = hairpin();
   const riis_valve *valves[3] = {references[2].valve, references[3].valve, hairpin_valve};
@@ -491,8 +481,7 @@ static void searches_agree(void **state) {
 
 /* Two nodes near the hairpin form a ball. From the ball's middle, minimisation goes to the farther arm, at a distance of twice
  * the ball's radius. The search must not dismiss the node that minimisation itself finds near. */
-static void local_minima_dismiss_no_group(void **state) {
-  (void)state;
+TEST(local_minima_dismiss_no_group) {
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
   const int32_t offsets[3] = {0, 0, 0};
   riis_valve *valve = hairpin();
@@ -511,8 +500,7 @@ static void local_minima_dismiss_no_group(void **state) {
 }
 
 /* Batches give the results of single points, for any number of threads, and report far points as far. */
-static void batches_agree(void **state) {
-  (void)state;
+TEST(batches_agree) {
   random_source rng = random_start("batches_agree");
   enum { n_points = 1500 };
   static double xyz[3 * n_points], distance[n_points], point[3 * n_points], normal[3 * n_points];
@@ -550,8 +538,7 @@ static void batches_agree(void **state) {
   }
 }
 
-static void what_has_no_meaning_is_refused(void **state) {
-  (void)state;
+TEST(what_has_no_meaning_is_refused) {
   double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, barycentric[3];
   const int32_t ids[3] = {0, 1, 2};
   int32_t side;
@@ -608,8 +595,7 @@ static void what_has_no_meaning_is_refused(void **state) {
 }
 
 /* A surface keeps its method of measuring when its valve moves. */
-static void options_stay_and_default(void **state) {
-  (void)state;
+TEST(options_stay_and_default) {
   riis_valve *valve = valve_of("mitral");
   riis_surface *surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.2);
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.3));
@@ -639,22 +625,4 @@ static void options_stay_and_default(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sampling_is_within_its_bound),
-      cmocka_unit_test(samples_are_as_many_as_the_rule_says),
-      cmocka_unit_test(nearest_samples_are_found),
-      cmocka_unit_test(powell_finds_minima),
-      cmocka_unit_test(sampling_is_lipschitz),
-      cmocka_unit_test(minimisation_is_never_below),
-      cmocka_unit_test(minimisation_ends_in_local_minima),
-      cmocka_unit_test(all_near_patches_are_asked),
-      cmocka_unit_test(placement_and_normals),
-      cmocka_unit_test(searches_agree),
-      cmocka_unit_test(local_minima_dismiss_no_group),
-      cmocka_unit_test(batches_agree),
-      cmocka_unit_test(what_has_no_meaning_is_refused),
-      cmocka_unit_test(options_stay_and_default),
-  };
-  return cmocka_run_group_tests(tests, make_references, free_owned_of_group);
-}
+int main(void) { return run_cases(make_references, free_owned_of_group); }

@@ -108,8 +108,7 @@ static void check_triangles_stay(riis_valve *valve, const char *name) {
   assert_true(2 * first.n_triangles <= 3 * most);
 }
 
-static void triangles_stay_at_every_opening(void **state) {
-  (void)state;
+TEST(triangles_stay_at_every_opening) {
   check_triangles_stay(new_valve("mitral"), "mitral");
   check_triangles_stay(opening_aortic(), "aortic");
   check_triangles_stay(new_valve("aortic"), "aortic, its own open state");
@@ -136,8 +135,7 @@ static void check_distances(riis_valve *valve) {
   }
 }
 
-static void distances_are_within_the_bound(void **state) {
-  (void)state;
+TEST(distances_are_within_the_bound) {
   rng = random_start("test_fixed_triangulation");
   check_distances(new_valve("mitral"));
   check_distances(opening_aortic());
@@ -146,8 +144,7 @@ static void distances_are_within_the_bound(void **state) {
 
 /* The triangles depend on the valve and on its present opening, not on the opening at which the surface was made. So a restart
  * gives the same bits. */
-static void a_restart_has_the_same_bits(void **state) {
-  (void)state;
+TEST(a_restart_has_the_same_bits) {
   riis_valve *valves[3] = {new_valve("mitral"), opening_aortic(), fan()};
   const riis_surface_options options = fixed_options();
   for (int k = 0; k < 3; ++k) {
@@ -161,8 +158,7 @@ static void a_restart_has_the_same_bits(void **state) {
 
 /* If the curves have no joints, the grid lines stay, and a vertex's velocity is its displacement divided by the time. It
  * differs slightly only on grid lines that end between two vertices of a side, because such a line ends on a chord. */
-static void velocity_is_that_of_the_vertices(void **state) {
-  (void)state;
+TEST(velocity_is_that_of_the_vertices) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valves[2] = {opening_aortic(), fan()};
   const riis_surface_options options = fixed_options();
@@ -190,8 +186,7 @@ static void velocity_is_that_of_the_vertices(void **state) {
 }
 
 /* The fan's last triangle has no area at opening 0. */
-static void a_triangle_without_area_keeps_its_id(void **state) {
-  (void)state;
+TEST(a_triangle_without_area_keeps_its_id) {
   riis_valve *valve = fan();
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -222,8 +217,7 @@ static void a_triangle_without_area_keeps_its_id(void **state) {
 }
 
 /* If the surface angle is 0, the leaflets are Coons patches, which share their edges only at opening 0. */
-static void flat_mitral_leaflets_stay_within_the_bound(void **state) {
-  (void)state;
+TEST(flat_mitral_leaflets_stay_within_the_bound) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 0));
@@ -233,8 +227,7 @@ static void flat_mitral_leaflets_stay_within_the_bound(void **state) {
 
 /* The patches have rough sides that differ between the two states. The openings at which the grid lines were chosen are never
  * refused. */
-static void openings_of_the_choice_are_never_refused(void **state) {
-  (void)state;
+TEST(openings_of_the_choice_are_never_refused) {
   rng = random_start("test_fixed_triangulation");
   const riis_surface_options defaults = fixed_options();
   for (int trial = 0; trial < 30; ++trial) {
@@ -279,8 +272,7 @@ static void openings_of_the_choice_are_never_refused(void **state) {
 }
 
 /* Coordinates so large that rounding matters are refused, as they are without a fixed triangulation. */
-static void coordinates_too_large_are_refused(void **state) {
-  (void)state;
+TEST(coordinates_too_large_are_refused) {
   shape square = unit_square();
   for (int64_t i = 0; i < square.n_curves; ++i)
     for (int k = 0; k <= square.degree[i]; ++k) square.control[i][k][0] += 3.3e6;
@@ -293,8 +285,7 @@ static void coordinates_too_large_are_refused(void **state) {
   assert_null(surface);
 }
 
-static void a_surface_of_arrays_forgets_the_choice(void **state) {
-  (void)state;
+TEST(a_surface_of_arrays_forgets_the_choice) {
   const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const int32_t ids[3] = {0, 1, 2};
   const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
@@ -305,8 +296,7 @@ static void a_surface_of_arrays_forgets_the_choice(void **state) {
 }
 
 /* On one side of the patch, the curve's speed nearly falls to zero. The whole patch moves by 1e-6 in 1e-6 seconds. */
-static void near_cusps_move_with_their_valve(void **state) {
-  (void)state;
+TEST(near_cusps_move_with_their_valve) {
   shape made[2] = {{0}, {0}};
   for (int k = 0; k < 2; ++k) {
     const double dx = 1e-6 * k, cusp[4][3] = {{dx, 0, 0}, {1e-6 + dx, 0, 0}, {1 + dx, 0.2, 0}, {2 + dx, 1, 0.3}};
@@ -331,8 +321,7 @@ static void near_cusps_move_with_their_valve(void **state) {
   }
 }
 
-static void a_valve_with_one_state_is_fixed_too(void **state) {
-  (void)state;
+TEST(a_valve_with_one_state_is_fixed_too) {
   const riis_surface_options options = fixed_options();
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square);
@@ -343,8 +332,7 @@ static void a_valve_with_one_state_is_fixed_too(void **state) {
   CHECK_NEAR(closest_to(surface, 3, 0, 0).distance, closest_to(new_surface(valve, &options), 0, 0, 0).distance, 1e-12);
 }
 
-static void other_changes_are_refused(void **state) {
-  (void)state;
+TEST(other_changes_are_refused) {
   riis_valve *valve = new_valve("mitral"), *aortic = opening_aortic(), *other = NULL;
   riis_surface_options options = fixed_options();
   set_opening(valve, 0.25);
@@ -378,8 +366,7 @@ static void other_changes_are_refused(void **state) {
   CHECK_AT_MOST(info_of(surface).error_bound, 0.001);
 }
 
-static void other_open_states_and_curves_are_refused(void **state) {
-  (void)state;
+TEST(other_open_states_and_curves_are_refused) {
   riis_valve *valve = opening_aortic(), *other = opening_aortic(), *open = new_valve("aortic");
   const riis_surface_options options = fixed_options();
   riis_surface *surface = new_surface(valve, &options);
@@ -393,8 +380,7 @@ static void other_open_states_and_curves_are_refused(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "curve 0|fixed for", riis_surface_update(surface, valve_from(&square), NULL));
 }
 
-static void bad_options_are_refused(void **state) {
-  (void)state;
+TEST(bad_options_are_refused) {
   riis_surface_options options = fixed_options();
   riis_valve *valve = new_valve("aortic");
   riis_surface *surface = NULL;
@@ -409,22 +395,4 @@ static void bad_options_are_refused(void **state) {
   assert_null(surface);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(triangles_stay_at_every_opening, free_owned),
-      cmocka_unit_test_teardown(distances_are_within_the_bound, free_owned),
-      cmocka_unit_test_teardown(a_restart_has_the_same_bits, free_owned),
-      cmocka_unit_test_teardown(velocity_is_that_of_the_vertices, free_owned),
-      cmocka_unit_test_teardown(a_triangle_without_area_keeps_its_id, free_owned),
-      cmocka_unit_test_teardown(flat_mitral_leaflets_stay_within_the_bound, free_owned),
-      cmocka_unit_test_teardown(openings_of_the_choice_are_never_refused, free_owned),
-      cmocka_unit_test_teardown(coordinates_too_large_are_refused, free_owned),
-      cmocka_unit_test_teardown(a_surface_of_arrays_forgets_the_choice, free_owned),
-      cmocka_unit_test_teardown(near_cusps_move_with_their_valve, free_owned),
-      cmocka_unit_test_teardown(a_valve_with_one_state_is_fixed_too, free_owned),
-      cmocka_unit_test_teardown(other_changes_are_refused, free_owned),
-      cmocka_unit_test_teardown(other_open_states_and_curves_are_refused, free_owned),
-      cmocka_unit_test_teardown(bad_options_are_refused, free_owned),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

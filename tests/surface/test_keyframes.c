@@ -69,8 +69,7 @@ static void check_height(const riis_surface *surface, double height, double spee
   }
 }
 
-static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
-  (void)state;
+TEST(linear_frames_have_right_hand_and_mean_velocities) {
   const double time[] = {0, 1, 3}, height[] = {0, 2, 1};
   swing s;
   make_swing(&s, 3, time, height);
@@ -96,8 +95,7 @@ static void linear_frames_have_right_hand_and_mean_velocities(void **state) {
 
 /* At a key the velocity is that of the interval after the key, in every period. The sum of the key's time and the periods is
  * rounded. */
-static void frames_have_the_velocity_after_them_in_every_period(void **state) {
-  (void)state;
+TEST(frames_have_the_velocity_after_them_in_every_period) {
   const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};
   swing s;
   make_swing(&s, 5, time, height);
@@ -116,8 +114,7 @@ static void frames_have_the_velocity_after_them_in_every_period(void **state) {
   riis_keyframes_destroy(&keyframes);
 }
 
-static void frames_repeat_and_are_placed(void **state) {
-  (void)state;
+TEST(frames_repeat_and_are_placed) {
   const double time[] = {0, 0.25, 0.5, 1}, height[] = {0, 0.1, 0.3, 0};
   for (int32_t interpolation = 0; interpolation <= 1; ++interpolation) {
     swing s;
@@ -154,8 +151,7 @@ static void frames_repeat_and_are_placed(void **state) {
   }
 }
 
-static void bad_frames_are_refused(void **state) {
-  (void)state;
+TEST(bad_frames_are_refused) {
   const double time[] = {0, 1, 2}, height[] = {0, 2, 1};
   const riis_surface_arrays faces = square();
   riis_keyframes *keyframes = NULL;
@@ -197,12 +193,6 @@ static void bad_frames_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(linear_frames_have_right_hand_and_mean_velocities),
-      cmocka_unit_test(frames_have_the_velocity_after_them_in_every_period),
-      cmocka_unit_test(frames_repeat_and_are_placed),
-      cmocka_unit_test(bad_frames_are_refused),
-  };
   rng = random_start("test_keyframes");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

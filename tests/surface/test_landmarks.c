@@ -179,8 +179,7 @@ static patient trileaflet(double R, double Rc, double h) {
   return p;
 }
 
-static void test_exact_trileaflet(void **state) {
-  (void)state;
+TEST(test_exact_trileaflet) {
   for (int trial = 0; trial < 60; ++trial) {
     const double R = between(0.7, 1.6), Rc = between(0.7, 1.5), h = between(0.8, 2.2);
     patient p = trileaflet(R, Rc, h);
@@ -230,8 +229,7 @@ static void test_exact_trileaflet(void **state) {
 }
 
 /* A coapting valve has the same landmarks. The sizes that follow from these stay tied to them. */
-static void test_exact_coapting(void **state) {
-  (void)state;
+TEST(test_exact_coapting) {
   for (int trial = 0; trial < 20; ++trial) {
     const double R = between(1, 1.4), Rc = R * between(0.95, 1.05), h = 1.4 * Rc * between(0.97, 1.05);
     patient p = trileaflet(R, Rc, h);
@@ -303,8 +301,7 @@ static accuracy accuracy_of(double noise, bool is_asymmetric, int n) {
 }
 
 /* The measured table of accuracies; each entry must come back within 20 %. */
-static void test_noisy_trileaflet(void **state) {
-  (void)state;
+TEST(test_noisy_trileaflet) {
   const struct {
     double noise;
     bool is_asymmetric;
@@ -342,8 +339,7 @@ static patient aortic(double R, const double *Rc, double h, const double *angle)
   return p;
 }
 
-static void test_exact_aortic(void **state) {
-  (void)state;
+TEST(test_exact_aortic) {
   static const char *const cusps[3] = {"right", "left", "non_coronary"};
   for (int trial = 0; trial < 40; ++trial) {
     const double R = between(0.9, 1.6), end = between(1.0, 1.6), h = between(0.9, 1.5), Rc[3] = {end, end, end};
@@ -435,8 +431,7 @@ static void add_commissures(patient *p, double anterior_ratio, const double *siz
   mitral_oracle_destroy(oracle);
 }
 
-static void test_exact_mitral(void **state) {
-  (void)state;
+TEST(test_exact_mitral) {
   for (int trial = 0; trial < 9; ++trial) {
     double sizes[n_sizes], ratio;
     patient p = mitral(16, trial % 2 == 1, sizes, &ratio);
@@ -461,8 +456,7 @@ static void test_exact_mitral(void **state) {
 }
 
 /* Without flow and commissures, the horns show the atrium's side if the annulus is a saddle. */
-static void test_saddle(void **state) {
-  (void)state;
+TEST(test_saddle) {
   double sizes[n_sizes], ratio;
   patient p = mitral(16, true, sizes, &ratio);
   memset(p.flow, 0, sizeof p.flow);
@@ -477,8 +471,7 @@ static void test_saddle(void **state) {
                 try_to_place(valve, &p, "", &found));
 }
 
-static void test_noisy_mitral(void **state) {
-  (void)state;
+TEST(test_noisy_mitral) {
   const int n = is_long_test() ? 400 : 24;
   for (int points = 8; points <= 16; points += 8) {
     double squares[n_sizes] = {0}, residual = 0;
@@ -521,8 +514,7 @@ static void test_noisy_mitral(void **state) {
 
 /* ---- Bileaflet ---- */
 
-static void test_exact_bileaflet(void **state) {
-  (void)state;
+TEST(test_exact_bileaflet) {
   for (int trial = 0; trial < 20; ++trial) {
     const double R = between(0.8, 1.4), offset = between(0.1, 0.4), height = between(-0.1, 0.2);
     patient p = empty_patient();
@@ -545,8 +537,7 @@ static void test_exact_bileaflet(void **state) {
 
 /* ---- Held sizes, forms of input ---- */
 
-static void test_held_sizes(void **state) {
-  (void)state;
+TEST(test_held_sizes) {
   patient p = trileaflet(1.2, 1.1, 1.5);
   place_patient(&p, 10);
   riis_valve *valve = new_valve("trileaflet");
@@ -572,8 +563,7 @@ static void test_held_sizes(void **state) {
   CHECK_NEAR(value(aortic_valve, "right.leaflet_power"), 1.58, 0);
 }
 
-static void test_forms_of_input(void **state) {
-  (void)state;
+TEST(test_forms_of_input) {
   patient p = trileaflet(1.25, 1.3, 1.5);
   place_patient(&p, 10);
   riis_valve *one = new_valve("trileaflet"), *other = new_valve("trileaflet");
@@ -611,8 +601,7 @@ static void check_place_refused(const char *kind, const patient *p, const char *
   free_owned_after(0);
 }
 
-static void test_refused_cusps(void **state) {
-  (void)state;
+TEST(test_refused_cusps) {
   const patient good = trileaflet(1.2, 1.1, 1.5);
 #define REFUSED(kind, parts, ...)                       \
   do {                                                  \
@@ -663,8 +652,7 @@ static void test_refused_cusps(void **state) {
 #undef REFUSED
 }
 
-static void test_refused_annuli(void **state) {
-  (void)state;
+TEST(test_refused_annuli) {
   double sizes[n_sizes], ratio;
   const patient good = mitral(16, false, sizes, &ratio);
 #define REFUSED(parts, ...)                                 \
@@ -703,8 +691,7 @@ static void test_refused_annuli(void **state) {
   check_place_refused("bileaflet", &p, "hinges are at|normal", "hinges along the axis");
 }
 
-static void test_refused_arguments(void **state) {
-  (void)state;
+TEST(test_refused_arguments) {
   const patient p = trileaflet(1.2, 1.1, 1.5);
   riis_landmarks landmarks = landmarks_of(&p);
   riis_placement placement;
@@ -761,12 +748,5 @@ static void test_refused_arguments(void **state) {
 
 int main(void) {
   rng = random_start("test_landmarks");
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_trileaflet), cmocka_unit_test(test_exact_coapting),
-                                     cmocka_unit_test(test_noisy_trileaflet), cmocka_unit_test(test_exact_aortic),
-                                     cmocka_unit_test(test_exact_mitral),     cmocka_unit_test(test_saddle),
-                                     cmocka_unit_test(test_noisy_mitral),     cmocka_unit_test(test_exact_bileaflet),
-                                     cmocka_unit_test(test_held_sizes),       cmocka_unit_test(test_forms_of_input),
-                                     cmocka_unit_test(test_refused_cusps),    cmocka_unit_test(test_refused_annuli),
-                                     cmocka_unit_test(test_refused_arguments)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -210,8 +210,7 @@ static compared compare(const states *now, const states *before, double seconds,
 }
 
 /* Some quads of the mitral valve are split. A vertex from a split has a velocity between those of the quad's corners. */
-static void vertices_move_as_the_oracles(void **state) {
-  (void)state;
+TEST(vertices_move_as_the_oracles) {
   double share = 0;
   for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
     const double opening = random_between(&rng, 0, 1), opening_before = random_between(&rng, 0, 1);
@@ -230,8 +229,7 @@ static void vertices_move_as_the_oracles(void **state) {
 
 /* The mean velocity over a step is the velocity at the step's middle. So its error at the step's end is proportional to the
  * time between. */
-static void the_error_falls_with_the_time_between(void **state) {
-  (void)state;
+TEST(the_error_falls_with_the_time_between) {
   double last = 0;
   for (int i = 1; i <= 3; ++i) {
     const double seconds = pow(10, -i);
@@ -247,8 +245,7 @@ static void the_error_falls_with_the_time_between(void **state) {
   }
 }
 
-static void the_error_at_any_point_falls_with_the_tolerance(void **state) {
-  (void)state;
+TEST(the_error_at_any_point_falls_with_the_tolerance) {
   for (int k = 0; k < 3; ++k) {
     const double opening = k == 0 ? 0.3 : k == 1 ? 0.65 : 1;
     double last_mean = 1, last = 1;
@@ -267,8 +264,7 @@ static void the_error_at_any_point_falls_with_the_tolerance(void **state) {
 }
 
 /* At opening 0 the leaflets share their edge as one curve. At any other opening each leaflet has its own. */
-static void steps_into_and_out_of_the_closed_state(void **state) {
-  (void)state;
+TEST(steps_into_and_out_of_the_closed_state) {
   static const double other[] = {1, 0.5, 0.1, 0.01, 0.001};
   for (int i = 0; i < 5; ++i)
     for (int out_of = 0; out_of < 2; ++out_of) {
@@ -285,8 +281,7 @@ static void steps_into_and_out_of_the_closed_state(void **state) {
 }
 
 /* If a vertex's position on its patch jumped between steps, its speed would be the jump divided by the time between. */
-static void no_vertex_is_an_outlier(void **state) {
-  (void)state;
+TEST(no_vertex_is_an_outlier) {
   const states at = paper_at(0);
   riis_valve *valve = valve_of(&at), *before = valve_of(&at);
   riis_surface_options options = surface_options();
@@ -306,8 +301,7 @@ static void no_vertex_is_an_outlier(void **state) {
 
 /* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, and between
  * vertices the velocity is linear. A change of the bulge therefore appears only where the arcs are bent. */
-static void a_bulge_goes_through_zero(void **state) {
-  (void)state;
+TEST(a_bulge_goes_through_zero) {
   static const struct {
     double now, before;
     int is_straight;
@@ -342,8 +336,7 @@ static void a_bulge_goes_through_zero(void **state) {
   }
 }
 
-static void any_parameter_moves(void **state) {
-  (void)state;
+TEST(any_parameter_moves) {
   double share = 0;
   for (int i = 0; i <= n_scalars + 1; ++i) {
     states now = paper_at(random_between(&rng, 0.05, 0.95)), before;
@@ -368,15 +361,6 @@ static void any_parameter_moves(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(vertices_move_as_the_oracles),
-      cmocka_unit_test(the_error_falls_with_the_time_between),
-      cmocka_unit_test(the_error_at_any_point_falls_with_the_tolerance),
-      cmocka_unit_test(steps_into_and_out_of_the_closed_state),
-      cmocka_unit_test(no_vertex_is_an_outlier),
-      cmocka_unit_test(a_bulge_goes_through_zero),
-      cmocka_unit_test(any_parameter_moves),
-  };
   rng = random_start("test_mitral_motion");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -51,8 +51,7 @@ static riis_surface *mitral_surface(double opening, double tolerance) {
 
 static double distance(const double *p, const double *q) { return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]); }
 
-static void parameters_are_the_papers(void **state) {
-  (void)state;
+TEST(parameters_are_the_papers) {
   int64_t n;
   double values[3];
   riis_valve *valve = new_valve("mitral");
@@ -72,8 +71,7 @@ static void parameters_are_the_papers(void **state) {
 }
 
 /* Each parameter changes the closed, the open or the half-open surface. The old value restores the old surface. */
-static void every_parameter_matters(void **state) {
-  (void)state;
+TEST(every_parameter_matters) {
   for (int i = 0; i <= n_scalars; ++i) {
     const int owned_before = n_owned();
     const char *name = i < n_scalars ? table[i].name : "translation";
@@ -105,8 +103,7 @@ static double annulus_length(const riis_triangles *c) {
 }
 
 /* The surface is fine enough for the digits in docs/theory.md. The oracle gives more digits. */
-static void numbers_of_the_model(void **state) {
-  (void)state;
+TEST(numbers_of_the_model) {
   const struct {
     double opening, area, area_to_6_digits, annulus, z_low, z_high;
   } expected[2] = {{0, 12.188, 12.188000, 12.62, -0.09, 0.80}, {1, 15.980, 15.980787, 12.21, -2.05, 0.00}};
@@ -130,8 +127,7 @@ static void numbers_of_the_model(void **state) {
   assert_int_equal(tip.leaflet_id, RIIS_LEAFLET_ANTERIOR);
 }
 
-static void area_is_the_oracles(void **state) {
-  (void)state;
+TEST(area_is_the_oracles) {
   for (int i = 0; i <= 4; ++i) {
     mitral_parameters parameters = mitral_defaults();
     parameters.opening = 0.25 * i;
@@ -143,8 +139,7 @@ static void area_is_the_oracles(void **state) {
   }
 }
 
-static void is_symmetric(void **state) {
-  (void)state;
+TEST(is_symmetric) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
     riis_surface *surface = mitral_surface(0.5 * i, 0.02);
@@ -155,8 +150,7 @@ static void is_symmetric(void **state) {
   }
 }
 
-static void leaflets_and_patches(void **state) {
-  (void)state;
+TEST(leaflets_and_patches) {
   static const int32_t mirrored[10] = {5, 4, 3, 2, 1, 0, 9, 8, 7, 6};
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
@@ -195,8 +189,7 @@ static void leaflets_and_patches(void **state) {
 
 /* An edge of only one triangle lies on the annulus or on the free edge of an open valve, or else, up to rounding, inside
  * another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
-static void has_no_cracks(void **state) {
-  (void)state;
+TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
     const double opening = 0.5 * i;
@@ -243,8 +236,7 @@ static void has_no_cracks(void **state) {
 }
 
 /* Closed leaflets meet in one polyline. Both leaflets have its vertices to the last bit. */
-static void closed_leaflets_share_their_edge(void **state) {
-  (void)state;
+TEST(closed_leaflets_share_their_edge) {
   riis_surface *surface = mitral_surface(0, 0.05);
   const riis_triangles c = triangles_of(surface);
   int n_shared = 0, n_of_edge = 0;
@@ -293,8 +285,7 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
  * tolerance, they become one line (docs/theory.md, section 2). At a joint of the annulus O has a kink. Next to it there is a
  * line only if the tolerance needs one. The least ratio of 3,840 valves was 0.4. (Triangles can still be flat: quads are
  * sheared where a leaflet's arcs meet its free edge at a small angle.) */
-static void has_no_slivers(void **state) {
-  (void)state;
+TEST(has_no_slivers) {
   random_source rng = random_start("test_mitral_surface");
   double least = 1e30;
   for (int trial = 0; trial < 60; ++trial) {
@@ -320,8 +311,7 @@ static void has_no_slivers(void **state) {
 }
 
 /* Downstream is the ventricle: below the closed valve, and around the open one. */
-static void normals_point_downstream(void **state) {
-  (void)state;
+TEST(normals_point_downstream) {
   riis_surface *closed = mitral_surface(0, 0.05), *open = mitral_surface(1, 0.05);
   assert_int_equal(closest_to(closed, 0, 0, -1).side, 1);
   assert_int_equal(closest_to(closed, 0, -1.2, -1).side, 1);
@@ -334,8 +324,7 @@ static void normals_point_downstream(void **state) {
 
 /* No point of the valve moves by more than about 2.6 times the change of the opening; the number is the oracle's. So at an
  * opening 1e-9 from either end, the surface has nearly the vertices of the surface at that end. */
-static void opens_continuously(void **state) {
-  (void)state;
+TEST(opens_continuously) {
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
   for (int i = 0; i < 2; ++i) {
     const int owned_before = n_owned();
@@ -351,8 +340,7 @@ static void opens_continuously(void **state) {
 }
 
 /* An update to a new opening gives the same surface as a new surface at that opening, to the last bit. */
-static void an_update_moves_the_valve(void **state) {
-  (void)state;
+TEST(an_update_moves_the_valve) {
   riis_valve *valve = mitral_valve(0);
   riis_surface *moving = new_surface(valve, NULL);
   for (int i = 0; i <= 10; ++i) {
@@ -376,8 +364,7 @@ static double area_of(const riis_valve *valve) {
 }
 
 /* If there is a second state, opening 0 is the first state and opening 1 the second. */
-static void opens_from_one_state_to_another(void **state) {
-  (void)state;
+TEST(opens_from_one_state_to_another) {
   const char *kinds[2] = {"aortic", "mitral"}, *names[2] = {"leaflet_radius_in", "AP_diameter"};
   const double values[2] = {0.9, 3.3};
   for (int i = 0; i < 2; ++i) {
@@ -410,8 +397,7 @@ static void opens_from_one_state_to_another(void **state) {
 }
 
 /* Half way between two aortic states the middle of each free edge is half way. */
-static void control_points_are_blended(void **state) {
-  (void)state;
+TEST(control_points_are_blended) {
   riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "right.leaflet_radius_in", 1.04));
   CHECK_OK(riis_valve_set_open_state(valve, open));
@@ -420,8 +406,7 @@ static void control_points_are_blended(void **state) {
   CHECK_AT_MOST(closest_to(surface, 0.75 * 0.24 + 0.25 * 1.04, 0, 0.02).distance, 1e-15);
 }
 
-static void refusals(void **state) {
-  (void)state;
+TEST(refusals) {
   riis_valve *valve = mitral_valve(0.5), *aortic = NULL;
   riis_surface *surface = NULL;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'opening' is 1.5|from 0 to 1", riis_valve_set_scalar(valve, "opening", 1.5));
@@ -467,23 +452,4 @@ static void refusals(void **state) {
   surface = new_surface(valve, NULL);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(parameters_are_the_papers),
-      cmocka_unit_test(every_parameter_matters),
-      cmocka_unit_test(numbers_of_the_model),
-      cmocka_unit_test(area_is_the_oracles),
-      cmocka_unit_test(is_symmetric),
-      cmocka_unit_test(leaflets_and_patches),
-      cmocka_unit_test(has_no_cracks),
-      cmocka_unit_test(closed_leaflets_share_their_edge),
-      cmocka_unit_test(has_no_slivers),
-      cmocka_unit_test(normals_point_downstream),
-      cmocka_unit_test(opens_continuously),
-      cmocka_unit_test(an_update_moves_the_valve),
-      cmocka_unit_test(opens_from_one_state_to_another),
-      cmocka_unit_test(control_points_are_blended),
-      cmocka_unit_test(refusals),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

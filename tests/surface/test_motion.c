@@ -127,8 +127,7 @@ static void random_placement(riis_surface_options *options) {
   options->rotation_angle = between(-180, 180);
 }
 
-static void triangles_are_those_of_a_plain_update(void **state) {
-  (void)state;
+TEST(triangles_are_those_of_a_plain_update) {
   static const int32_t threads[] = {0, 2, 3, 7};
   riis_surface *moving = new_surface(random_valve(0), NULL);
   for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
@@ -164,8 +163,7 @@ static void triangles_are_those_of_a_plain_update(void **state) {
   }
 }
 
-static void arrays_have_no_velocity(void **state) {
-  (void)state;
+TEST(arrays_have_no_velocity) {
   const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const int32_t ids[3] = {0, 1, 2};
   const riis_surface_arrays arrays = triangle_arrays(3, xyz, 1, ids);
@@ -195,8 +193,7 @@ static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
   return largest;
 }
 
-static void nothing_moves_where_nothing_changed(void **state) {
-  (void)state;
+TEST(nothing_moves_where_nothing_changed) {
   for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3);
@@ -218,8 +215,7 @@ static void nothing_moves_where_nothing_changed(void **state) {
 }
 
 /* One of three cusps moves, or one scallop of the mitral valve. */
-static void parts_at_rest_have_no_velocity(void **state) {
-  (void)state;
+TEST(parts_at_rest_have_no_velocity) {
   static const double turned[3] = {5, 3, 121}, of_non_coronary[3] = {0, 0, -121.5};
   riis_valve *valve = new_valve("aortic"), *before = copy_of(valve);
   CHECK_OK(riis_valve_set(before, "non_coronary.rotation", 3, of_non_coronary)); /* it no longer follows */
@@ -281,8 +277,7 @@ static void before_of(const riis_surface_options *now, const riis_surface_option
 }
 
 /* A valve at rest is translated, turned, scaled, or all three. */
-static void placements_move(void **state) {
-  (void)state;
+TEST(placements_move) {
   double worst = 0;
   for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
     const int owned_before = n_owned();
@@ -322,8 +317,7 @@ static void placements_move(void **state) {
 
 /* Control points are scaled by 1 + growth t and moved by drift t. Every point of the surface moves likewise, also with arc
  * length as parameter. The other state may be earlier or later. */
-static void patches_grow_and_drift(void **state) {
-  (void)state;
+TEST(patches_grow_and_drift) {
   double worst = 0;
   for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
     const int owned_before = n_owned();
@@ -352,8 +346,7 @@ static void patches_grow_and_drift(void **state) {
 }
 
 /* The same two states with a negative time give the opposite velocities, to the last bit. */
-static void time_goes_back(void **state) {
-  (void)state;
+TEST(time_goes_back) {
   for (int trial = 0; trial < fewer_if_sanitized(15); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
@@ -372,8 +365,7 @@ static void time_goes_back(void **state) {
 }
 
 /* A vertex moved back by its velocity is a point of the earlier surface, on the same patch at the same u and v. */
-static void vertices_come_from_their_place_before(void **state) {
-  (void)state;
+TEST(vertices_come_from_their_place_before) {
   double worst = 0, worst_uv = 0;
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
@@ -419,8 +411,7 @@ static void vertices_come_from_their_place_before(void **state) {
 }
 
 /* Speeds in steps of a thousandth equal those in steps of a fiftieth, where rounding and jumps hardly matter. */
-static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
-  (void)state;
+TEST(no_vertex_of_the_aortic_valve_is_an_outlier) {
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
   riis_surface *surface = new_surface(valve, NULL);
   double largest[2] = {0, 0};
@@ -438,8 +429,7 @@ static void no_vertex_of_the_aortic_valve_is_an_outlier(void **state) {
 
 /* --- Copies ---------------------------------------------------------------------------------------------------------- */
 
-static void a_copy_is_a_valve_of_its_own(void **state) {
-  (void)state;
+TEST(a_copy_is_a_valve_of_its_own) {
   for (int64_t kind = 0; kind < 3; ++kind) {
     riis_valve *valve = random_valve(kind), *none = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.3));
@@ -484,8 +474,7 @@ static void check_kept(const kept *k) {
   assert_memory_equal(k->values + 3 * c.n_vertices, k->velocity, (size_t)c.n_vertices * 3 * sizeof(double));
 }
 
-static void refusals_leave_the_surface_as_it_was(void **state) {
-  (void)state;
+TEST(refusals_leave_the_surface_as_it_was) {
   const strip shape = random_strip(1);
   riis_valve *aortic = random_valve(0), *before = copy_of(aortic), *mitral = random_valve(1),
              *patches = valve_of(&shape);
@@ -571,19 +560,6 @@ static void refusals_leave_the_surface_as_it_was(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(triangles_are_those_of_a_plain_update),
-      cmocka_unit_test(arrays_have_no_velocity),
-      cmocka_unit_test(nothing_moves_where_nothing_changed),
-      cmocka_unit_test(parts_at_rest_have_no_velocity),
-      cmocka_unit_test(placements_move),
-      cmocka_unit_test(patches_grow_and_drift),
-      cmocka_unit_test(time_goes_back),
-      cmocka_unit_test(vertices_come_from_their_place_before),
-      cmocka_unit_test(no_vertex_of_the_aortic_valve_is_an_outlier),
-      cmocka_unit_test(a_copy_is_a_valve_of_its_own),
-      cmocka_unit_test(refusals_leave_the_surface_as_it_was),
-  };
   rng = random_start("test_motion");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -30,8 +30,7 @@ static void check_table(const riis_opening_table *table, double time, double ope
   CHECK_NEAR(got_rate, rate, 1e-12);
 }
 
-static void a_linear_table_has_its_keys_and_right_hand_rates(void **state) {
-  (void)state;
+TEST(a_linear_table_has_its_keys_and_right_hand_rates) {
   const double time[] = {1, 2, 4}, opening[] = {0, 1, 0.5};
   const riis_opening_table table = table_of(3, time, opening);
   check_table(&table, 0, 0, 0);
@@ -44,8 +43,7 @@ static void a_linear_table_has_its_keys_and_right_hand_rates(void **state) {
   CHECK_OK(riis_opening_from_table(&table, 3, NULL, NULL));
 }
 
-static void a_periodic_table_repeats(void **state) {
-  (void)state;
+TEST(a_periodic_table_repeats) {
   const double time[] = {0, 0.25, 1}, opening[] = {0.2, 1, 0.2};
   for (int64_t n = 2; n <= 3; ++n) { /* with and without the last key, which repeats the first */
     for (int32_t interpolation = 0; interpolation <= 1; ++interpolation) {
@@ -69,8 +67,7 @@ static void a_periodic_table_repeats(void **state) {
 }
 
 /* 0.1 + 0.7 is below 0.8 in double precision. */
-static void rounding_of_a_period_does_not_matter(void **state) {
-  (void)state;
+TEST(rounding_of_a_period_does_not_matter) {
   const double time[] = {0.1, 0.4, 0.8}, opening[] = {0, 1, 0};
   riis_opening_table table = table_of(3, time, opening);
   table.period = 0.7;
@@ -115,8 +112,7 @@ static int64_t check_keys_of_periods(const riis_opening_table *table) {
   return n_at_keys;
 }
 
-static void a_key_has_the_rate_after_it_in_every_period(void **state) {
-  (void)state;
+TEST(a_key_has_the_rate_after_it_in_every_period) {
   enum { n_keys = 7, n_periods = 1003 };
   const double heart[] = {-0.08, -0.01, 0.15, 0.24, 0.42, 0.51, 0.65}, opening[] = {0, 0.1, 1, 0.7, 0.9, 0.3, 0.2};
   riis_opening_table table = table_of(n_keys, heart, opening);
@@ -133,8 +129,7 @@ static void a_key_has_the_rate_after_it_in_every_period(void **state) {
 }
 
 /* A last key counts as the first key of the next period, even if it misses the period's end by a billionth. */
-static void a_last_key_is_the_first_one_of_the_next_period(void **state) {
-  (void)state;
+TEST(a_last_key_is_the_first_one_of_the_next_period) {
   const double opening[] = {0.5, 1, 0.5};
   for (int sign = -1; sign <= 1; ++sign) {
     const double time[] = {0.25, 0.5, 1.25 + sign * 5e-10};
@@ -147,8 +142,7 @@ static void a_last_key_is_the_first_one_of_the_next_period(void **state) {
   }
 }
 
-static void a_table_that_ends_has_its_keys_within_rounding(void **state) {
-  (void)state;
+TEST(a_table_that_ends_has_its_keys_within_rounding) {
   const double time[] = {0.3, 0.7, 1.1}, opening[] = {0, 1, 0.5};
   const riis_opening_table table = table_of(3, time, opening);
   check_table(&table, nextafter(0.3, 0), 0, 2.5);
@@ -158,8 +152,7 @@ static void a_table_that_ends_has_its_keys_within_rounding(void **state) {
   check_table(&table, 0.7 - 2e-15, 1, 2.5);
 }
 
-static void a_cubic_table_is_monotone_and_its_rate_is_its_derivative(void **state) {
-  (void)state;
+TEST(a_cubic_table_is_monotone_and_its_rate_is_its_derivative) {
   for (int trial = 0; trial < 100; ++trial) {
     double time[12], opening[12];
     const int64_t n = 2 + (int64_t)(random_bits(&rng) % 11);
@@ -187,8 +180,7 @@ static void a_cubic_table_is_monotone_and_its_rate_is_its_derivative(void **stat
   }
 }
 
-static void bad_tables_are_refused(void **state) {
-  (void)state;
+TEST(bad_tables_are_refused) {
   double time[] = {0, 1, 2}, opening[] = {0, 1, 0}, got = 7;
   riis_opening_table table = table_of(3, time, opening);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "table", riis_opening_from_table(NULL, 0, &got, NULL));
@@ -240,8 +232,7 @@ static riis_opening_times some_times(void) {
   return times;
 }
 
-static void a_valve_opens_and_closes_at_its_times(void **state) {
-  (void)state;
+TEST(a_valve_opens_and_closes_at_its_times) {
   riis_opening_times times = some_times();
   const struct {
     double time, opening, rate;
@@ -269,8 +260,7 @@ static void a_valve_opens_and_closes_at_its_times(void **state) {
   CHECK_NEAR(opening, 0.1, 0);
 }
 
-static void bad_times_are_refused(void **state) {
-  (void)state;
+TEST(bad_times_are_refused) {
   double got;
   riis_opening_times times;
   CHECK_OK(riis_opening_times_init(&times, sizeof times));
@@ -308,8 +298,7 @@ static riis_opening_switch_state closed_switch(void) {
   return state;
 }
 
-static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
-  (void)state;
+TEST(a_switch_opens_by_pressure_and_closes_by_flow) {
   const riis_opening_switch law = some_switch();
   riis_opening_switch_state now = closed_switch();
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.01, -1, 5, &now));
@@ -337,8 +326,7 @@ static void a_switch_opens_by_pressure_and_closes_by_flow(void **state) {
 }
 
 /* A solver's steps may not hit the ramp's end exactly: by rounding, the sum of steps of 2 ms is slightly less than 0.04 s. */
-static void an_opening_rounds_to_at_most_one(void **state) {
-  (void)state;
+TEST(an_opening_rounds_to_at_most_one) {
   const riis_opening_switch law = some_switch();
   for (int i = 0; i < 4096; ++i) {
     riis_opening_switch_state now = closed_switch();
@@ -349,8 +337,7 @@ static void an_opening_rounds_to_at_most_one(void **state) {
   }
 }
 
-static void a_filter_and_a_dwell_keep_noise_out(void **state) {
-  (void)state;
+TEST(a_filter_and_a_dwell_keep_noise_out) {
   riis_opening_switch law = some_switch();
   law.filter_time = 0.01;
   riis_opening_switch_state now = closed_switch();
@@ -391,8 +378,7 @@ static void step_of_the_switch(void *state, double time) {
   CHECK_OK(riis_opening_switch_advance(&law, state, time, sin(20 * time), cos(21 * time), state));
 }
 
-static void a_restart_of_the_switch_has_the_same_bits(void **state) {
-  (void)state;
+TEST(a_restart_of_the_switch_has_the_same_bits) {
   riis_opening_switch_state one = closed_switch(), kept;
   check_restart(step_of_the_switch, &one, &kept, sizeof one);
 }
@@ -415,8 +401,7 @@ static riis_opening_angle_state angle_at_rest(void) {
   return state;
 }
 
-static void without_a_drive_friction_stops_the_leaflet(void **state) {
-  (void)state;
+TEST(without_a_drive_friction_stops_the_leaflet) {
   const riis_opening_angle law = aortic_angle();
   riis_opening_angle_state now = angle_at_rest();
   now.angle = 10;
@@ -430,8 +415,7 @@ static void without_a_drive_friction_stops_the_leaflet(void **state) {
 
 /* The pressure and the flow are constant. Explicit Euler with small steps in long double gives an independent answer, accurate
  * to first order. */
-static void the_angle_follows_the_published_equation(void **state) {
-  (void)state;
+TEST(the_angle_follows_the_published_equation) {
   for (int trial = 0; trial < 6; ++trial) {
     const riis_opening_angle law = aortic_angle();
     const double pressure = random_between(&rng, -0.4, 0.4), flow = random_between(&rng, -100, 200);
@@ -466,8 +450,7 @@ static double driven(int n) {
   return now.angle;
 }
 
-static void the_angle_is_second_order_in_the_step(void **state) {
-  (void)state;
+TEST(the_angle_is_second_order_in_the_step) {
   const double exact = driven(20000);
   double last = fabs(driven(10) - exact);
   for (int n = 20; n <= 160; n *= 2) {
@@ -478,8 +461,7 @@ static void the_angle_is_second_order_in_the_step(void **state) {
   }
 }
 
-static void the_angle_stays_between_its_stops(void **state) {
-  (void)state;
+TEST(the_angle_stays_between_its_stops) {
   riis_opening_angle law = aortic_angle();
   law.angle_min = 5;
   law.angle_max = 70;
@@ -495,8 +477,7 @@ static void the_angle_stays_between_its_stops(void **state) {
 }
 
 /* One pair of pressure and flow closes the valve, and the other pair opens it. */
-static void a_first_state_is_closed_whatever_the_law(void **state) {
-  (void)state;
+TEST(a_first_state_is_closed_whatever_the_law) {
   for (int sign = -1; sign <= 1; sign += 2) {
     riis_opening_angle law = aortic_angle();
     law.angle_min = 5;
@@ -517,14 +498,12 @@ static void step_of_the_angle(void *state, double time) {
   CHECK_OK(riis_opening_angle_advance(&law, state, time, sin(20 * time), 100 * cos(21 * time), state));
 }
 
-static void a_restart_of_the_angle_has_the_same_bits(void **state) {
-  (void)state;
+TEST(a_restart_of_the_angle_has_the_same_bits) {
   riis_opening_angle_state one = angle_at_rest(), kept;
   check_restart(step_of_the_angle, &one, &kept, sizeof one);
 }
 
-static void bad_laws_and_states_are_refused(void **state) {
-  (void)state;
+TEST(bad_laws_and_states_are_refused) {
   riis_opening_switch law;
   CHECK_OK(riis_opening_switch_init(&law, sizeof law));
   riis_opening_switch_state before = closed_switch(), now = closed_switch();
@@ -570,29 +549,6 @@ static void bad_laws_and_states_are_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_linear_table_has_its_keys_and_right_hand_rates),
-      cmocka_unit_test(a_periodic_table_repeats),
-      cmocka_unit_test(rounding_of_a_period_does_not_matter),
-      cmocka_unit_test(a_key_has_the_rate_after_it_in_every_period),
-      cmocka_unit_test(a_last_key_is_the_first_one_of_the_next_period),
-      cmocka_unit_test(a_table_that_ends_has_its_keys_within_rounding),
-      cmocka_unit_test(a_cubic_table_is_monotone_and_its_rate_is_its_derivative),
-      cmocka_unit_test(bad_tables_are_refused),
-      cmocka_unit_test(a_valve_opens_and_closes_at_its_times),
-      cmocka_unit_test(bad_times_are_refused),
-      cmocka_unit_test(a_switch_opens_by_pressure_and_closes_by_flow),
-      cmocka_unit_test(an_opening_rounds_to_at_most_one),
-      cmocka_unit_test(a_filter_and_a_dwell_keep_noise_out),
-      cmocka_unit_test(a_restart_of_the_switch_has_the_same_bits),
-      cmocka_unit_test(without_a_drive_friction_stops_the_leaflet),
-      cmocka_unit_test(the_angle_follows_the_published_equation),
-      cmocka_unit_test(the_angle_is_second_order_in_the_step),
-      cmocka_unit_test(the_angle_stays_between_its_stops),
-      cmocka_unit_test(a_first_state_is_closed_whatever_the_law),
-      cmocka_unit_test(a_restart_of_the_angle_has_the_same_bits),
-      cmocka_unit_test(bad_laws_and_states_are_refused),
-  };
   rng = random_start("test_opening_laws");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

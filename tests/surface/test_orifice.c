@@ -70,8 +70,7 @@ static double squared_distance_to(const double *p, const double corner[3][2]) {
 
 /* The area of the orifice in a disc is compared with the share of points that no triangle covers. The effective area is compared
  * with the share of points that are also not near a triangle. */
-static void areas_are_counts_of_points(void **state) {
-  (void)state;
+TEST(areas_are_counts_of_points) {
   enum { n_side = 121 };
   for (int trial = 0; trial < n_trials(); ++trial) {
     const int kind = trial % n_kinds;
@@ -184,8 +183,7 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
 
 /* Orifices are compared with those of turned lines. They must also stay within 0.1 % of the numbers that the program measured
  * before the library did. */
-static void orifices_are_those_of_turned_lines(void **state) {
-  (void)state;
+TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double before[n_kinds][5] = {{0.885854, 1.550407, 2.278302, 3.061292, 3.887267},
                                             {0, 1.166893, 2.597702, 4.292761, 6.251734},
@@ -209,8 +207,7 @@ static void orifices_are_those_of_turned_lines(void **state) {
 }
 
 /* If the edge moves inwards, the area shrinks by the distance times the perimeter. */
-static void perimeters_are_derivatives_of_areas(void **state) {
-  (void)state;
+TEST(perimeters_are_derivatives_of_areas) {
   for (int trial = 0; trial < n_trials(); ++trial) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);
     const riis_resistance how = resistance(0.1, RIIS_RIM_ROUND);
@@ -235,8 +232,7 @@ static void perimeters_are_derivatives_of_areas(void **state) {
 }
 
 /* A placement multiplies the areas of the orifice by the square of the scale. */
-static void placements_keep_orifices(void **state) {
-  (void)state;
+TEST(placements_keep_orifices) {
   for (int trial = 0; trial < n_trials() + 2; ++trial) {
     const riis_valve *valve = valve_at(trial % n_kinds, trial < n_kinds ? 1 : between(0.2, 1));
     riis_surface_options options = surface_options();
@@ -274,8 +270,7 @@ static riis_leaflet leaflet_of(const riis_surface *surface, int64_t leaflet) {
   return made;
 }
 
-static void leaflets_share_the_surface(void **state) {
-  (void)state;
+TEST(leaflets_share_the_surface) {
   for (int trial = 0; trial < n_trials(); ++trial) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, trial < n_kinds ? 0 : between(0, 1)), NULL);
     const riis_surface_info info = info_of(surface);
@@ -303,8 +298,7 @@ static void leaflets_share_the_surface(void **state) {
   CHECK_NEAR(leaflet_of(surface_of(&square, NULL), 0).free_edge, 1, 1e-15);
 }
 
-static void leaks_are_ideal(void **state) {
-  (void)state;
+TEST(leaks_are_ideal) {
   for (int trial = 0; trial < 10; ++trial) {
     riis_surface_options options = surface_options();
     options.half_thickness = between(0.05, 0.2);
@@ -334,8 +328,7 @@ static void leaks_are_ideal(void **state) {
   }
 }
 
-static void wrong_calls_are_refused(void **state) {
-  (void)state;
+TEST(wrong_calls_are_refused) {
   riis_orifice orifice;
   riis_surface *surface = surface_of_kind("mitral", NULL);
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL",
@@ -383,8 +376,7 @@ static void wrong_calls_are_refused(void **state) {
 }
 
 /* Two patches hang on arches in a plane through the axis, so their outline is seen edge on. Placements round its coordinates. */
-static void outlines_seen_edge_on_are_none(void **state) {
-  (void)state;
+TEST(outlines_seen_edge_on_are_none) {
   shape wings = {0};
   for (int side = -1; side <= 1; side += 2) {
     const double arch[3][3] = {{-1, 0, 0}, {0, 0, side}, {1, 0, 0}};
@@ -412,15 +404,5 @@ static void outlines_seen_edge_on_are_none(void **state) {
 
 int main(void) {
   rng = random_start("test_orifice");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(areas_are_counts_of_points),
-      cmocka_unit_test(orifices_are_those_of_turned_lines),
-      cmocka_unit_test(perimeters_are_derivatives_of_areas),
-      cmocka_unit_test(placements_keep_orifices),
-      cmocka_unit_test(leaflets_share_the_surface),
-      cmocka_unit_test(leaks_are_ideal),
-      cmocka_unit_test(wrong_calls_are_refused),
-      cmocka_unit_test(outlines_seen_edge_on_are_none),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -87,8 +87,7 @@ static double length_of_commissure(const riis_surface *surface) {
 
 /* A valve's triangles, given as arrays, have the valve's free edges. Patches have vertices inside the edges of their neighbours,
  * and these edges are no boundary. The attachment is the outline. */
-static void arrays_have_the_edges_of_their_valve(void **state) {
-  (void)state;
+TEST(arrays_have_the_edges_of_their_valve) {
   static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
   for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
     const int owned_before = n_owned(), kind = trial % 3;
@@ -154,8 +153,7 @@ static riis_surface *band(double low, double high, const riis_surface_options *o
   return surface_from(&arrays, options);
 }
 
-static void bands_have_the_orifice_of_their_narrow_end(void **state) {
-  (void)state;
+TEST(bands_have_the_orifice_of_their_narrow_end) {
   for (int trial = 0; trial < 4; ++trial) {
     const double high = between(0.5, 0.95), pi = acos(-1);
     riis_surface_options options = oblique();
@@ -184,8 +182,7 @@ static void bands_have_the_orifice_of_their_narrow_end(void **state) {
 }
 
 /* Keyframes give the same numbers as arrays with the same vertices. */
-static void keyframes_have_the_orifice_of_their_arrays(void **state) {
-  (void)state;
+TEST(keyframes_have_the_orifice_of_their_arrays) {
   riis_valve *valve = new_valve("mitral");
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
@@ -236,8 +233,7 @@ static riis_surface *plates(double w, double turn, double x, double z, const rii
   return surface_from(&arrays, options);
 }
 
-static void contacts_have_known_areas(void **state) {
-  (void)state;
+TEST(contacts_have_known_areas) {
   for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     const riis_surface_options options = oblique();
     const double s = options.scale, reach = between(0.05, 0.2), w = between(1, 2);
@@ -265,8 +261,7 @@ static void contacts_have_known_areas(void **state) {
 
 /* Closed trileaflet cusps touch along all of their free edges. Open ones touch only near the commissures. A skirt and a housing
  * touch nothing. */
-static void closed_leaflets_touch_along_their_free_edges(void **state) {
-  (void)state;
+TEST(closed_leaflets_touch_along_their_free_edges) {
   for (int trial = 0; trial < 2; ++trial) {
     riis_valve *valve = new_valve("trileaflet");
     riis_surface_options options = oblique();
@@ -312,13 +307,4 @@ static int start(void **state) {
   return 0;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(arrays_have_the_edges_of_their_valve),
-      cmocka_unit_test(bands_have_the_orifice_of_their_narrow_end),
-      cmocka_unit_test(keyframes_have_the_orifice_of_their_arrays),
-      cmocka_unit_test(contacts_have_known_areas),
-      cmocka_unit_test(closed_leaflets_touch_along_their_free_edges),
-  };
-  return cmocka_run_group_tests(tests, start, NULL);
-}
+int main(void) { return run_cases(start, NULL); }

@@ -25,8 +25,7 @@
     REFUSED(status, parts);                       \
   } while (0)
 
-static void nulls_are_named(void **state) {
-  (void)state;
+TEST(nulls_are_named) {
   shape square = unit_square();
   arrays_of_shape arrays;
   riis_valve *valve = valve_from(&square), *none = NULL;
@@ -44,15 +43,13 @@ static void nulls_are_named(void **state) {
                 riis_valve_set_open_state((void *)surface, valve));
 }
 
-static void null_arrays_are_named(void **state) {
-  (void)state;
+TEST(null_arrays_are_named) {
   CHANGED_IS_REFUSED(arrays.patches.degree = NULL, RIIS_INVALID_ARGUMENT, "patches.degree is NULL");
   CHANGED_IS_REFUSED(arrays.patches.control = NULL, RIIS_INVALID_ARGUMENT, "patches.control is NULL");
   CHANGED_IS_REFUSED(arrays.patches.curve_id = NULL, RIIS_INVALID_ARGUMENT, "patches.curve_id is NULL");
 }
 
-static void struct_sizes_are_checked(void **state) {
-  (void)state;
+TEST(struct_sizes_are_checked) {
   static const int64_t sizes[] = {-72, 0, 8, 64, 71, 73, 80, INT64_MIN, INT64_MAX};
   shape square = unit_square();
   arrays_of_shape arrays;
@@ -69,8 +66,7 @@ static void struct_sizes_are_checked(void **state) {
   }
 }
 
-static void counts_are_checked(void **state) {
-  (void)state;
+TEST(counts_are_checked) {
   CHANGED_IS_REFUSED(arrays.patches.n_curves = 0, RIIS_INVALID_ARGUMENT, "patches.n_curves is 0;|from 1 to 4000000");
   CHANGED_IS_REFUSED(arrays.patches.n_curves = -1, RIIS_INVALID_ARGUMENT, "patches.n_curves is -1;");
   CHANGED_IS_REFUSED(arrays.patches.n_curves = 4000001, RIIS_INVALID_ARGUMENT, "patches.n_curves is 4000001;");
@@ -87,8 +83,7 @@ static void counts_are_checked(void **state) {
   CHANGED_IS_REFUSED(arrays.patches.reserved = 1, RIIS_INVALID_ARGUMENT, "patches.reserved is 1; it must be 0");
 }
 
-static void curves_are_checked(void **state) {
-  (void)state;
+TEST(curves_are_checked) {
   CHANGED_IS_REFUSED(square.degree[2] = 0, RIIS_INVALID_PARAMETER, "degree of curve 2 is 0; it must be 1, 2 or 3");
   CHANGED_IS_REFUSED(square.degree[2] = 4, RIIS_INVALID_PARAMETER, "degree of curve 2 is 4;");
   CHANGED_IS_REFUSED(square.degree[0] = -1, RIIS_INVALID_PARAMETER, "degree of curve 0 is -1;");
@@ -102,8 +97,7 @@ static void curves_are_checked(void **state) {
                      "y of control point 0 of curve 2 is -1");
 }
 
-static void sides_are_checked(void **state) {
-  (void)state;
+TEST(sides_are_checked) {
   CHANGED_IS_REFUSED(square.curve_id[2] = -1, RIIS_INVALID_PARAMETER,
                      "side u = 0 of patch 0 is curve -1; there are curves 0 to 3");
   CHANGED_IS_REFUSED(square.curve_id[0] = 4, RIIS_INVALID_PARAMETER, "side v = 0 of patch 0 is curve 4;|0 to 3");
@@ -125,8 +119,7 @@ static void sides_are_checked(void **state) {
                      "side u = 1 of patch 1 is curve 7");
 }
 
-static void sides_have_to_meet(void **state) {
-  (void)state;
+TEST(sides_have_to_meet) {
   CHANGED_IS_REFUSED(
       arrays.control[3] = 1.5, RIIS_INVALID_PARAMETER,
       "patch 0 does not close: side v = 0 ends in (1.5, 0, 0), side u = 1 begins in (1, 0, 0);|reverse it");
@@ -146,8 +139,7 @@ static void sides_have_to_meet(void **state) {
   CHECK_NEAR(info_of(surface).area, 1, 1e-8);
 }
 
-static void open_states_are_built_alike(void **state) {
-  (void)state;
+TEST(open_states_are_built_alike) {
   const shape square = unit_square();
   shape raised = square;
   for (int i = 0; i < 4; ++i)
@@ -184,8 +176,7 @@ static void open_states_are_built_alike(void **state) {
   CHECK_SAME(info_of(surface).lower[2], 1);
 }
 
-static void opening_and_skirt_are_the_parameters(void **state) {
-  (void)state;
+TEST(opening_and_skirt_are_the_parameters) {
   const shape square = unit_square();
   riis_valve *valve = valve_from(&square), *none = NULL;
   riis_parameter parameter;
@@ -212,8 +203,7 @@ static void opening_and_skirt_are_the_parameters(void **state) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "root_radius", riis_valve_get(valve, "root_radius", 1, &value));
 }
 
-static void patches_without_area_make_no_surface(void **state) {
-  (void)state;
+TEST(patches_without_area_make_no_surface) {
   shape flat = unit_square(); /* each attempt shrinks it: to a line, to a point, or to nearly nothing */
   for (int attempt = 0; attempt < 3; ++attempt) {
     const int owned_before = n_owned();
@@ -231,8 +221,7 @@ static void patches_without_area_make_no_surface(void **state) {
 }
 
 /* A crescent that is much thinner than the tolerance does not vanish: its sides are refined until they are not the same chord. */
-static void a_patch_thinner_than_the_tolerance_stays(void **state) {
-  (void)state;
+TEST(a_patch_thinner_than_the_tolerance_stays) {
   for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
     const int owned_before = n_owned();
     shape made = unit_square();
@@ -259,8 +248,7 @@ static void a_patch_thinner_than_the_tolerance_stays(void **state) {
   }
 }
 
-static void a_curve_without_a_patch_is_refused(void **state) {
-  (void)state;
+TEST(a_curve_without_a_patch_is_refused) {
   shape made = unit_square();
   add_line(&made, 0, 0, 0, 1e9, 0, 0);
   arrays_of_shape arrays;
@@ -270,20 +258,4 @@ static void a_curve_without_a_patch_is_refused(void **state) {
                 riis_valve_create_from_patches(&arrays.patches, &valve));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(nulls_are_named),
-      cmocka_unit_test(null_arrays_are_named),
-      cmocka_unit_test(struct_sizes_are_checked),
-      cmocka_unit_test(counts_are_checked),
-      cmocka_unit_test(curves_are_checked),
-      cmocka_unit_test(sides_are_checked),
-      cmocka_unit_test(sides_have_to_meet),
-      cmocka_unit_test(open_states_are_built_alike),
-      cmocka_unit_test(opening_and_skirt_are_the_parameters),
-      cmocka_unit_test(patches_without_area_make_no_surface),
-      cmocka_unit_test(a_patch_thinner_than_the_tolerance_stays),
-      cmocka_unit_test(a_curve_without_a_patch_is_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -276,8 +276,7 @@ static void check_summary(const soup *s, const riis_crossing_list *crossings) {
   }
 }
 
-static void pairs_equal_those_of_all_triangles(void **state) {
-  (void)state;
+TEST(pairs_equal_those_of_all_triangles) {
   static void (*const kinds[])(soup *) = {add_random, add_whole_numbers, add_touching, add_in_plane, add_sheets};
   enum { n_kinds = sizeof kinds / sizeof *kinds };
   const int n_trials = n_kinds * (is_long_test() ? 5000 : 100);
@@ -324,8 +323,7 @@ static int same_summary(const riis_crossing_list *a, const riis_crossing_list *b
   return a->n_pairs == b->n_pairs && memcmp((const char *)a + from, (const char *)b + from, to - from) == 0;
 }
 
-static void threads_find_the_same(void **state) {
-  (void)state;
+TEST(threads_find_the_same) {
   soup *s = own(malloc(sizeof *s));
   s->n_vertices = s->n_triangles = 0;
   for (int32_t k = 0; k < 2; ++k) add_sheet(s, 17, k, 1);
@@ -350,8 +348,7 @@ static void threads_find_the_same(void **state) {
 /* Unit squares at right angles cross along a segment of a whole side's length. Each triangle of one square crosses one triangle
  * of the other. The shortest way to separate two triangles is to move a corner across the other's diagonal: half a side times sin
  * 45 degrees. */
-static void unit_squares_cross_along_one_unit(void **state) {
-  (void)state;
+TEST(unit_squares_cross_along_one_unit) {
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, -0.5, 0.5, 1, -0.5, 0.5, 1, 0.5, 0.5, 0, 0.5};
   const int32_t ids[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
   int32_t leaflet_id[] = {0, 0, 7, 7};
@@ -376,8 +373,7 @@ static void unit_squares_cross_along_one_unit(void **state) {
 }
 
 /* A tip goes through a floor by a known depth. The limit is given in half thicknesses. */
-static void a_tip_crosses_beyond_the_limit(void **state) {
-  (void)state;
+TEST(a_tip_crosses_beyond_the_limit) {
   for (int i = -2; i <= 2; ++i) {
     const double through = 0.25e-4 * (1 + 0.01 * i);
     const double xyz[] = {-9, -9, 0, 9, -9, 0, 0, 9, 0, 0, 0, -through, -1, 0, 1, 1, 0, 1};
@@ -395,8 +391,7 @@ static void a_tip_crosses_beyond_the_limit(void **state) {
 }
 
 /* Triangles without area keep their ids. An update of the surface and a refused search leave the pairs as they were. */
-static void pairs_stay_until_the_next_search(void **state) {
-  (void)state;
+TEST(pairs_stay_until_the_next_search) {
   const double xyz[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0, 0, 0, -1, -1, 0, 1, 1, 0, 1};
   const int32_t ids[] = {0, 0, 1, 0, 1, 2, 1, 1, 1, 3, 4, 5};
   const riis_surface_arrays arrays = triangle_arrays(6, xyz, 4, ids);
@@ -422,8 +417,7 @@ static void pairs_stay_until_the_next_search(void **state) {
   assert_int_equal(after.triangle_id[1], 3);
 }
 
-static void bad_arguments_are_refused_by_name(void **state) {
-  (void)state;
+TEST(bad_arguments_are_refused_by_name) {
   riis_surface *surface = surface_of_kind("mitral", NULL);
   riis_crossing_options options;
   riis_crossings *crossings = new_crossings();
@@ -453,8 +447,7 @@ static void bad_arguments_are_refused_by_name(void **state) {
 }
 
 /* The library's default states do not cross at any opening, for any kind of valve. */
-static void valves_do_not_cross(void **state) {
-  (void)state;
+TEST(valves_do_not_cross) {
   static const char *const kinds[] = {"aortic", "trileaflet", "bileaflet", "mitral", "coapting"};
   for (int kind = 0; kind < 5; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]);
@@ -471,8 +464,7 @@ static void valves_do_not_cross(void **state) {
 
 /* The closed leaflets of the mitral valve touch. Fixed triangles of such leaflets may cross by twice the error bound. The depth
  * at opening 0 is printed, for docs/theory.md. */
-static void fixed_triangles_cross_within_their_error(void **state) {
-  (void)state;
+TEST(fixed_triangles_cross_within_their_error) {
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
   riis_valve *valve = new_valve("mitral");
@@ -496,8 +488,7 @@ static void fixed_triangles_cross_within_their_error(void **state) {
 
 /* A cusp that is turned by 60 degrees goes through its neighbours. Other methods of measuring distances use the same
  * triangles. */
-static void a_turned_cusp_crosses(void **state) {
-  (void)state;
+TEST(a_turned_cusp_crosses) {
   riis_valve *valve = new_valve("aortic");
   const double turned[3] = {0, 0, 60};
   double rotation[3];
@@ -518,16 +509,5 @@ static void a_turned_cusp_crosses(void **state) {
 
 int main(void) {
   rng = random_start("test_self_crossings");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(pairs_equal_those_of_all_triangles),
-      cmocka_unit_test(threads_find_the_same),
-      cmocka_unit_test(unit_squares_cross_along_one_unit),
-      cmocka_unit_test(a_tip_crosses_beyond_the_limit),
-      cmocka_unit_test(pairs_stay_until_the_next_search),
-      cmocka_unit_test(bad_arguments_are_refused_by_name),
-      cmocka_unit_test(valves_do_not_cross),
-      cmocka_unit_test(fixed_triangles_cross_within_their_error),
-      cmocka_unit_test(a_turned_cusp_crosses),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

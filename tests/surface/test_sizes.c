@@ -202,8 +202,7 @@ static const char *const kinds[] = {"trileaflet", "aortic", "mitral", "bileaflet
 /* --- Rules -------------------------------------------------------------------------------------------------------------- */
 
 /* If nothing is set, or the defaults are set, all values have the bits of the defaults. */
-static void rules_give_the_defaults(void **state) {
-  (void)state;
+TEST(rules_give_the_defaults) {
   for (int k = 0; k < 4; ++k) {
     const model of = new_model(kinds[k]);
     riis_valve *valve = new_valve(kinds[k]);
@@ -230,8 +229,7 @@ static void rules_give_the_defaults(void **state) {
 }
 
 /* The same settings in any order give the same values, and so the same surface or the same refusal. */
-static void order_does_not_matter(void **state) {
-  (void)state;
+TEST(order_does_not_matter) {
   int n_surfaces = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const int owned_before = n_owned();
@@ -288,8 +286,7 @@ static void order_does_not_matter(void **state) {
 }
 
 /* Values are set, unset and set for all cusps. The valve is copied. A failed call changes nothing. */
-static void random_calls_are_as_the_model(void **state) {
-  (void)state;
+TEST(random_calls_are_as_the_model) {
   for (int trial = 0; trial < 40; ++trial) {
     const int owned_before = n_owned();
     model of = new_model(kinds[trial % 4]);
@@ -333,8 +330,7 @@ static void random_calls_are_as_the_model(void **state) {
 }
 
 /* A valve that was given all values of another valve has its shape, but its parameters no longer follow. */
-static void all_values_are_set_when_read_back(void **state) {
-  (void)state;
+TEST(all_values_are_set_when_read_back) {
   riis_valve *valve = new_valve("trileaflet"), *back = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "annulus", 2.3));
   CHECK_OK(riis_valve_set_scalar(valve, "effective_height", 1.1));
@@ -358,8 +354,7 @@ static void all_values_are_set_when_read_back(void **state) {
 }
 
 /* An open state keeps the values that followed when it was given, as if all were set. */
-static void open_states_follow_their_own_rules(void **state) {
-  (void)state;
+TEST(open_states_follow_their_own_rules) {
   riis_valve *valves[2], *open = new_valve("trileaflet"), *all_set = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.6));
   for (int64_t i = 0; i < n_parameters_of(open); ++i) {
@@ -383,8 +378,7 @@ static void open_states_follow_their_own_rules(void **state) {
 
 /* --- Names -------------------------------------------------------------------------------------------------------------- */
 
-static void names_of_surgeons(void **state) {
-  (void)state;
+TEST(names_of_surgeons) {
   static const struct {
     const char *kind, *name, *parameter;
     double factor;
@@ -436,8 +430,7 @@ static void names_of_surgeons(void **state) {
   assert_int_equal(n_named, n);
 }
 
-static void names_of_all_cusps(void **state) {
-  (void)state;
+TEST(names_of_all_cusps) {
   riis_valve *valve = new_valve("aortic");
   double value = 7;
   int32_t found = 7;
@@ -457,8 +450,7 @@ static void names_of_all_cusps(void **state) {
   CHECK_SAME(value_of(valve, "left.leaflet_radius_out"), 1.495);
 }
 
-static void absent_names_are_refused(void **state) {
-  (void)state;
+TEST(absent_names_are_refused) {
   static const struct {
     const char *kind, *name, *text;
   } table[] = {
@@ -501,8 +493,7 @@ static void absent_names_are_refused(void **state) {
   }
 }
 
-static void other_refusals(void **state) {
-  (void)state;
+TEST(other_refusals) {
   riis_valve *valve = new_valve("trileaflet"), *open = new_valve("trileaflet");
   riis_surface *surface = NULL;
   const double two[2] = {1, 1};
@@ -571,8 +562,7 @@ static crossing worst_crossing(riis_valve *valve, const riis_surface_options *op
 }
 
 /* The ranges contain the sizes of all sources in docs/theory.md. Half of the valves are placed obliquely, in another unit. */
-static void trileaflet_cusps_do_not_cross(void **state) {
-  (void)state;
+TEST(trileaflet_cusps_do_not_cross) {
   const int n = is_long_test() ? 350 : 10;
   int n_crossing = 0;
   for (int trial = 0; trial < n; ++trial) {
@@ -602,8 +592,7 @@ static void trileaflet_cusps_do_not_cross(void **state) {
 }
 
 /* With sizes that do not follow, as before the rules, a tall valve crosses. So the search finds crossings. */
-static void sizes_that_do_not_follow_cross(void **state) {
-  (void)state;
+TEST(sizes_that_do_not_follow_cross) {
   riis_valve *valve = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
   assert_int_equal(worst_crossing(valve, NULL).n_pairs, 0);
@@ -747,8 +736,7 @@ static int cusp_folds(riis_valve *valve) {
 
 /* The attachment of this left cusp hardly leaves the symmetry plane at the root, but does not turn back. When the valve is open,
  * the cusp folds beside its attachment, and its finer triangles also cross. */
-static void an_open_cusp_may_fold(void **state) {
-  (void)state;
+TEST(an_open_cusp_may_fold) {
   static const struct {
     const char *name;
     double value;
@@ -803,8 +791,7 @@ static void an_open_cusp_may_fold(void **state) {
 }
 
 /* With these bending angles, the attachments of the right and of the left cusp pass each other, and nothing else is wrong. */
-static void passing_attachments_cross(void **state) {
-  (void)state;
+TEST(passing_attachments_cross) {
   riis_valve *valve = new_valve("aortic");
   for (int passes = 0; passes < 2; ++passes) {
     const double angles[2] = {passes ? 62 : 54, passes ? 57 : 53};
@@ -822,8 +809,7 @@ static void passing_attachments_cross(void **state) {
 }
 
 /* Four causes explain every valve that crosses, and a valve whose leaflet_power is not set rarely has one of them. */
-static void aortic_cusps_rarely_cross(void **state) {
-  (void)state;
+TEST(aortic_cusps_rarely_cross) {
   const int n = is_long_test() ? 300 : 6;
   for (int power = follows; power <= any_power; ++power)
     for (int percent = 10; percent <= (is_long_test() ? 20 : 10); percent += 10) {
@@ -864,21 +850,5 @@ static void aortic_cusps_rarely_cross(void **state) {
 
 int main(void) {
   rng = random_start("test_sizes");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rules_give_the_defaults),
-      cmocka_unit_test(order_does_not_matter),
-      cmocka_unit_test(random_calls_are_as_the_model),
-      cmocka_unit_test(all_values_are_set_when_read_back),
-      cmocka_unit_test(open_states_follow_their_own_rules),
-      cmocka_unit_test(names_of_surgeons),
-      cmocka_unit_test(names_of_all_cusps),
-      cmocka_unit_test(absent_names_are_refused),
-      cmocka_unit_test(other_refusals),
-      cmocka_unit_test(trileaflet_cusps_do_not_cross),
-      cmocka_unit_test(sizes_that_do_not_follow_cross),
-      cmocka_unit_test(an_open_cusp_may_fold),
-      cmocka_unit_test(passing_attachments_cross),
-      cmocka_unit_test(aortic_cusps_rarely_cross),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

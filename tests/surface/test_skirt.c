@@ -108,8 +108,7 @@ static void outwards_from(const axis_line *axis, const double *p, double *out) {
 static int n_trials_of_kinds(void) { return is_sanitized() ? n_skirted : 2 * n_skirted; }
 
 /* Checks the vertices of both edges of the skirt. */
-static void the_outer_edge_is_the_length_away(void **state) {
-  (void)state;
+TEST(the_outer_edge_is_the_length_away) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
     const double length = between(0.02, 0.3);
@@ -167,8 +166,7 @@ static void the_outer_edge_is_the_length_away(void **state) {
 }
 
 /* The skirt comes after the leaflets, which stay as they are. */
-static void leaflets_stay_as_they_are(void **state) {
-  (void)state;
+TEST(leaflets_stay_as_they_are) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     const double opening = trial < n_skirted ? 0 : between(0, 1);
@@ -205,8 +203,7 @@ static void leaflets_stay_as_they_are(void **state) {
 
 /* Along the attachment, the edges of the leaflets and those of the skirt run in opposite directions. So normals point the same
  * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
-static void the_skirt_continues_the_leaflets(void **state) {
-  (void)state;
+TEST(the_skirt_continues_the_leaflets) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
     riis_valve *valve = skirted_valve(kind, between(0.05, 0.2), trial % 2 ? between(0, 1) : 0);
@@ -239,8 +236,7 @@ static void the_skirt_continues_the_leaflets(void **state) {
   }
 }
 
-static void skirts_cross_nothing(void **state) {
-  (void)state;
+TEST(skirts_cross_nothing) {
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
@@ -265,8 +261,7 @@ static void skirts_cross_nothing(void **state) {
 }
 
 /* The side of a point beside the skirt follows the skirt's normals. */
-static void sides_are_right_beside_the_skirt(void **state) {
-  (void)state;
+TEST(sides_are_right_beside_the_skirt) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_surface_options options = random_placement(trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
@@ -334,8 +329,7 @@ static int leaks(const riis_surface *surface, const test_mesh *nodes) {
 
 /* The closed valve stands in a mesh whose wall is a gap away from the attachment. A skirt as long as the gap closes it. The
  * closed aortic valve is left out: it leaks in such a mesh even if the wall cuts its attachment. */
-static void skirts_seal_gaps(void **state) {
-  (void)state;
+TEST(skirts_seal_gaps) {
   static const double gaps[4] = {0.05, 0.1, 0.15, 0.2};
   for (int kind = 0; kind < 4; kind += kind == 1 ? 2 : 1)
     for (int i = 0; i < 4; ++i) {
@@ -392,8 +386,7 @@ static double longer_side(const riis_triangles *t, const double *xyz, int32_t pa
 
 /* With a fixed triangulation, a vertex is displaced by its velocity times the step, and by its slide. It slides because its label
  * changes: the lines of mitral patches move with the joints of the annulus. The velocity is that of a label. */
-static void skirts_move_with_the_attachment(void **state) {
-  (void)state;
+TEST(skirts_move_with_the_attachment) {
   const double seconds = 0.1;
   for (int trial = 0; trial <= n_skirted; ++trial) {
     const int owned_before = n_owned();
@@ -511,45 +504,6 @@ static riis_gap gap_between(const riis_surface *surface, const riis_surface *wal
   return gap;
 }
 
-/* A wall that cuts the valve is nearer than the attachment in some places. The skirt is then thin there, and longer in others. */
-static void skirts_to_cutting_walls_cross_nothing(void **state) {
-  (void)state;
-  static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
-  static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
-  const int n_trials = is_long_test() ? 400 : 8;
-  riis_crossings *crossings = NULL;
-  CHECK_OK(riis_crossings_create(&crossings));
-  own(crossings);
-  int n_cut = 0;
-  for (int trial = 0; trial < n_trials; ++trial) {
-    const int owned_before = n_owned();
-    riis_surface_options options = random_placement(RIIS_TRIANGULATION_ADAPTED);
-    riis_valve *valve = new_valve(kinds[trial % 4]);
-    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
-    const riis_surface *bare = new_surface(valve, &options);
-    const axis_line axis = axis_of(bare, as_kind[trial % 4], &options);
-    tube_wall round = tube_around(bare, &axis, options.scale);
-    round.radius -= between(0.05, 0.2) * options.scale;
-    const riis_surface *wall = wall_from(&round);
-    const riis_gap gap = gap_between(bare, wall, NULL);
-    n_cut += gap.least < 0 && gap.most > 0;
-    CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 9 * options.scale, &options));
-    for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
-      const int owned_in_trial = n_owned();
-      CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
-      const riis_surface *surface = new_surface(valve, &options);
-      const pair_counts counts = crossings_of(surface, crossings);
-      if (counts.of_skirt + counts.of_own > 0)
-        fail_msg("%s, opening %g: %d pairs with the skirt cross, gap %g to %g", kinds[trial % 4], 0.1 * i,
-                 (int)(counts.of_skirt + counts.of_own), gap.least, gap.most);
-      free_owned_after(owned_in_trial);
-    }
-    free_owned_after(owned_before);
-  }
-  printf("%d of %d walls cut the valve\n", n_cut, n_trials);
-  assert_true(n_cut > n_trials / 4);
-}
-
 /* Puts landmark n on a random vertex of the attachment, and its target at most `most` away along each axis. Returns how many
  * landmarks it made: none if the vertex is near an earlier landmark. */
 static int add_landmark(const riis_attachment *held, int n, double most, double *sources, double *targets) {
@@ -559,57 +513,6 @@ static int add_landmark(const riis_attachment *held, int n, double most, double 
   if (nearest < 0.25) return 0;
   for (int c = 0; c < 3; ++c) sources[3 * n + c] = p[c], targets[3 * n + c] = p[c] + between(-most, most);
   return 1;
-}
-
-/* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. If a violent warp
- * lets the cusps themselves go through each other, the skirt is not judged. Nor is a patch that such a warp folds onto its own
- * skirt. */
-static void skirts_of_warped_cusps_cross_nothing(void **state) {
-  (void)state;
-  const int n_trials = is_long_test() ? 100 : 6;
-  int n_states = 0, n_judged = 0, n_own = 0;
-  riis_crossings *crossings = NULL;
-  CHECK_OK(riis_crossings_create(&crossings));
-  own(crossings);
-  for (int trial = 0; trial < n_trials; ++trial) {
-    const int owned_before = n_owned();
-    riis_valve *valve = skirted_valve(2, 0, 0);
-    const riis_attachment held = attachment_of(new_surface(valve, NULL));
-    double sources[3 * 12], targets[3 * 12];
-    int n = 0;
-    while (n < 12) n += add_landmark(&held, n, 0.09, sources, targets);
-    riis_points from, to;
-    CHECK_OK(riis_points_init(&from, sizeof from));
-    from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;
-    to = from, to.x = targets, to.y = targets + 1, to.z = targets + 2;
-    riis_warp *warp = NULL;
-    CHECK_OK(riis_warp_create(&from, NULL, &warp));
-    own(warp);
-    /* If the warp folds, the landmarks move half as far. */
-    while (riis_warp_set_targets(warp, &to) != RIIS_OK) {
-      assert_non_null(strstr(riis_last_error(), "folds"));
-      for (int k = 0; k < 3 * n; ++k) targets[k] = 0.5 * (sources[k] + targets[k]);
-    }
-    CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
-    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", between(0.1, 0.3)));
-    for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
-      CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
-      riis_surface_options options = surface_options();
-      options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-      const riis_surface *surface = new_surface(valve, &options);
-      ++n_states;
-      const pair_counts counts = crossings_of(surface, crossings);
-      n_own += counts.of_own > 0;
-      if (counts.of_leaflets > 0) continue;
-      ++n_judged;
-      if (counts.of_skirt > 0)
-        fail_msg("trial %d, opening %g: %d pairs with the skirt cross", trial, 0.1 * i, (int)counts.of_skirt);
-    }
-    free_owned_after(owned_before);
-  }
-  printf("%d of %d states have cusps that do not cross; in %d a cusp lies along its own skirt\n", n_judged, n_states,
-         n_own);
-  assert_true(n_judged > 0.9 * n_states);
 }
 
 /* Writes the control points of the valve's skirt, and returns their number. */
@@ -655,81 +558,8 @@ static double largest_step(riis_valve *valve, riis_warp *warp, int n, const doub
   return largest;
 }
 
-/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would be as large in a
- * 64th of the step. */
-static void skirts_move_continuously_with_a_warp(void **state) {
-  (void)state;
-  const int n_trials = is_long_test() ? 60 : 4;
-  int n_turned = 0; /* by more than 45 degrees */
-  for (int trial = 0; trial < n_trials; ++trial) {
-    const int owned_before = n_owned();
-    riis_valve *valve = skirted_valve(2, between(0.1, 0.3), between(0, 1));
-    const riis_attachment held = attachment_of(new_surface(valve, NULL));
-    double sources[3 * 14], targets[3 * 14];
-    /* The first two landmarks are the ends of two cusps at a commissure, the highest vertices of their sides. */
-    const double *top[3] = {NULL, NULL, NULL};
-    const int left = one_in(2) ? 1 : 2;
-    for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
-      const double *p = held.edges + 3 * i;
-      const int32_t cusp = held.leaflet_id[i / 2], patch = held.patch_id[i / 2] % 4;
-      const int32_t wanted = (cusp == 0) == (left == 1) ? 1 : 3; /* the half cusp at the commissure */
-      if ((cusp == 0 || cusp == left) && patch == wanted && (!top[cusp] || p[2] > top[cusp][2])) top[cusp] = p;
-    }
-    int n = 0;
-    for (int cusp = 0; cusp < 3; ++cusp) {
-      if (cusp != 0 && cusp != left) continue;
-      memcpy(sources + 3 * n, top[cusp], 3 * sizeof *sources);
-      const double r = hypot(sources[3 * n], sources[3 * n + 1]),
-                   by = (cusp == 0 ? 0.08 : -0.08) * (left == 1 ? 1 : -1);
-      targets[3 * n] = sources[3 * n] - by * sources[3 * n + 1] / r;
-      targets[3 * n + 1] = sources[3 * n + 1] + by * sources[3 * n] / r;
-      targets[3 * n + 2] = sources[3 * n + 2];
-      ++n;
-    }
-    assert_true(distance_between(sources, sources + 3) < 0.2);
-    while (n < 12) n += add_landmark(&held, n, 0.02, sources, targets);
-    riis_points from;
-    CHECK_OK(riis_points_init(&from, sizeof from));
-    from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;
-    riis_warp *warp = NULL;
-    CHECK_OK(riis_warp_create(&from, NULL, &warp));
-    own(warp);
-    /* If the warp folds, the landmarks move half as far. */
-    int is_fine = 0;
-    while (!is_fine) {
-      is_fine = 1;
-      for (int quarter = 1; quarter <= 4 && is_fine; ++quarter) {
-        double at[3 * 14];
-        for (int k = 0; k < 3 * n; ++k) at[k] = sources[k] + 0.25 * quarter * (targets[k] - sources[k]);
-        riis_points now = from;
-        now.x = at, now.y = at + 1, now.z = at + 2;
-        riis_valve_patches patches;
-        is_fine = riis_warp_set_targets(warp, &now) == RIIS_OK;
-        if (!is_fine) continue;
-        CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
-        is_fine = riis_valve_get_patches(valve, &patches, sizeof patches) == RIIS_OK;
-      }
-      for (int k = 0; k < 3 * n && !is_fine; ++k) targets[k] = 0.5 * (sources[k] + targets[k]);
-    }
-    const double turned[2] = {targets[3] - targets[0], targets[4] - targets[1]};
-    const double was[2] = {sources[3] - sources[0], sources[4] - sources[1]};
-    n_turned += turned[0] * was[0] + turned[1] * was[1] < 0.7 * hypot(turned[0], turned[1]) * hypot(was[0], was[1]);
-    const int n_steps = 50, n_parts = 64;
-    double begins = 0, unused;
-    const double step = largest_step(valve, warp, n, sources, targets, 0, 1, n_steps, &begins);
-    const double part =
-        largest_step(valve, warp, n, sources, targets, begins, begins + 1.0 / n_steps, n_parts, &unused);
-    printf("the largest step is %.3g, and %.3g in its parts\n", step, part);
-    CHECK_AT_MOST(part, 0.1 * step);
-    free_owned_after(owned_before);
-  }
-  printf("%d of %d lines between ends turn by more than 45 degrees\n", n_turned, n_trials);
-  assert_true(n_turned > 0);
-}
-
 /* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay. */
-static void skirts_reach_walls_and_no_farther(void **state) {
-  (void)state;
+TEST(skirts_reach_walls_and_no_farther) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
     riis_valve *valve = skirted_valve(kind, 0, 0);
@@ -835,8 +665,7 @@ static shape funnel(const double *centre, const double *direction, double radius
 }
 
 /* Patches in any frame get a flat ring, because their attachment is a circle. */
-static void patches_have_skirts_in_any_frame(void **state) {
-  (void)state;
+TEST(patches_have_skirts_in_any_frame) {
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();
     const double centre[3] = {between(-5, 5), between(-5, 5), between(-5, 5)}, radius = between(0.5, 2);
@@ -872,8 +701,7 @@ static void patches_have_skirts_in_any_frame(void **state) {
   }
 }
 
-static void wrong_skirts_are_refused(void **state) {
-  (void)state;
+TEST(wrong_skirts_are_refused) {
   riis_surface *surface = NULL;
   riis_valve *trileaflet = new_valve("trileaflet"), *bileaflet = new_valve("bileaflet");
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'skirt_length' is not a parameter of the bileaflet valve|ring_height",
@@ -938,21 +766,169 @@ static void wrong_skirts_are_refused(void **state) {
   new_surface(trileaflet, NULL);
 }
 
+/* A wall that cuts the valve is nearer than the attachment in some places. The skirt is then thin there, and longer in others. */
+TEST(skirts_to_cutting_walls_cross_nothing) {
+  static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
+  static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
+  const int n_trials = is_long_test() ? 400 : 8;
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  int n_cut = 0;
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const int owned_before = n_owned();
+    riis_surface_options options = random_placement(RIIS_TRIANGULATION_ADAPTED);
+    riis_valve *valve = new_valve(kinds[trial % 4]);
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
+    const riis_surface *bare = new_surface(valve, &options);
+    const axis_line axis = axis_of(bare, as_kind[trial % 4], &options);
+    tube_wall round = tube_around(bare, &axis, options.scale);
+    round.radius -= between(0.05, 0.2) * options.scale;
+    const riis_surface *wall = wall_from(&round);
+    const riis_gap gap = gap_between(bare, wall, NULL);
+    n_cut += gap.least < 0 && gap.most > 0;
+    CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 9 * options.scale, &options));
+    for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
+      const int owned_in_trial = n_owned();
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
+      const riis_surface *surface = new_surface(valve, &options);
+      const pair_counts counts = crossings_of(surface, crossings);
+      if (counts.of_skirt + counts.of_own > 0)
+        fail_msg("%s, opening %g: %d pairs with the skirt cross, gap %g to %g", kinds[trial % 4], 0.1 * i,
+                 (int)(counts.of_skirt + counts.of_own), gap.least, gap.most);
+      free_owned_after(owned_in_trial);
+    }
+    free_owned_after(owned_before);
+  }
+  printf("%d of %d walls cut the valve\n", n_cut, n_trials);
+  assert_true(n_cut > n_trials / 4);
+}
+
+/* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. If a violent warp
+ * lets the cusps themselves go through each other, the skirt is not judged. Nor is a patch that such a warp folds onto its own
+ * skirt. */
+TEST(skirts_of_warped_cusps_cross_nothing) {
+  const int n_trials = is_long_test() ? 100 : 6;
+  int n_states = 0, n_judged = 0, n_own = 0;
+  riis_crossings *crossings = NULL;
+  CHECK_OK(riis_crossings_create(&crossings));
+  own(crossings);
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const int owned_before = n_owned();
+    riis_valve *valve = skirted_valve(2, 0, 0);
+    const riis_attachment held = attachment_of(new_surface(valve, NULL));
+    double sources[3 * 12], targets[3 * 12];
+    int n = 0;
+    while (n < 12) n += add_landmark(&held, n, 0.09, sources, targets);
+    riis_points from, to;
+    CHECK_OK(riis_points_init(&from, sizeof from));
+    from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;
+    to = from, to.x = targets, to.y = targets + 1, to.z = targets + 2;
+    riis_warp *warp = NULL;
+    CHECK_OK(riis_warp_create(&from, NULL, &warp));
+    own(warp);
+    /* If the warp folds, the landmarks move half as far. */
+    while (riis_warp_set_targets(warp, &to) != RIIS_OK) {
+      assert_non_null(strstr(riis_last_error(), "folds"));
+      for (int k = 0; k < 3 * n; ++k) targets[k] = 0.5 * (sources[k] + targets[k]);
+    }
+    CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", between(0.1, 0.3)));
+    for (int i = 0; i <= 10; i += is_long_test() ? 1 : 5) {
+      CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.1 * i));
+      riis_surface_options options = surface_options();
+      options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
+      const riis_surface *surface = new_surface(valve, &options);
+      ++n_states;
+      const pair_counts counts = crossings_of(surface, crossings);
+      n_own += counts.of_own > 0;
+      if (counts.of_leaflets > 0) continue;
+      ++n_judged;
+      if (counts.of_skirt > 0)
+        fail_msg("trial %d, opening %g: %d pairs with the skirt cross", trial, 0.1 * i, (int)counts.of_skirt);
+    }
+    free_owned_after(owned_before);
+  }
+  printf("%d of %d states have cusps that do not cross; in %d a cusp lies along its own skirt\n", n_judged, n_states,
+         n_own);
+  assert_true(n_judged > 0.9 * n_states);
+}
+
+/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would be as large in a
+ * 64th of the step. */
+TEST(skirts_move_continuously_with_a_warp) {
+  const int n_trials = is_long_test() ? 60 : 4;
+  int n_turned = 0; /* by more than 45 degrees */
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const int owned_before = n_owned();
+    riis_valve *valve = skirted_valve(2, between(0.1, 0.3), between(0, 1));
+    const riis_attachment held = attachment_of(new_surface(valve, NULL));
+    double sources[3 * 14], targets[3 * 14];
+    /* The first two landmarks are the ends of two cusps at a commissure, the highest vertices of their sides. */
+    const double *top[3] = {NULL, NULL, NULL};
+    const int left = one_in(2) ? 1 : 2;
+    for (int64_t i = 0; i < 2 * held.n_edges; ++i) {
+      const double *p = held.edges + 3 * i;
+      const int32_t cusp = held.leaflet_id[i / 2], patch = held.patch_id[i / 2] % 4;
+      const int32_t wanted = (cusp == 0) == (left == 1) ? 1 : 3; /* the half cusp at the commissure */
+      if ((cusp == 0 || cusp == left) && patch == wanted && (!top[cusp] || p[2] > top[cusp][2])) top[cusp] = p;
+    }
+    int n = 0;
+    for (int cusp = 0; cusp < 3; ++cusp) {
+      if (cusp != 0 && cusp != left) continue;
+      memcpy(sources + 3 * n, top[cusp], 3 * sizeof *sources);
+      const double r = hypot(sources[3 * n], sources[3 * n + 1]),
+                   by = (cusp == 0 ? 0.08 : -0.08) * (left == 1 ? 1 : -1);
+      targets[3 * n] = sources[3 * n] - by * sources[3 * n + 1] / r;
+      targets[3 * n + 1] = sources[3 * n + 1] + by * sources[3 * n] / r;
+      targets[3 * n + 2] = sources[3 * n + 2];
+      ++n;
+    }
+    assert_true(distance_between(sources, sources + 3) < 0.2);
+    while (n < 12) n += add_landmark(&held, n, 0.02, sources, targets);
+    riis_points from;
+    CHECK_OK(riis_points_init(&from, sizeof from));
+    from.n_points = n, from.stride = 3, from.x = sources, from.y = sources + 1, from.z = sources + 2;
+    riis_warp *warp = NULL;
+    CHECK_OK(riis_warp_create(&from, NULL, &warp));
+    own(warp);
+    /* If the warp folds, the landmarks move half as far. */
+    int is_fine = 0;
+    while (!is_fine) {
+      is_fine = 1;
+      for (int quarter = 1; quarter <= 4 && is_fine; ++quarter) {
+        double at[3 * 14];
+        for (int k = 0; k < 3 * n; ++k) at[k] = sources[k] + 0.25 * quarter * (targets[k] - sources[k]);
+        riis_points now = from;
+        now.x = at, now.y = at + 1, now.z = at + 2;
+        riis_valve_patches patches;
+        is_fine = riis_warp_set_targets(warp, &now) == RIIS_OK;
+        if (!is_fine) continue;
+        CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
+        is_fine = riis_valve_get_patches(valve, &patches, sizeof patches) == RIIS_OK;
+      }
+      for (int k = 0; k < 3 * n && !is_fine; ++k) targets[k] = 0.5 * (sources[k] + targets[k]);
+    }
+    const double turned[2] = {targets[3] - targets[0], targets[4] - targets[1]};
+    const double was[2] = {sources[3] - sources[0], sources[4] - sources[1]};
+    n_turned += turned[0] * was[0] + turned[1] * was[1] < 0.7 * hypot(turned[0], turned[1]) * hypot(was[0], was[1]);
+    const int n_steps = 50, n_parts = 64;
+    double begins = 0, unused;
+    const double step = largest_step(valve, warp, n, sources, targets, 0, 1, n_steps, &begins);
+    const double part =
+        largest_step(valve, warp, n, sources, targets, begins, begins + 1.0 / n_steps, n_parts, &unused);
+    printf("the largest step is %.3g, and %.3g in its parts\n", step, part);
+    CHECK_AT_MOST(part, 0.1 * step);
+    free_owned_after(owned_before);
+  }
+  printf("%d of %d lines between ends turn by more than 45 degrees\n", n_turned, n_trials);
+  assert_true(n_turned > 0);
+}
+
 static int start(void **state) {
   (void)state;
   rng = random_start("test_skirt");
   return 0;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_outer_edge_is_the_length_away),     cmocka_unit_test(leaflets_stay_as_they_are),
-      cmocka_unit_test(the_skirt_continues_the_leaflets),      cmocka_unit_test(skirts_cross_nothing),
-      cmocka_unit_test(sides_are_right_beside_the_skirt),      cmocka_unit_test(skirts_seal_gaps),
-      cmocka_unit_test(skirts_move_with_the_attachment),       cmocka_unit_test(skirts_reach_walls_and_no_farther),
-      cmocka_unit_test(patches_have_skirts_in_any_frame),      cmocka_unit_test(wrong_skirts_are_refused),
-      cmocka_unit_test(skirts_to_cutting_walls_cross_nothing), cmocka_unit_test(skirts_of_warped_cusps_cross_nothing),
-      cmocka_unit_test(skirts_move_continuously_with_a_warp),
-  };
-  return cmocka_run_group_tests(tests, start, NULL);
-}
+int main(void) { return run_cases(start, NULL); }

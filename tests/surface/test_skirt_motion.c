@@ -222,8 +222,7 @@ static double fastest_of_skirt(const riis_triangles *t) {
 
 /* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length of the
  * attachment, and of the length of the line that lies outwards from it. Inside triangles the bound of velocities holds. */
-static void skirts_have_the_velocity_of_their_points(void **state) {
-  (void)state;
+TEST(skirts_have_the_velocity_of_their_points) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
       double worst[n_motions] = {0};
@@ -298,8 +297,7 @@ static double across(const riis_triangles *t, const double *was, double seconds,
 
 /* With a fixed triangulation, the skirt's vertices move with their velocities, except that the lines of a mitral skirt slide
  * along the annulus with the lines of the leaflet. The velocity does not contain this slide. */
-static void vertices_of_fixed_skirts_move_with_their_velocities(void **state) {
-  (void)state;
+TEST(vertices_of_fixed_skirts_move_with_their_velocities) {
   for (int kind = 0; kind < n_kinds; ++kind) {
     const int owned_before = n_owned();
     const double seconds = 0.01;
@@ -432,8 +430,7 @@ static double nearest_share(const strip *at, const double *p) {
 
 /* The attachment of a warped valve is material that the map moves. The skirt's inner side moves with it, and the outer side moves
  * with the points that lie outwards from it. */
-static void skirts_move_with_warped_attachments(void **state) {
-  (void)state;
+TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
       const int owned_before = n_owned();
@@ -499,11 +496,6 @@ static void skirts_move_with_warped_attachments(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(skirts_have_the_velocity_of_their_points),
-      cmocka_unit_test(vertices_of_fixed_skirts_move_with_their_velocities),
-      cmocka_unit_test(skirts_move_with_warped_attachments),
-  };
   rng = random_start("test_skirt_motion");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -189,8 +189,7 @@ static riis_surface *mitral_patient(riis_valve *valve, riis_surface_options *opt
   return wall;
 }
 
-static void skirts_of_patients_reach_the_wall(void **state) {
-  (void)state;
+TEST(skirts_of_patients_reach_the_wall) {
   static const char *const kinds[4] = {"coapting", "trileaflet", "aortic", "mitral"};
   const int n_trials = is_long_test() ? 100 : 4;
   int n_states = 0, n_with_leaflets = 0, n_folded = 0;
@@ -283,7 +282,4 @@ static int start(void **state) {
   return 0;
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(skirts_of_patients_reach_the_wall)};
-  return cmocka_run_group_tests(tests, start, NULL);
-}
+int main(void) { return run_cases(start, NULL); }

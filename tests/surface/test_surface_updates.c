@@ -164,8 +164,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
   free_owned_after(owned_before);
 }
 
-static void an_updated_surface_is_a_fresh_one(void **state) {
-  (void)state;
+TEST(an_updated_surface_is_a_fresh_one) {
   riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
   /* `last` is a new surface with the same content that `updated` should have. */
   riis_surface *updated = NULL, *last = NULL;
@@ -202,7 +201,6 @@ static void an_updated_surface_is_a_fresh_one(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(an_updated_surface_is_a_fresh_one)};
   rng = random_start("test_surface_updates");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

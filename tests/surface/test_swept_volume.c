@@ -91,8 +91,7 @@ static double by_steps(riis_valve *valve, double from, double to, const riis_sur
   return sum;
 }
 
-static void volumes_are_sums_over_steps(void **state) {
-  (void)state;
+TEST(volumes_are_sums_over_steps) {
   for (int trial = 0; trial < n_trials(); ++trial) {
     riis_valve *valve = random_valve(trial % n_kinds);
     riis_surface_options options = surface_options();
@@ -116,8 +115,7 @@ static double value_of(const riis_valve *valve, const char *name) {
 }
 
 /* A leaflet that turns about its hinge sweeps the angle times the moment of its area about the hinge. */
-static void rigid_leaflets_sweep_their_moments(void **state) {
-  (void)state;
+TEST(rigid_leaflets_sweep_their_moments) {
   for (int trial = 0; trial < 20; ++trial) {
     riis_valve *valve = new_valve("bileaflet");
     set(valve, "closed_angle", between(15, 45));
@@ -139,8 +137,7 @@ static void rigid_leaflets_sweep_their_moments(void **state) {
 }
 
 /* A square that translates sweeps its area times the shift along its normal. */
-static void squares_sweep_boxes(void **state) {
-  (void)state;
+TEST(squares_sweep_boxes) {
   for (int trial = 0; trial < 10; ++trial) {
     const shape closed = unit_square();
     shape moved = unit_square();
@@ -163,8 +160,7 @@ static void squares_sweep_boxes(void **state) {
   }
 }
 
-static void volumes_are_conserved(void **state) {
-  (void)state;
+TEST(volumes_are_conserved) {
   for (int trial = 0; trial < n_trials() + 2; ++trial) {
     riis_valve *valve = random_valve(trial % n_kinds);
     const double a = between(0, 1), b = between(0, 1), c = between(0, 1);
@@ -245,8 +241,7 @@ static double volume_at(const riis_keyframes *keyframes, double time) {
 }
 
 /* The volume that a closed surface sweeps is the change of the volume inside it. */
-static void closed_frames_sweep_what_they_gain(void **state) {
-  (void)state;
+TEST(closed_frames_sweep_what_they_gain) {
   for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
     const double time[n_keys] = {-1, 0.5, 2, 3};
     double xyz[n_keys][12];
@@ -269,8 +264,7 @@ static void closed_frames_sweep_what_they_gain(void **state) {
 
 /* --- Refusals -------------------------------------------------------------------------------------------------------------- */
 
-static void wrong_calls_are_refused(void **state) {
-  (void)state;
+TEST(wrong_calls_are_refused) {
   riis_valve *valve = new_valve("mitral");
   riis_surface_options options = surface_options();
   double volume = -7;
@@ -315,13 +309,5 @@ static void wrong_calls_are_refused(void **state) {
 
 int main(void) {
   rng = random_start("test_swept_volume");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(volumes_are_sums_over_steps),
-      cmocka_unit_test(rigid_leaflets_sweep_their_moments),
-      cmocka_unit_test(squares_sweep_boxes),
-      cmocka_unit_test(volumes_are_conserved),
-      cmocka_unit_test(closed_frames_sweep_what_they_gain),
-      cmocka_unit_test(wrong_calls_are_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -184,8 +184,7 @@ static void check_at_four_tolerances(const smooth_valve *smooth, const riis_valv
   }
 }
 
-static void aortic_deviation_stays_within_the_bound(void **state) {
-  (void)state;
+TEST(aortic_deviation_stays_within_the_bound) {
   random_source rng = random_start("test_tolerance");
   riis_valve *valve = new_valve("aortic");
   CHECK_OK(aortic_patches(NULL, 0, &set));
@@ -195,8 +194,7 @@ static void aortic_deviation_stays_within_the_bound(void **state) {
   patch_set_free(&set);
 }
 
-static void mitral_deviation_stays_within_the_bound(void **state) {
-  (void)state;
+TEST(mitral_deviation_stays_within_the_bound) {
   random_source rng = random_start("test_tolerance");
   mitral_parameters parameters = mitral_defaults();
   riis_valve *valve = new_valve("mitral");
@@ -242,8 +240,7 @@ static double largest_share_of_bound(const smooth_valve *smooth, int n_parameter
   return largest;
 }
 
-static void every_quad_stays_within_its_own_bound(void **state) {
-  (void)state;
+TEST(every_quad_stays_within_its_own_bound) {
   random_source rng = random_start("test_tolerance");
   const char *names[17];
   double of_mitral = 1, of_aortic;
@@ -275,8 +272,7 @@ static void every_quad_stays_within_its_own_bound(void **state) {
 }
 
 /* Valves of many shapes: each parameter that is a single number changes by a third up or down, one at a time. */
-static void so_it_does_for_other_aortic_valves(void **state) {
-  (void)state;
+TEST(so_it_does_for_other_aortic_valves) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
   int n_tried = 0;
@@ -327,8 +323,7 @@ static riis_valve *random_mitral(mitral_parameters *parameters, random_source *r
   return valves[0];
 }
 
-static void so_it_does_for_other_mitral_valves(void **state) {
-  (void)state;
+TEST(so_it_does_for_other_mitral_valves) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
   int n_tried = 0;
@@ -361,8 +356,7 @@ static void so_it_does_for_other_mitral_valves(void **state) {
 }
 
 /* A fixed triangulation is tested at openings that were not used to choose it. */
-static void so_does_a_fixed_triangulation(void **state) {
-  (void)state;
+TEST(so_does_a_fixed_triangulation) {
   random_source rng = random_start("test_tolerance");
   riis_surface_options options = surface_options();
   double worst = 0;
@@ -405,8 +399,7 @@ static void so_does_a_fixed_triangulation(void **state) {
 }
 
 /* If curves deviate from their shape, the triangles get the rest of the tolerance. The bound includes both. */
-static void a_deviation_of_curves_is_part_of_the_bound(void **state) {
-  (void)state;
+TEST(a_deviation_of_curves_is_part_of_the_bound) {
   static const char *const kinds[3] = {"aortic", "mitral", "bileaflet"};
   const double off = 0x1p-10;
   for (int k = 0; k < 3; ++k)
@@ -424,15 +417,4 @@ static void a_deviation_of_curves_is_part_of_the_bound(void **state) {
     }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(aortic_deviation_stays_within_the_bound),
-      cmocka_unit_test(mitral_deviation_stays_within_the_bound),
-      cmocka_unit_test(every_quad_stays_within_its_own_bound),
-      cmocka_unit_test(so_it_does_for_other_aortic_valves),
-      cmocka_unit_test(so_it_does_for_other_mitral_valves),
-      cmocka_unit_test(so_does_a_fixed_triangulation),
-      cmocka_unit_test(a_deviation_of_curves_is_part_of_the_bound),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -4,8 +4,7 @@
 #include "internals.h"
 #include "test_support.h"
 
-static void equals_the_loop_bit_for_bit(void **state) {
-  (void)state;
+TEST(equals_the_loop_bit_for_bit) {
   random_source rng = random_start("test_triangle_scene");
   int64_t n_pairs = 0;
   for (int trial = 0; trial < 120; ++trial) {
@@ -42,8 +41,7 @@ static void equals_the_loop_bit_for_bit(void **state) {
 }
 
 /* The limit is inclusive. Limits are equal to the distance, one bit below it and one bit above it. */
-static void limit_is_inclusive_to_the_last_bit(void **state) {
-  (void)state;
+TEST(limit_is_inclusive_to_the_last_bit) {
   const double xyz[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const double heights[3] = {0.1, nextafter(0.1, 0), nextafter(0.1, 1)};
   for (int i = 0; i < 3; ++i) {
@@ -52,10 +50,4 @@ static void limit_is_inclusive_to_the_last_bit(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(equals_the_loop_bit_for_bit),
-      cmocka_unit_test(limit_is_inclusive_to_the_last_bit),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

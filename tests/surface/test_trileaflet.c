@@ -24,8 +24,7 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 /* --- The closed state -------------------------------------------------------------------------------------------------- */
 
 /* Free edges lie on the lines from the axis to the commissures. */
-static void closed_free_edges_are_straight(void **state) {
-  (void)state;
+TEST(closed_free_edges_are_straight) {
   const riis_triangles all = triangles_of(new_surface(new_valve("trileaflet"), NULL));
   double farthest = 0, nearest = 1;
   for (int64_t i = 0; i < 3 * all.n_triangles; ++i) {
@@ -67,8 +66,7 @@ static void check_common_vertices(const riis_surface *surface, double scale) {
 }
 
 /* Cusps have the same bits where they meet: in both triangulations, in placed surfaces and after moving updates. */
-static void cusps_meet_in_the_same_bits(void **state) {
-  (void)state;
+TEST(cusps_meet_in_the_same_bits) {
   random_source random = random_start("test_trileaflet");
   for (int trial = 0; trial < 24; ++trial) {
     const int owned_before = n_owned();
@@ -103,8 +101,7 @@ static void cusps_meet_in_the_same_bits(void **state) {
 }
 
 /* The valve does not change when it is turned by 120 degrees about the axis. Each cusp is its own mirror image. */
-static void cusps_are_equal(void **state) {
-  (void)state;
+TEST(cusps_are_equal) {
   for (int i = 0; i <= 4; ++i) {
     riis_surface_options options = surface_options();
     riis_valve *valve = valve_at("trileaflet", i / 4.0);
@@ -129,8 +126,7 @@ static void cusps_are_equal(void **state) {
 }
 
 /* The only triangles without area are those at the three root points. */
-static void triangles_have_an_area(void **state) {
-  (void)state;
+TEST(triangles_have_an_area) {
   for (int i = 0; i <= 10; ++i) {
     riis_surface *surface = new_surface(valve_at("trileaflet", i / 10.0), NULL);
     const riis_triangles all = triangles_of(surface);
@@ -156,8 +152,7 @@ static void triangles_have_an_area(void **state) {
 
 /* --- Sealing ----------------------------------------------------------------------------------------------------------- */
 
-static void closes_cylinders(void **state) {
-  (void)state;
+TEST(closes_cylinders) {
   static const double radii[3] = {1.2, 1.25, 1.29};
   for (int i = 0; i < 3; ++i) {
     assert_false(leaks_through(new_valve("trileaflet"), radii[i], -2, 0.1));
@@ -168,8 +163,7 @@ static void closes_cylinders(void **state) {
 }
 
 /* The attachment is near the wall of a cylinder. The test prints its deviation, for users who make meshes. */
-static void attachment_is_near_a_cylinder(void **state) {
-  (void)state;
+TEST(attachment_is_near_a_cylinder) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.01;
   const riis_triangles all = triangles_of(new_surface(new_valve("trileaflet"), &options));
@@ -213,8 +207,7 @@ static double edge_by_formula(double t) {
   return 2 * length;
 }
 
-static void free_edges_have_the_lengths_of_the_formula(void **state) {
-  (void)state;
+TEST(free_edges_have_the_lengths_of_the_formula) {
   riis_surface_options options = surface_options();
   options.tolerance = 0.01;
   for (int i = 0; i <= 10; ++i) {
@@ -226,8 +219,7 @@ static void free_edges_have_the_lengths_of_the_formula(void **state) {
   for (int i = 0; i <= 100; ++i) CHECK_NEAR(edge_by_formula(i / 100.0) / 2.5, 1, 0.1);
 }
 
-static void opens_by_itself(void **state) {
-  (void)state;
+TEST(opens_by_itself) {
   const double orifice = check_opening(new_valve("trileaflet"), root, turn, half_angle, 0.1, "trileaflet");
   assert_true(orifice > 3 && orifice < 4);
   /* When the valve is closed, only slivers along the wall stay uncovered. */
@@ -238,8 +230,7 @@ static void opens_by_itself(void **state) {
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
  * that end between two vertices of a side, because such a line ends on a chord. Where closed cusps meet, each vertex has the
  * velocity of its own cusp: outwards. */
-static void velocity_is_that_of_the_vertices(void **state) {
-  (void)state;
+TEST(velocity_is_that_of_the_vertices) {
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
   static const double openings[4][2] = {{0.5, 0.25}, {1, 0.9}, {0, 0.125}, {0.1, 0}};
@@ -271,8 +262,7 @@ static void velocity_is_that_of_the_vertices(void **state) {
 }
 
 /* A closed free edge is not a rim, because the neighbouring cusp continues there. An open free edge is a rim. */
-static void closed_free_edges_are_no_rims(void **state) {
-  (void)state;
+TEST(closed_free_edges_are_no_rims) {
   const double probe[3] = {0.5 * cos(60 * cusp_degree), 0.5 * sin(60 * cusp_degree), 0.05};
   for (int opening = 0; opening <= 1; ++opening) {
     riis_surface *surface = new_surface(valve_at("trileaflet", opening), NULL);
@@ -293,8 +283,7 @@ static void closed_free_edges_are_no_rims(void **state) {
 }
 
 /* With a second valve, the closed curves come from the first valve, and the open curves from the second. */
-static void opens_to_another_valves_open_state(void **state) {
-  (void)state;
+TEST(opens_to_another_valves_open_state) {
   riis_valve *valve = new_valve("trileaflet"), *other = new_valve("trileaflet"), *plain = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(other, "open_radius_ratio", 0.9));
   CHECK_OK(riis_valve_set_open_state(valve, other));
@@ -308,8 +297,7 @@ static void opens_to_another_valves_open_state(void **state) {
   assert_false(is_same_content(new_surface(valve, NULL), new_surface(plain, NULL)));
 }
 
-static void every_parameter_by_name(void **state) {
-  (void)state;
+TEST(every_parameter_by_name) {
   static const struct {
     const char *name;
     int64_t n_values;
@@ -352,8 +340,7 @@ static void every_parameter_by_name(void **state) {
   }
 }
 
-static void values_that_do_not_go_together_are_refused(void **state) {
-  (void)state;
+TEST(values_that_do_not_go_together_are_refused) {
   riis_surface *surface = NULL;
 #define IS_REFUSED(name, value, text)                                                        \
   do {                                                                                       \
@@ -385,21 +372,4 @@ static void values_that_do_not_go_together_are_refused(void **state) {
                 riis_valve_set_open_state(valve, aortic));
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(closed_free_edges_are_straight, free_owned),
-      cmocka_unit_test_teardown(cusps_meet_in_the_same_bits, free_owned),
-      cmocka_unit_test_teardown(cusps_are_equal, free_owned),
-      cmocka_unit_test_teardown(triangles_have_an_area, free_owned),
-      cmocka_unit_test_teardown(closes_cylinders, free_owned),
-      cmocka_unit_test_teardown(attachment_is_near_a_cylinder, free_owned),
-      cmocka_unit_test_teardown(free_edges_have_the_lengths_of_the_formula, free_owned),
-      cmocka_unit_test_teardown(opens_by_itself, free_owned),
-      cmocka_unit_test_teardown(velocity_is_that_of_the_vertices, free_owned),
-      cmocka_unit_test_teardown(closed_free_edges_are_no_rims, free_owned),
-      cmocka_unit_test_teardown(opens_to_another_valves_open_state, free_owned),
-      cmocka_unit_test_teardown(every_parameter_by_name, free_owned),
-      cmocka_unit_test_teardown(values_that_do_not_go_together_are_refused, free_owned),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -9,8 +9,7 @@
 #include "sanitized.h"
 #include "shapes.h"
 
-static void square_has_its_area_and_normal(void **state) {
-  (void)state;
+TEST(square_has_its_area_and_normal) {
   shape square = unit_square();
   square.leaflet_id[0] = 5;
   riis_surface *surface = surface_of(&square, NULL);
@@ -52,8 +51,7 @@ static shape wavy(void) {
   return made;
 }
 
-static void both_bases_and_no_optional_arrays_give_the_same(void **state) {
-  (void)state;
+TEST(both_bases_and_no_optional_arrays_give_the_same) {
   const shape from = wavy();
   shape one_based = from;
   arrays_of_shape arrays;
@@ -70,8 +68,7 @@ static void both_bases_and_no_optional_arrays_give_the_same(void **state) {
   check_same_surfaces(surface, surface_of(&from, NULL));
 }
 
-static void line_of_any_degree_gives_the_same_surface(void **state) {
-  (void)state;
+TEST(line_of_any_degree_gives_the_same_surface) {
   const shape from = wavy();
   const double *a = from.control[3][0], *b = from.control[3][1];
   /* The degree, and the positions of the inner control points on the line, evenly and unevenly spaced. */
@@ -179,8 +176,7 @@ static void check_against_dense(const shape *from, double tolerance) {
   CHECK_AT_MOST(back, bound);
 }
 
-static void patch_is_the_coons_patch_of_its_sides(void **state) {
-  (void)state;
+TEST(patch_is_the_coons_patch_of_its_sides) {
   shape arcs = unit_square(); /* two sides nearly circular */
   const double arc0[4][3] = {{0, 0, 0}, {0, 0, 0.6667}, {1, 0, 0.6667}, {1, 0, 0}};
   const double arc1[4][3] = {{0, 0, 0}, {-0.2, 0.3, 0}, {-0.2, 0.7, 0}, {0, 1, 0}};
@@ -193,8 +189,7 @@ static void patch_is_the_coons_patch_of_its_sides(void **state) {
   check_against_dense(&from, 0.01);
 }
 
-static void random_patches_are_coons_patches(void **state) {
-  (void)state;
+TEST(random_patches_are_coons_patches) {
   random_source rng = random_start("random_patches_are_coons_patches");
   for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     shape from = {0};
@@ -310,8 +305,7 @@ static void check_holds(const boundary_vertex *some, int n, const boundary_verte
   for (int c = 0; c < 3; ++c) CHECK_SAME(found->p[c], vertex->p[c]);
 }
 
-static void shared_curves_leave_no_cracks(void **state) {
-  (void)state;
+TEST(shared_curves_leave_no_cracks) {
   enum { most = 50000 };
   static boundary_vertex a[most], b[most], of_curve[most];
   for (int is_plane = 0; is_plane < 2; ++is_plane) {
@@ -345,8 +339,7 @@ static void shared_curves_leave_no_cracks(void **state) {
   }
 }
 
-static void collapsed_sides_leave_no_triangles_without_area(void **state) {
-  (void)state;
+TEST(collapsed_sides_leave_no_triangles_without_area) {
   const double up[4][3] = {{0, 0, 0}, {0.25, 1, 0.5}, {0.75, 1, 0.5}, {1, 0, 0}};
   const double area[2] = {0.5, 0};
   for (int which = 0; which < 2; ++which) {
@@ -384,8 +377,7 @@ static void collapsed_sides_leave_no_triangles_without_area(void **state) {
   }
 }
 
-static void opening_blends_control_points(void **state) {
-  (void)state;
+TEST(opening_blends_control_points) {
   const shape closed = wavy();
   shape open = closed, middle = closed;
   for (int64_t i = 0; i < closed.n_curves; ++i)
@@ -412,8 +404,7 @@ static void opening_blends_control_points(void **state) {
   check_same_surfaces(surface, surface_of(&closed, NULL));
 }
 
-static void sizes_are_limited_by_precision_and_number(void **state) {
-  (void)state;
+TEST(sizes_are_limited_by_precision_and_number) {
   shape large = unit_square();
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 2; ++k)
@@ -434,17 +425,4 @@ static void sizes_are_limited_by_precision_and_number(void **state) {
   assert_null(surface);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(square_has_its_area_and_normal),
-      cmocka_unit_test(both_bases_and_no_optional_arrays_give_the_same),
-      cmocka_unit_test(line_of_any_degree_gives_the_same_surface),
-      cmocka_unit_test(patch_is_the_coons_patch_of_its_sides),
-      cmocka_unit_test(random_patches_are_coons_patches),
-      cmocka_unit_test(shared_curves_leave_no_cracks),
-      cmocka_unit_test(collapsed_sides_leave_no_triangles_without_area),
-      cmocka_unit_test(opening_blends_control_points),
-      cmocka_unit_test(sizes_are_limited_by_precision_and_number),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

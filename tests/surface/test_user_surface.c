@@ -11,8 +11,7 @@ static const double xyz[21] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 5, 1, 0
 static const int32_t ids[9] = {0, 1, 2, 0, 2, 3, 4, 5, 6};
 static const int32_t leaflets[3] = {7, 8, 9};
 
-static void every_layout_gives_the_same_surface(void **state) {
-  (void)state;
+TEST(every_layout_gives_the_same_surface) {
   double x[7], y[7], z[7];
   int32_t ids32[9];
   int64_t ids64[9];
@@ -46,8 +45,7 @@ static void every_layout_gives_the_same_surface(void **state) {
   }
 }
 
-static void quads_are_cut_along_the_first_diagonal(void **state) {
-  (void)state;
+TEST(quads_are_cut_along_the_first_diagonal) {
   static const int32_t quad[4] = {0, 1, 2, 3};
   riis_surface_arrays arrays = triangle_arrays(7, xyz, 1, quad);
   arrays.corners_per_face = 4;
@@ -70,8 +68,7 @@ static void listen(void *user_data, int32_t level, const char *message) {
   if (level == RIIS_LOG_WARNING) ++to->warnings, snprintf(to->last, sizeof to->last, "%s", message);
 }
 
-static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
-  (void)state;
+TEST(zero_area_is_refused_or_skipped_with_ids_kept) {
   /* Triangle 1 repeats a vertex, triangle 2 is collinear, and triangle 3 is a needle of height 1e-13. */
   const double points[27] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 0.5, 1e-13, 0, 0, 0, 5, 1, 0, 5, 0, 1, 5};
   const int32_t with_bad[15] = {0, 1, 2, 0, 0, 3, 0, 1, 4, 0, 1, 5, 6, 7, 8};
@@ -103,8 +100,7 @@ static void zero_area_is_refused_or_skipped_with_ids_kept(void **state) {
                 riis_surface_create_from_arrays(&arrays, &options, &surface));
 }
 
-static void tiny_and_huge_surfaces_have_area(void **state) {
-  (void)state;
+TEST(tiny_and_huge_surfaces_have_area) {
   for (int power = -50; power <= 50; power += 10) {
     const int owned_before = n_owned();
     const double s = pow(10, power), points[9] = {0, 0, 0, s, 0, 0, 0, s, 0};
@@ -119,8 +115,7 @@ static void tiny_and_huge_surfaces_have_area(void **state) {
   }
 }
 
-static void winding_is_the_callers_unless_flipped(void **state) {
-  (void)state;
+TEST(winding_is_the_callers_unless_flipped) {
   riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
   riis_surface_options options = surface_options();
   options.flip_normals = 1;
@@ -133,8 +128,7 @@ static void winding_is_the_callers_unless_flipped(void **state) {
 
 /* Two triangles lie back to back. At the common edges the sum of their normals is 0 up to rounding, so the side is taken from
  * the reported triangle alone. */
-static void side_of_folded_faces_is_the_triangles_own(void **state) {
-  (void)state;
+TEST(side_of_folded_faces_is_the_triangles_own) {
   const double points[9] = {0.1, 0.2, 0.3, 1.7, 0.4, 0.1, 0.3, 1.9, 0.7};
   const int32_t faces[6] = {0, 1, 2, 1, 0, 2};
   riis_surface_arrays arrays = triangle_arrays(3, points, 2, faces);
@@ -150,8 +144,7 @@ static void side_of_folded_faces_is_the_triangles_own(void **state) {
     }
 }
 
-static void update_replaces_the_content(void **state) {
-  (void)state;
+TEST(update_replaces_the_content) {
   riis_surface_arrays arrays = triangle_arrays(7, xyz, 3, ids);
   riis_surface_options options = surface_options();
   options.half_thickness = 0.25;
@@ -170,8 +163,7 @@ static void update_replaces_the_content(void **state) {
 }
 
 /* An update with vertices alone moves the faces of the last arrays. It equals an update with faces and vertices. */
-static void vertices_alone_keep_the_faces(void **state) {
-  (void)state;
+TEST(vertices_alone_keep_the_faces) {
   enum { n = 30 };
   random_source rng = random_start("test_user_surface");
   double *soup, moved[9 * n], velocity[9 * n];
@@ -209,8 +201,7 @@ static void vertices_alone_keep_the_faces(void **state) {
 }
 
 /* A triangle that temporarily had no area is used again. */
-static void a_skipped_triangle_comes_back(void **state) {
-  (void)state;
+TEST(a_skipped_triangle_comes_back) {
   const double open[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, shut[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0};
   const int32_t faces[6] = {0, 1, 2, 1, 3, 2};
   const riis_surface_arrays arrays = triangle_arrays(4, open, 2, faces);
@@ -227,8 +218,7 @@ static void a_skipped_triangle_comes_back(void **state) {
   assert_int_equal(closest_to(surface, 0.9, 0.9, 1).triangle_id, 1);
 }
 
-static void vertices_alone_are_refused_without_their_faces(void **state) {
-  (void)state;
+TEST(vertices_alone_are_refused_without_their_faces) {
   const double square[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   const int32_t faces[3] = {0, 1, 2}, leaflet_id[1] = {0};
   const riis_surface_arrays arrays = triangle_arrays(3, square, 1, faces);
@@ -256,8 +246,7 @@ static void vertices_alone_are_refused_without_their_faces(void **state) {
 
 /* A closed body with sharp edges. Inside points are recognised even if the closest point is on an edge or a corner, where the
  * normal of one face would give the wrong side. */
-static void side_at_edges_and_corners_of_a_wedge(void **state) {
-  (void)state;
+TEST(side_at_edges_and_corners_of_a_wedge) {
   /* A thin tetrahedron, with dihedral angles far below and far above 90 degrees. */
   const double points[12] = {0, 0, 0, 4, 0, 0, 2, 0.5, 0, 2, 0.25, 0.3};
   const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
@@ -286,19 +275,4 @@ static void side_at_edges_and_corners_of_a_wedge(void **state) {
   assert_true(n_inside > 100 && n_edge > 10000);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_layout_gives_the_same_surface),
-      cmocka_unit_test(quads_are_cut_along_the_first_diagonal),
-      cmocka_unit_test(zero_area_is_refused_or_skipped_with_ids_kept),
-      cmocka_unit_test(tiny_and_huge_surfaces_have_area),
-      cmocka_unit_test(winding_is_the_callers_unless_flipped),
-      cmocka_unit_test(side_of_folded_faces_is_the_triangles_own),
-      cmocka_unit_test(update_replaces_the_content),
-      cmocka_unit_test_teardown(vertices_alone_keep_the_faces, free_owned),
-      cmocka_unit_test_teardown(a_skipped_triangle_comes_back, free_owned),
-      cmocka_unit_test_teardown(vertices_alone_are_refused_without_their_faces, free_owned),
-      cmocka_unit_test(side_at_edges_and_corners_of_a_wedge),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return run_cases(NULL, NULL); }

@@ -64,8 +64,7 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
 
 /* The valve opens in steps of a thousandth. The first openings in the list have the largest errors ever found. RIIS_TEST_LONG
  * tests all openings. */
-static void velocities_follow_the_smooth_valve(void **state) {
-  (void)state;
+TEST(velocities_follow_the_smooth_valve) {
   static const int known[] = {957, 930, 950, 755, 1000};
   enum { n_known = sizeof known / sizeof *known };
   const int is_long = is_long_test(), n_random = is_sanitized() ? 1 : 4;
@@ -165,8 +164,7 @@ static double farthest_at_labels(const riis_surface *surface, const smooth_motio
   return farthest;
 }
 
-static void the_bound_holds_for_any_motion(void **state) {
-  (void)state;
+TEST(the_bound_holds_for_any_motion) {
   double least_ratio = INFINITY;
   for (int trial = 0; trial < (is_sanitized() ? 16 : 80); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
@@ -213,8 +211,7 @@ static void the_bound_holds_for_any_motion(void **state) {
 
 /* The bound is useful: for an opening motion it is a small fraction of the speed. If few triangles bend much, the bound is
  * close to the true error. docs/theory.md has the printed shares. */
-static void the_bound_is_near(void **state) {
-  (void)state;
+TEST(the_bound_is_near) {
   static const double most[n_kinds] = {0.35, 0.06, 0.08, 0.04, 0.06};
   const int n = is_sanitized() ? 10 : 100;
   for (int kind = 0; kind < n_kinds; ++kind) {
@@ -273,8 +270,7 @@ static void the_bound_is_near(void **state) {
 }
 
 /* A motion that keeps everything in place has no velocity error. Surfaces from arrays have none either. */
-static void no_motion_has_no_error(void **state) {
-  (void)state;
+TEST(no_motion_has_no_error) {
   for (int kind = 0; kind < n_kinds; ++kind) {
     riis_valve *valve = new_valve(kinds[kind]);
     riis_surface *surface = new_surface(valve, NULL);
@@ -292,12 +288,6 @@ static void no_motion_has_no_error(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(velocities_follow_the_smooth_valve),
-      cmocka_unit_test(the_bound_holds_for_any_motion),
-      cmocka_unit_test(the_bound_is_near),
-      cmocka_unit_test(no_motion_has_no_error),
-  };
   rng = random_start("test_velocities");
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -156,8 +156,7 @@ static void solve_dense(int n, double *a, double *b) {
     }
 }
 
-static void the_map_solves_its_equations(void **state) {
-  (void)state;
+TEST(the_map_solves_its_equations) {
   for (int trial = 0; trial < fewer_if_sanitized(20); ++trial) {
     const int owned_before = n_owned(), n = 5 + (int)between(0, 40), m = n + 4;
     double from[3 * max_landmarks], to[3 * max_landmarks], probe[3], got[3];
@@ -224,8 +223,7 @@ static void the_map_solves_its_equations(void **state) {
   }
 }
 
-static void affine_and_planar_maps_are_reproduced(void **state) {
-  (void)state;
+TEST(affine_and_planar_maps_are_reproduced) {
   for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
     const int owned_before = n_owned(), n = 8 + (int)between(0, 30), is_planar = trial % 2;
     const affine turn = {.linear = {{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}}, .shift = {1, 2, 3}};
@@ -255,8 +253,7 @@ static void affine_and_planar_maps_are_reproduced(void **state) {
 }
 
 /* The derivatives of |r|^3 do not jump. So the direction of a line through a landmark changes by less than a step allows. */
-static void a_landmark_adds_no_kink(void **state) {
-  (void)state;
+TEST(a_landmark_adds_no_kink) {
   double worst = 0;
   for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {
     const int owned_before = n_owned(), n = 30;
@@ -290,8 +287,7 @@ static void a_landmark_adds_no_kink(void **state) {
 
 /* --- Warped valves ---------------------------------------------------------------------------------------------------- */
 
-static void an_identity_changes_nothing(void **state) {
-  (void)state;
+TEST(an_identity_changes_nothing) {
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
     const riis_surface_options options = random_placement(trial % 4 == 3);
@@ -326,8 +322,7 @@ static void an_identity_changes_nothing(void **state) {
 
 /* A rigid warp gives the same shape as the placement: points of either surface lie on the other, as exactly as both are made. The
  * orifice, the swept volume and the attachment also agree. */
-static void a_rigid_warp_equals_a_placement(void **state) {
-  (void)state;
+TEST(a_rigid_warp_equals_a_placement) {
   for (int trial = 0; trial < 9; ++trial) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial % 3];
@@ -382,8 +377,7 @@ static riis_valve_patches patches_of(riis_valve *valve) {
   return patches;
 }
 
-static void warped_curves_are_near_mapped_curves(void **state) {
-  (void)state;
+TEST(warped_curves_are_near_mapped_curves) {
   double worst = 0, worst_angle = 0;
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
@@ -445,8 +439,7 @@ static void warped_curves_are_near_mapped_curves(void **state) {
 }
 
 /* The patches that are read out make the same valve again, if they are Coons patches. */
-static void patches_make_the_same_valve(void **state) {
-  (void)state;
+TEST(patches_make_the_same_valve) {
   for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
     const int owned_before = n_owned(), is_warped = trial / 2 % 2;
     riis_valve *valve = new_valve(kinds[trial % 2]), *again = NULL;
@@ -492,8 +485,7 @@ static void patches_make_the_same_valve(void **state) {
 }
 
 /* The warped annulus of a mitral valve has landmarks of its own in both states, and meets them at both ends. */
-static void closed_and_open_landmarks_are_met(void **state) {
-  (void)state;
+TEST(closed_and_open_landmarks_are_met) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
     const char *kind = kinds[trial % 3];
@@ -523,8 +515,7 @@ static void closed_and_open_landmarks_are_met(void **state) {
 /* --- In a mesh -------------------------------------------------------------------------------------------------------- */
 
 /* The valve and the mesh of its root are warped alike. Closed, the valve separates the mesh; at 0.3 it does not. */
-static void warped_valves_seal(void **state) {
-  (void)state;
+TEST(warped_valves_seal) {
   for (int trial = 0; trial < 2; ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = new_valve("trileaflet");
@@ -666,8 +657,7 @@ static double material_error(const riis_surface *surface, const warped_step *ste
 /* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. The limits
  * of errors, as shares of the largest speed, have held for 300 seeds. Without RestInside and rest_of_offsets taking displacements
  * where the labels are, the first two steps exceed them. */
-static void a_moving_annulus_has_its_velocities(void **state) {
-  (void)state;
+TEST(a_moving_annulus_has_its_velocities) {
   static const struct {
     const char *name;
     double largest, rms;
@@ -723,8 +713,7 @@ static void a_moving_annulus_has_its_velocities(void **state) {
 
 /* With a fixed triangulation, the triangles' motion across the leaflet is that of the velocities. Along the leaflet, vertices
  * follow shares of lengths. */
-static void fixed_vertices_move_with_their_velocities(void **state) {
-  (void)state;
+TEST(fixed_vertices_move_with_their_velocities) {
   for (int trial = 0; trial < 3; ++trial) {
     const int owned_before = n_owned();
     const riis_surface_options options = random_placement(RIIS_TRIANGULATION_FIXED);
@@ -761,8 +750,7 @@ static void fixed_vertices_move_with_their_velocities(void **state) {
 }
 
 /* The same targets give the same bits, whatever came before. */
-static void a_restart_repeats_velocities(void **state) {
-  (void)state;
+TEST(a_restart_repeats_velocities) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
     const riis_surface_options options =
@@ -785,8 +773,7 @@ static void a_restart_repeats_velocities(void **state) {
 
 /* A surface remembers the patches of its last state, which is often the earlier state of the next step. If that valve has been
  * changed since, they are made again. */
-static void a_changed_earlier_state_is_made_again(void **state) {
-  (void)state;
+TEST(a_changed_earlier_state_is_made_again) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
     const riis_surface_options options =
@@ -818,8 +805,7 @@ static void a_changed_earlier_state_is_made_again(void **state) {
 }
 
 /* A table of keys gives the bits of targets that are interpolated by hand, and repeats after a period. */
-static void keys_in_time_give_targets(void **state) {
-  (void)state;
+TEST(keys_in_time_give_targets) {
   double from[3 * 12], frames[3][3 * 12], by_hand[3 * 12], a[3], b[3];
   const double time[3] = {0, 0.25, 1}, probe[3] = {0.3, -0.2, 0.4};
   for (int i = 0; i < 36; ++i) {
@@ -863,8 +849,7 @@ static void keys_in_time_give_targets(void **state) {
 
 /* --- Refusals --------------------------------------------------------------------------------------------------------- */
 
-static void folds_are_found_and_named(void **state) {
-  (void)state;
+TEST(folds_are_found_and_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
   double from[3 * max_landmarks], to[3 * max_landmarks], mapped[2][3];
@@ -888,8 +873,7 @@ static void folds_are_found_and_named(void **state) {
 }
 
 /* A warp that turns a part of a patch over, or folds at a patch but not at landmarks, is refused with the patch. */
-static void folds_at_patches_are_named(void **state) {
-  (void)state;
+TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
   /* Landmarks lie at the corners of two cubes around the valve. The inner ones move inwards until their middle folds. */
@@ -958,8 +942,7 @@ static double normal(double deviation) {
 /* Landmarks of random patients with a clinician's noise, by which the warp is smoothed, turn no part of a leaflet over at any
  * opening. Nor do exact landmarks. Five times that noise, without smoothing, folds nearly every valve. RIIS_TEST_LONG=1 takes 100
  * patients of each sort. */
-static void warps_of_patients_do_not_fold(void **state) {
-  (void)state;
+TEST(warps_of_patients_do_not_fold) {
   const int n_patients = is_long_test() ? 100 : 25, n_openings = 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};
   int n_refused = 0;
@@ -1037,8 +1020,7 @@ static double least_cosine(const riis_surface *surface) {
 
 /* Patches of the half open coapting valve have cells of their grid that are hardly wider than a line. Rough landmarks, off by up
  * to half a millimetre, turn such cells over, but no triangle. */
-static void slivers_of_rough_warps_are_no_folds(void **state) {
-  (void)state;
+TEST(slivers_of_rough_warps_are_no_folds) {
   static const struct {
     int roughness;
     double opening;
@@ -1062,8 +1044,7 @@ static void slivers_of_rough_warps_are_no_folds(void **state) {
   }
 }
 
-static void bad_arguments_are_named(void **state) {
-  (void)state;
+TEST(bad_arguments_are_named) {
   double xyz[3 * 6] = {1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0.5, 0.5, 0.5};
   riis_points points = points_at(6, xyz);
   riis_warp_options options;
@@ -1143,8 +1124,7 @@ static void bad_arguments_are_named(void **state) {
 }
 
 /* Stated bileaflet patches: pieces of arcs, and each side is read out. */
-static void bileaflet_patches_are_read_out(void **state) {
-  (void)state;
+TEST(bileaflet_patches_are_read_out) {
   riis_valve *valve = new_valve("bileaflet");
   const riis_valve_patches got = patches_of(valve);
   assert_int_equal(got.n_patches, 4);
@@ -1154,27 +1134,5 @@ static void bileaflet_patches_are_read_out(void **state) {
 
 int main(void) {
   rng = random_start("test_warp");
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_map_solves_its_equations),
-      cmocka_unit_test(affine_and_planar_maps_are_reproduced),
-      cmocka_unit_test(a_landmark_adds_no_kink),
-      cmocka_unit_test(an_identity_changes_nothing),
-      cmocka_unit_test(a_rigid_warp_equals_a_placement),
-      cmocka_unit_test(warped_curves_are_near_mapped_curves),
-      cmocka_unit_test(patches_make_the_same_valve),
-      cmocka_unit_test(closed_and_open_landmarks_are_met),
-      cmocka_unit_test(warped_valves_seal),
-      cmocka_unit_test(a_moving_annulus_has_its_velocities),
-      cmocka_unit_test(fixed_vertices_move_with_their_velocities),
-      cmocka_unit_test(a_restart_repeats_velocities),
-      cmocka_unit_test(a_changed_earlier_state_is_made_again),
-      cmocka_unit_test(keys_in_time_give_targets),
-      cmocka_unit_test(folds_are_found_and_named),
-      cmocka_unit_test(folds_at_patches_are_named),
-      cmocka_unit_test(warps_of_patients_do_not_fold),
-      cmocka_unit_test(slivers_of_rough_warps_are_no_folds),
-      cmocka_unit_test(bad_arguments_are_named),
-      cmocka_unit_test(bileaflet_patches_are_read_out),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -5,13 +5,10 @@
 #define RIIS_TESTS_EXPECT_H
 
 #include <riis/riis.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "test_cases.h"
 
 static inline void expect_fine(riis_status status) {
   if (status != RIIS_OK) fail_msg("%s: %s", riis_status_name(status), riis_last_error());

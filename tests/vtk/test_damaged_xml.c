@@ -67,8 +67,7 @@ static void replace_text(const char *name, const char *from, const char *to, con
 }
 
 /* Changes the numbers of points, cells, faces, components and tuples in the text. */
-static void test_promised_numbers(void **state) {
-  (void)state;
+TEST(test_promised_numbers) {
   static const struct {
     const char *name, *from, *to, *text;
   } cases[] = {
@@ -162,8 +161,7 @@ static void expect_number_refused(int encoding, int compressor, int bits, const 
 }
 
 /* Changes the numbers that precede the data. Points have 125 * 24 bytes: two blocks of 1024 bytes and one of 952. */
-static void test_sizes_of_blocks(void **state) {
-  (void)state;
+TEST(test_sizes_of_blocks) {
   static const char *const arrays[3] = {"Points", "velocity", "time"};
   static const char *const texts[4] = {"claims 268435457 compressed blocks, and the file holds ",
                                        "claims a block of 268435457 bytes, compressed to ",
@@ -191,8 +189,7 @@ static void test_sizes_of_blocks(void **state) {
 }
 
 /* The last offset is the number of values of another array. The file has 389 cells: 384 tetrahedra and 5 polyhedra. */
-static void test_last_offsets(void **state) {
-  (void)state;
+TEST(test_last_offsets) {
   const uint64_t many = 1000000000000;
   expect_number_refused(SHIM_RAW, 0, 64, "offsets", 8 + 8 * 388, 8, many,
                         "array connectivity must have 1000000000000 values and has 1556");
@@ -228,8 +225,7 @@ static void damage(random_source *random, char *bytes, size_t size) {
   }
 }
 
-static void test_random_damage(void **state) {
-  (void)state;
+TEST(test_random_damage) {
   random_source random = random_start("test_damaged_xml");
   const int n_trials = is_long_test() ? 2000 : fewer_if_sanitized(9);
   int n_read = 0, n_all = 0;
@@ -260,12 +256,4 @@ static void test_random_damage(void **state) {
   assert_in_range(n_read, n_all / 20, n_all * 19 / 20);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_promised_numbers),
-      cmocka_unit_test(test_sizes_of_blocks),
-      cmocka_unit_test(test_last_offsets),
-      cmocka_unit_test(test_random_damage),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

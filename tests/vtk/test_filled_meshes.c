@@ -242,8 +242,7 @@ static void expect_filled(flow found) {
 
 /* --- Tests ------------------------------------------------------------------------------------------------------------- */
 
-static void closed_cusps_seal_their_root(void **state) {
-  (void)state;
+TEST(closed_cusps_seal_their_root) {
   const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "");
   const flow closed = flow_through(&root, trileaflet_valve(0), "closed trileaflet valve in its root");
   expect_filled(closed);
@@ -251,8 +250,7 @@ static void closed_cusps_seal_their_root(void **state) {
   assert_int_equal(flow_through(&root, trileaflet_valve(0.25), "opening trileaflet valve in its root").passes, 1);
 }
 
-static void closed_mitral_valve_seals_its_tube(void **state) {
-  (void)state;
+TEST(closed_mitral_valve_seals_its_tube) {
   const filled_mesh tube = mesh_by_gmsh(RIIS_DEMO "/mitral_tube.geo", "");
   for (int step = 0; step <= 4; ++step) {
     const flow found = flow_through(&tube, mitral_valve(0.25 * step),
@@ -262,22 +260,8 @@ static void closed_mitral_valve_seals_its_tube(void **state) {
   }
 }
 
-/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within 0.05, half of the half thickness, of
- * all ends. Flow passes through the middle. */
-static void the_papers_valve_leaks_in_its_root(void **state) {
-  (void)state;
-  const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");
-  flow found = flow_through(&root, paper_valve(), "the paper's aortic valve in its root");
-  CHECK_AT_MOST(found.to_wall, 0.08);
-  assert_int_equal(found.passes, 1);
-  test_valve reaching = paper_valve();
-  CHECK_OK(riis_valve_set_scalar(reaching.handle, "leaflet_radius_in", 0.02));
-  assert_int_equal(flow_through(&root, reaching, "with cusps that reach the axis").passes, 0);
-}
-
 /* The cylinder is as wide as the housing. */
-static void closed_bileaflet_valve_seals_its_housing(void **state) {
-  (void)state;
+TEST(closed_bileaflet_valve_seals_its_housing) {
   char text[512];
   snprintf(text, sizeof text,
            "SetFactory(\"OpenCASCADE\");\nCylinder(1) = {0, 0, -1, 0, 0, 2.5, %.17g};\n"
@@ -291,8 +275,19 @@ static void closed_bileaflet_valve_seals_its_housing(void **state) {
   assert_int_equal(flow_through(&cylinder, bileaflet_valve(0.5), "opening bileaflet valve in its housing").passes, 1);
 }
 
-static void flow_passes_around_in_cylinders(void **state) {
-  (void)state;
+/* The paper's cusps end at different radii, 0.13 apart at a commissure. So no wall is within 0.05, half of the half thickness, of
+ * all ends. Flow passes through the middle. */
+TEST(the_papers_valve_leaks_in_its_root) {
+  const filled_mesh root = mesh_by_gmsh(RIIS_DEMO "/aortic_root.geo", "-setnumber paper 1");
+  flow found = flow_through(&root, paper_valve(), "the paper's aortic valve in its root");
+  CHECK_AT_MOST(found.to_wall, 0.08);
+  assert_int_equal(found.passes, 1);
+  test_valve reaching = paper_valve();
+  CHECK_OK(riis_valve_set_scalar(reaching.handle, "leaflet_radius_in", 0.02));
+  assert_int_equal(flow_through(&root, reaching, "with cusps that reach the axis").passes, 0);
+}
+
+TEST(flow_passes_around_in_cylinders) {
   const filled_mesh wide = mesh_by_gmsh(RIIS_DEMO "/mitral_cylinder.geo", "");
   const flow found = flow_through(&wide, mitral_valve(0), "closed mitral valve in a wider cylinder");
   assert_true(found.to_wall > 2 * half_thickness);
@@ -303,14 +298,7 @@ static void flow_passes_around_in_cylinders(void **state) {
 
 int main(void) {
 #ifdef RIIS_GMSH
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(closed_cusps_seal_their_root),
-      cmocka_unit_test(closed_mitral_valve_seals_its_tube),
-      cmocka_unit_test(closed_bileaflet_valve_seals_its_housing),
-      cmocka_unit_test(the_papers_valve_leaks_in_its_root),
-      cmocka_unit_test(flow_passes_around_in_cylinders),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+  return run_cases(scratch_setup, scratch_teardown);
 #else
   printf("no gmsh: skipped\n");
   return 77;

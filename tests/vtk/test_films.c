@@ -97,8 +97,7 @@ static void expect_drawn(const char *name) {
   assert_true(width == 800 && height == 400 && n_colours > 100 && n_coloured[0] > 4000 && n_coloured[1] > 4000);
 }
 
-static void test_frames(void **state) {
-  (void)state;
+TEST(test_frames) {
   riis_vtk_film *film = make_film(mesh);
   open_valve(0);
   draw_frame(film, "Frame", "closed.png");
@@ -125,8 +124,7 @@ static void test_frames(void **state) {
 }
 
 /* The mesh may be destroyed before the film. Without a mesh the film shows only the surface. */
-static void test_lifetime(void **state) {
-  (void)state;
+TEST(test_lifetime) {
   riis_vtk_mesh *own = NULL;
   int n[2][2] = {{0, 0}, {0, 0}}, width = 0, height = 0, n_colours = 0;
   open_valve(1);
@@ -147,8 +145,7 @@ static void test_lifetime(void **state) {
   riis_vtk_film_destroy(&film);
 }
 
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   const double bad[3] = {-3, NAN, -2}, turned[3] = {-3, -4, 2};
   riis_vtk_film *film = NULL;
   riis_vtk_mesh *plain = NULL;
@@ -182,10 +179,5 @@ static void test_refusals(void **state) {
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_frames),
-      cmocka_unit_test(test_lifetime),
-      cmocka_unit_test(test_refusals),
-  };
-  return cmocka_run_group_tests(tests, make_all, destroy_all);
+  return run_cases(make_all, destroy_all);
 }

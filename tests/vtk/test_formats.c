@@ -64,8 +64,7 @@ static void run_gmsh(const char *options, const char *output) {
   if (system(command) != 0) fail_msg("%s\n%s", command, scratch_read(scratch_path("gmsh.log"), NULL));
 }
 
-static void test_gmsh(void **state) {
-  (void)state;
+TEST(test_gmsh) {
   scratch_write_text("mix.geo", geometry);
   const char *orders[] = {"-order 1", "-order 2", "-order 2 -setnumber Mesh.SecondOrderIncomplete 1"};
   const char *formats[] = {"msh22", "msh22 -bin", "msh41", "msh41 -bin"};
@@ -104,8 +103,7 @@ static void test_gmsh(void **state) {
   }
 }
 #else
-static void test_gmsh(void **state) {
-  (void)state;
+TEST(test_gmsh) {
   (void)geometry;
   skip();
 }
@@ -133,8 +131,7 @@ static const char vtm[] =
     "<Block index=\"0\"><DataSet index=\"0\" file=\"plain.vtu\"/></Block>\n</vtkMultiBlockDataSet></VTKFile>\n";
 
 /* A block without points adds nothing to the mesh, but it keeps its number. */
-static void test_vtm(void **state) {
-  (void)state;
+TEST(test_vtm) {
   for (int kind = 0; kind < 4; ++kind) {
     write_plain("plain.vtu", kind / 2);
     assert_true(shim_write_vtm(scratch_path("blocks.vtm"), scratch_path("plain.vtu"), kind % 2));
@@ -157,8 +154,7 @@ static void test_vtm(void **state) {
   for (int64_t i = 0; i < n_cells; ++i) assert_true(blocks[i] == 1);
 }
 
-static void test_exodus(void **state) {
-  (void)state;
+TEST(test_exodus) {
   for (int quadratic = 0; quadratic < 2; ++quadratic) {
     write_plain("plain.vtu", quadratic);
     if (!shim_write_exodus(scratch_path("blocks.exo"), scratch_path("plain.vtu"))) skip();
@@ -168,8 +164,7 @@ static void test_exodus(void **state) {
 }
 
 /* Writes a mesh as XDMF and reads it again, with one type of cells and with several. */
-static void test_xdmf(void **state) {
-  (void)state;
+TEST(test_xdmf) {
   write_plain("plain.vtu", 0);
   rewrite("plain.vtu", "plain.xdmf", "");
   rewrite("plain.xdmf", "again.vtu", "");
@@ -190,6 +185,46 @@ static void test_xdmf(void **state) {
 #endif
 }
 
+static const char xdmf[] =
+    "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+    "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">\n"
+    "<DataItem Dimensions=\"1 4\" NumberType=\"Int\" Format=\"XML\">0 1 2 3</DataItem>\n</Topology>\n"
+    "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1</DataItem>\n"
+    "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
+    "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
+
+/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh", reads the
+ * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside
+ * the text, or in the text if riis has no HDF5. */
+TEST(test_xdmf_for_others) {
+  scratch_write_text("tet.xdmf", xdmf);
+  rewrite("tet.xdmf", "out.xdmf", "");
+  char *text = scratch_read(scratch_path("out.xdmf"), NULL);
+  const int has_hdf5 = scratch_exists("out.h5");
+  const char *begin =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" xmlns:xi=\"https://www.w3.org/2001/XInclude\">\n"
+      "<Domain>\n<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+      "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">\n"
+      "<DataItem NumberType=\"Int\" Precision=\"8\" Dimensions=\"1 4\" ";
+  const char *geometry_begin =
+      "</DataItem>\n</Topology>\n<Geometry GeometryType=\"XYZ\">\n"
+      "<DataItem NumberType=\"Float\" Precision=\"8\" Dimensions=\"4 3\" ";
+  const char *attribute_begin =
+      "</DataItem>\n</Geometry>\n<Attribute Name=\"p\" AttributeType=\"Scalar\" Center=\"Node\">\n"
+      "<DataItem NumberType=\"Float\" Precision=\"8\" Dimensions=\"4\" ";
+  const char *end = "</DataItem>\n</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
+  const char *in_hdf5[] = {"Format=\"HDF\">out.h5:/topology", "Format=\"HDF\">out.h5:/geometry",
+                           "Format=\"HDF\">out.h5:/Node_p"};
+  const char *in_text[] = {"Format=\"XML\">\n0 1 2 3\n", "Format=\"XML\">\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
+                           "Format=\"XML\">\n1\n2\n3\n4\n"};
+  const char *const *numbers = has_hdf5 ? in_hdf5 : in_text;
+  char wanted[2048];
+  snprintf(wanted, sizeof wanted, "%s%s%s%s%s%s%s", begin, numbers[0], geometry_begin, numbers[1], attribute_begin,
+           numbers[2], end);
+  assert_string_equal(text, wanted);
+  free(text);
+}
+
 #ifdef RIIS_MESHIO_PYTHON
 static void run_python(const char *script) {
   char command[1024];
@@ -199,8 +234,7 @@ static void run_python(const char *script) {
 }
 
 /* Lets meshio write every format, and read what riis writes. */
-static void test_meshio(void **state) {
-  (void)state;
+TEST(test_meshio) {
   write_plain("plain.vtu", 0);
   scratch_write_text("convert.py",
                      "import os, sys, meshio, numpy\n"
@@ -241,10 +275,7 @@ static void test_meshio(void **state) {
   run_python("named.py");
 }
 #else
-static void test_meshio(void **state) {
-  (void)state;
-  skip();
-}
+TEST(test_meshio) { skip(); }
 #endif
 
 /* ---- Files that cannot be read ---- */
@@ -256,46 +287,6 @@ static const char msh41[] =
     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 5 0\n$EndEntities\n"
     "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n"
     "$Elements\n1 1 1 1\n3 1 4 1\n1 1 2 3 4\n$EndElements\n";
-static const char xdmf[] =
-    "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
-    "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">\n"
-    "<DataItem Dimensions=\"1 4\" NumberType=\"Int\" Format=\"XML\">0 1 2 3</DataItem>\n</Topology>\n"
-    "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"4 3\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1</DataItem>\n"
-    "</Geometry>\n<Attribute Name=\"p\" Center=\"Node\"><DataItem Dimensions=\"4\" Format=\"XML\">1 2 3 4</DataItem>\n"
-    "</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
-
-/* dolfinx 0.9 and ParaView were seen to open files of this form. dolfinx looks for a grid of the name "mesh", reads the
- * topology's DataItem as rows of nodes, and compares its dimensions with the dataset. Numbers are in the HDF5 file beside
- * the text, or in the text if riis has no HDF5. */
-static void test_xdmf_for_others(void **state) {
-  (void)state;
-  scratch_write_text("tet.xdmf", xdmf);
-  rewrite("tet.xdmf", "out.xdmf", "");
-  char *text = scratch_read(scratch_path("out.xdmf"), NULL);
-  const int has_hdf5 = scratch_exists("out.h5");
-  const char *begin =
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" xmlns:xi=\"https://www.w3.org/2001/XInclude\">\n"
-      "<Domain>\n<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
-      "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"1\">\n"
-      "<DataItem NumberType=\"Int\" Precision=\"8\" Dimensions=\"1 4\" ";
-  const char *geometry_begin =
-      "</DataItem>\n</Topology>\n<Geometry GeometryType=\"XYZ\">\n"
-      "<DataItem NumberType=\"Float\" Precision=\"8\" Dimensions=\"4 3\" ";
-  const char *attribute_begin =
-      "</DataItem>\n</Geometry>\n<Attribute Name=\"p\" AttributeType=\"Scalar\" Center=\"Node\">\n"
-      "<DataItem NumberType=\"Float\" Precision=\"8\" Dimensions=\"4\" ";
-  const char *end = "</DataItem>\n</Attribute>\n</Grid>\n</Domain>\n</Xdmf>\n";
-  const char *in_hdf5[] = {"Format=\"HDF\">out.h5:/topology", "Format=\"HDF\">out.h5:/geometry",
-                           "Format=\"HDF\">out.h5:/Node_p"};
-  const char *in_text[] = {"Format=\"XML\">\n0 1 2 3\n", "Format=\"XML\">\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
-                           "Format=\"XML\">\n1\n2\n3\n4\n"};
-  const char *const *numbers = has_hdf5 ? in_hdf5 : in_text;
-  char wanted[2048];
-  snprintf(wanted, sizeof wanted, "%s%s%s%s%s%s%s", begin, numbers[0], geometry_begin, numbers[1], attribute_begin,
-           numbers[2], end);
-  assert_string_equal(text, wanted);
-  free(text);
-}
 
 /* A file that is broken in one place: the first `from` becomes `to`. */
 typedef struct broken {
@@ -367,8 +358,7 @@ static void write_broken(const broken *fault) {
   scratch_write_text(fault->name, text);
 }
 
-static void test_broken(void **state) {
-  (void)state;
+TEST(test_broken) {
   write_plain("plain.vtu", 0);
   scratch_write_text("empty.vtu", empty_vtu);
   for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
@@ -384,8 +374,7 @@ static void test_broken(void **state) {
 }
 
 /* Every beginning of a file is refused. A file with a wrong byte is refused or read. */
-static void test_cut_and_changed(void **state) {
-  (void)state;
+TEST(test_cut_and_changed) {
   const char *wholes[] = {msh22, msh41, xdmf, vtm}, *names[] = {"a.msh", "a.msh", "a.xdmf", "a.vtm"};
   const char *seed_text = getenv("RIIS_TEST_SEED");
   uint64_t random = seed_text ? strtoull(seed_text, NULL, 10) : 20261125;
@@ -428,8 +417,7 @@ static int64_t number_at(const void *numbers, int32_t n_bits, int64_t i) {
 }
 
 /* Centres are the means of corners of boxes. Cells that share a face are neighbours, and arrays are arrays of cells. */
-static void test_centers(void **state) {
-  (void)state;
+TEST(test_centers) {
   riis_vtk_mesh *mesh = NULL;
   int64_t n = 0, n_cells = 0;
   const double *xyz = NULL;
@@ -502,17 +490,4 @@ static void test_centers(void **state) {
   expect_refused(riis_vtk_mesh_get_notes(NULL, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_gmsh),
-      cmocka_unit_test(test_vtm),
-      cmocka_unit_test(test_exodus),
-      cmocka_unit_test(test_xdmf),
-      cmocka_unit_test(test_xdmf_for_others),
-      cmocka_unit_test(test_meshio),
-      cmocka_unit_test(test_broken),
-      cmocka_unit_test(test_cut_and_changed),
-      cmocka_unit_test(test_centers),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

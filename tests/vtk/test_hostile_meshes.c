@@ -41,8 +41,7 @@ static void expect_file(const char *name, const char *error) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-static void test_not_files(void **state) {
-  (void)state;
+TEST(test_not_files) {
   expect_file_error("missing.vtu", "No such file or directory");
   assert_int_equal(mkdir(scratch_path("folder.vtu"), 0700), 0);
   expect_file_error("folder.vtu", "is a directory");
@@ -58,16 +57,14 @@ static void test_not_files(void **state) {
   expect_file_error("no_ending", "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
 }
 
-static void test_unreadable(void **state) {
-  (void)state;
+TEST(test_unreadable) {
   if (geteuid() == 0) skip(); /* root may read every file, so the test is skipped */
   scratch_write_text("locked.vtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   assert_int_equal(chmod(scratch_path("locked.vtu"), 0), 0);
   expect_file_error("locked.vtu", "Permission denied");
 }
 
-static void test_other_content(void **state) {
-  (void)state;
+TEST(test_other_content) {
   scratch_write_text("garbage.vtu", "\x01\x02 not a mesh at all \xff\xfe");
   expect_file_error("garbage.vtu", "is not a VTK XML file");
   scratch_write_text("garbage.vtk", "\x01\x02 not a mesh at all \xff\xfe");
@@ -120,8 +117,7 @@ static void write_tetrahedron(const char *name, const char *counts, const char *
 static const char *const counts = "NumberOfPoints=\"4\" NumberOfCells=\"1\"";
 static const char *const points = "0 0 0  1 0 0  0 1 0  0 0 1";
 
-static void test_promises(void **state) {
-  (void)state;
+TEST(test_promises) {
   riis_vtk_mesh *mesh = NULL;
   write_tetrahedron("good.vtu", counts, points, "0 1 2 3", "4", "10", "");
   expect_fine(read_mesh("good.vtu", &mesh));
@@ -148,8 +144,7 @@ static void test_promises(void **state) {
   assert_true(status == RIIS_FILE_ERROR || status == RIIS_OUT_OF_MEMORY);
 }
 
-static void test_broken_cells(void **state) {
-  (void)state;
+TEST(test_broken_cells) {
   write_tetrahedron("corner.vtu", counts, points, "0 1 2 4", "4", "10", "");
   expect_file_error("corner.vtu", "cell 0 names point 4 of 4");
   write_tetrahedron("negative_corner.vtu", counts, points, "0 1 2 -1", "4", "10", "");
@@ -181,8 +176,7 @@ static void test_broken_cells(void **state) {
 }
 
 /* The reader accepts coordinates that are not numbers. The core checks coordinates. */
-static void test_not_a_number_passes(void **state) {
-  (void)state;
+TEST(test_not_a_number_passes) {
   write_tetrahedron("nan.vtu", counts, "0 0 0  nan 0 0  0 1 0  0 0 1", "0 1 2 3", "4", "10", "");
   riis_vtk_mesh *mesh = NULL;
   expect_fine(read_mesh("nan.vtu", &mesh));
@@ -237,10 +231,30 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
+/* Writes the whole numbers in a text, either as text or as four bytes each, high byte first. Returns the number of bytes. */
+static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
+  if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
+  size_t n = 0;
+  for (char *rest; *numbers; numbers = rest) {
+    const uint32_t value = (uint32_t)strtol(numbers, &rest, 10);
+    for (int byte = 3; byte >= 0; --byte) to[n++] = (unsigned char)(value >> (8 * byte));
+  }
+  to[n++] = '\n';
+  return n;
+}
+
+TEST(test_truncated) {
+  cut_everywhere("ascii.vtu", "cut.vtu", SHIM_ASCII);
+  cut_everywhere("binary.vtu", "cut.vtu", SHIM_BINARY);
+  cut_everywhere("compressed.vtu", "cut.vtu", SHIM_COMPRESSED);
+  cut_everywhere("raw.vtu", "cut.vtu", SHIM_RAW);
+  cut_everywhere("ascii.vtk", "cut.vtk", SHIM_LEGACY_ASCII);
+  cut_everywhere("binary.vtk", "cut.vtk", SHIM_LEGACY_BINARY);
+}
+
 /* VTK searches for as many keys as INFORMATION announces. A word that is not a number does not stop this search. VTK reads only
  * the beginning of a keyword. */
-static void test_endless_information(void **state) {
-  (void)state;
+TEST(test_endless_information) {
   const struct {
     const char *keys, *data, *text;
   } cases[] = {
@@ -274,8 +288,7 @@ static void test_endless_information(void **state) {
 
 /* Names are read as VTK reads them. NULL_ARRAY, in capitals, stands for a missing array. A name of more than 255 characters
  * counts as two words. */
-static void test_names_of_arrays(void **state) {
-  (void)state;
+TEST(test_names_of_arrays) {
   char longest[256], too_long[257];
   memset(longest, 'n', sizeof longest);
   memset(too_long, 'n', sizeof too_long);
@@ -298,23 +311,10 @@ static void test_names_of_arrays(void **state) {
   }
 }
 
-/* Writes the whole numbers in a text, either as text or as four bytes each, high byte first. Returns the number of bytes. */
-static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
-  if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
-  size_t n = 0;
-  for (char *rest; *numbers; numbers = rest) {
-    const uint32_t value = (uint32_t)strtol(numbers, &rest, 10);
-    for (int byte = 3; byte >= 0; --byte) to[n++] = (unsigned char)(value >> (8 * byte));
-  }
-  to[n++] = '\n';
-  return n;
-}
-
 /* VTK follows the faces of polyhedra without checks while it reads them. The files are text
  * of version 3, binary of version 3, or text of version 5, which has offsets in place of counts. 42 is the type of a polyhedron.
  * The type 298 also becomes 42 if it is stored in a byte. */
-static void test_polyhedra(void **state) {
-  (void)state;
+TEST(test_polyhedra) {
   const char tetrahedron[] = "4 3 0 1 2 3 0 1 3 3 0 2 3 3 1 2 3";
   const struct {
     const char *faces;
@@ -355,8 +355,7 @@ static void test_polyhedra(void **state) {
     }
 }
 
-static void test_cells_of_polyhedra(void **state) {
-  (void)state;
+TEST(test_cells_of_polyhedra) {
   const struct {
     const char *cells, *text;
   } cases[] = {
@@ -379,9 +378,32 @@ static void test_cells_of_polyhedra(void **state) {
   }
 }
 
+/* If VTK meets a word that is not a number of the array's type, it closes the file and continues. */
+TEST(test_words_for_numbers) {
+  const struct {
+    const char *point, *cell, *text;
+  } cases[] = {{"0 0 +1.5e-400", "1 0", NULL},
+               {"0 0 CELLS", "1 0", "has 'CELLS' for a number of type float"},
+               {"0 0 nan", "1 0", "has 'nan' for a number of type float"},
+               {"0 0 1e39", "1 0", "has '1e39' for a number of type float"},
+               {"0 0 1.5.5", "1 0", "has '1.5.5' for a number of type float"},
+               {"0 0 0", "1 0.5", "has '0.5' for a number of type int"},
+               {"0 0 0", "2 0", "cell 0 has 2 points, more than CELLS has"},
+               {"0 0 0", "9223372036854775807 0", "cell 0 has 9223372036854775807 points, more than CELLS has"},
+               {"0 0 0", "1 2147483648", "has '2147483648' for a number of type int"}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n%s\nCELLS 1 2\n%s\n"
+             "CELL_TYPES 1\n1\n",
+             cases[i].point, cases[i].cell);
+    scratch_write_text("words.vtk", text);
+    expect_file("words.vtk", cases[i].text);
+  }
+}
+
 /* Two polyhedra, each a tetrahedron, share a face. Their faces are in one list, as VTK writes since 9.4. */
-static void test_lists_of_faces(void **state) {
-  (void)state;
+TEST(test_lists_of_faces) {
   static const char *const corners = "0 1 2 0 1 3 0 2 3 1 2 3 1 2 4 1 3 4 2 3 4";
   const struct {
     const char *corners, *ends, *faces, *face_ends, *text;
@@ -425,50 +447,4 @@ static void test_lists_of_faces(void **state) {
   }
 }
 
-/* If VTK meets a word that is not a number of the array's type, it closes the file and continues. */
-static void test_words_for_numbers(void **state) {
-  (void)state;
-  const struct {
-    const char *point, *cell, *text;
-  } cases[] = {{"0 0 +1.5e-400", "1 0", NULL},
-               {"0 0 CELLS", "1 0", "has 'CELLS' for a number of type float"},
-               {"0 0 nan", "1 0", "has 'nan' for a number of type float"},
-               {"0 0 1e39", "1 0", "has '1e39' for a number of type float"},
-               {"0 0 1.5.5", "1 0", "has '1.5.5' for a number of type float"},
-               {"0 0 0", "1 0.5", "has '0.5' for a number of type int"},
-               {"0 0 0", "2 0", "cell 0 has 2 points, more than CELLS has"},
-               {"0 0 0", "9223372036854775807 0", "cell 0 has 9223372036854775807 points, more than CELLS has"},
-               {"0 0 0", "1 2147483648", "has '2147483648' for a number of type int"}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char text[512];
-    snprintf(text, sizeof text,
-             "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 float\n%s\nCELLS 1 2\n%s\n"
-             "CELL_TYPES 1\n1\n",
-             cases[i].point, cases[i].cell);
-    scratch_write_text("words.vtk", text);
-    expect_file("words.vtk", cases[i].text);
-  }
-}
-
-static void test_truncated(void **state) {
-  (void)state;
-  cut_everywhere("ascii.vtu", "cut.vtu", SHIM_ASCII);
-  cut_everywhere("binary.vtu", "cut.vtu", SHIM_BINARY);
-  cut_everywhere("compressed.vtu", "cut.vtu", SHIM_COMPRESSED);
-  cut_everywhere("raw.vtu", "cut.vtu", SHIM_RAW);
-  cut_everywhere("ascii.vtk", "cut.vtk", SHIM_LEGACY_ASCII);
-  cut_everywhere("binary.vtk", "cut.vtk", SHIM_LEGACY_BINARY);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_not_files),          cmocka_unit_test(test_unreadable),
-      cmocka_unit_test(test_other_content),      cmocka_unit_test(test_promises),
-      cmocka_unit_test(test_broken_cells),       cmocka_unit_test(test_not_a_number_passes),
-      cmocka_unit_test(test_truncated),          cmocka_unit_test(test_endless_information),
-      cmocka_unit_test(test_names_of_arrays),    cmocka_unit_test(test_polyhedra),
-      cmocka_unit_test(test_cells_of_polyhedra), cmocka_unit_test(test_words_for_numbers),
-      cmocka_unit_test(test_lists_of_faces),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

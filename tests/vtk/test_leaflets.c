@@ -64,8 +64,7 @@ static riis_surface_arrays arrays_of(const riis_vtk_surface *surface) {
   return arrays;
 }
 
-static void test_pieces(void **state) {
-  (void)state;
+TEST(test_pieces) {
   int most_pieces = 0;
   for (int run = 0; run < 40; ++run) {
     int pieces[most_faces];
@@ -108,8 +107,7 @@ static void expect_leaflets(const riis_vtk_surface *surface, const int32_t expec
   for (int i = 0; i < 3; ++i) assert_int_equal(arrays.leaflet_id[i], expected[i]);
 }
 
-static void test_arrays(void **state) {
-  (void)state;
+TEST(test_arrays) {
   riis_vtk_surface *surface = NULL;
   scratch_write_text("quads.vtu", quads);
   const char *path = scratch_path("quads.vtu");
@@ -139,8 +137,7 @@ static int ascending(const void *a, const void *b) {
 }
 
 /* The expected median comes from the sorted lengths of all edges in a box of tetrahedra. */
-static void test_median_edge(void **state) {
-  (void)state;
+TEST(test_median_edge) {
   enum { n_side = 9, n_points = n_side * n_side * n_side, n_cells = 6 * 8 * 8 * 8, n_edges = 6 * n_cells };
   static double xyz[3 * n_points], lengths[n_edges];
   static int64_t corners[4 * n_cells];
@@ -220,8 +217,7 @@ static void expect_cells(const char *path, int type) {
   free(types);
 }
 
-static void test_cells(void **state) {
-  (void)state;
+TEST(test_cells) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 7};
   int64_t n_cells = 0;
   riis_vtk_mesh *mesh = NULL;
@@ -243,8 +239,7 @@ static void expect_array(const riis_vtk_mesh *mesh, const char *name, int expect
   if (has != expected) fail_msg("%s: %d", name, has);
 }
 
-static void test_named_marks(void **state) {
-  (void)state;
+TEST(test_named_marks) {
   enum { n_side = 9, n_points = n_side * n_side * n_side };
   const char *path = scratch_path("box.vtu"), *out = scratch_path("out.vtu");
   const double lower[3] = {-1.5, -1.5, -1}, upper[3] = {1.5, 1.5, 0.5};
@@ -300,10 +295,4 @@ static void test_named_marks(void **state) {
   riis_valve_destroy(&valve);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_pieces), cmocka_unit_test(test_arrays),      cmocka_unit_test(test_median_edge),
-      cmocka_unit_test(test_cells),  cmocka_unit_test(test_named_marks),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

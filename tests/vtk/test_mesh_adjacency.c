@@ -86,8 +86,7 @@ static void expect_adjacency(const char *name, int64_t n_nodes, int64_t least_pa
   free(are_joined);
 }
 
-static void test_tetrahedra(void **state) {
-  (void)state;
+TEST(test_tetrahedra) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   expect_adjacency("box.vtu", n_box, 7 * n_box);
@@ -95,8 +94,7 @@ static void test_tetrahedra(void **state) {
   expect_adjacency("box.vtk", n_box, 7 * n_box);
 }
 
-static void test_every_cell(void **state) {
-  (void)state;
+TEST(test_every_cell) {
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   for (size_t t = 0; t < sizeof volume_types / sizeof volume_types[0]; ++t) {
     if (volume_types[t] == 16) continue;
@@ -104,53 +102,6 @@ static void test_every_cell(void **state) {
   }
   assert_int_equal(shim_read_curved_edges(scratch_path("zoo.vtu"), NULL), 3 * 24);
   expect_adjacency("zoo.vtu", n_shim_zoo, 100);
-}
-
-/* The mesh has random cells of all types of higher order, and prisms with six sides. */
-static void test_curved_cells(void **state) {
-  (void)state;
-  enum { n_nodes = 300 };
-  random_source random = random_start("test_mesh_adjacency");
-  for (int round = 0; round < 5; ++round) {
-    assert_int_equal(shim_write_curved(scratch_path("curved.vtu"), n_nodes, (uint32_t)random_bits(&random)), 1);
-    expect_adjacency("curved.vtu", n_nodes, 1000);
-    riis_vtk_mesh *mesh = read_mesh("curved.vtu");
-    int64_t n_volumes = 0, n_left_out = -1, n_cells = 0;
-    expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, &n_cells, NULL));
-    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, &n_left_out));
-    assert_true(n_volumes == n_cells && n_left_out == 0);
-    riis_vtk_mesh_destroy(&mesh);
-  }
-  scratch_write_text("prism.vtk",
-                     "# vtk DataFile Version 3.0\nprism\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n"
-                     "0 0 0 1 0 0 2 1 0 1 2 0 0 2 0 -1 1 0 0 0 1 1 0 1 2 1 1 1 2 1 0 2 1 -1 1 1\n"
-                     "CELLS 1 13\n12 0 1 2 3 4 5 6 7 8 9 10 11\nCELL_TYPES 1\n16\n");
-  expect_adjacency("prism.vtk", 12, 36);
-}
-
-/* In a triangle, the node in the middle is joined to all other nodes. In a triquadratic pyramid, the node in the middle
- * is joined to the middles of the faces. */
-static void test_triquadratic_pyramid(void **state) {
-  (void)state;
-  char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n";
-  for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), "%d %d %d\n", k % 3, k / 3 % 3, k / 9);
-  strcat(text, "CELLS 1 20\n19");
-  for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
-  strcat(text, "\nCELL_TYPES 1\n37\n");
-  scratch_write_text("pyramid.vtk", text);
-  /* The nodes whose numbers of neighbours are tested are: a corner of the base, the apex, and the middles of a side of the
-   * base, of a side to the apex, of the base, of a triangle, and of the cell. */
-  static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
-  riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
-  riis_adjacency *adjacency = NULL;
-  riis_csr csr;
-  expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
-  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
-  const int64_t *offsets = csr.offsets;
-  for (int i = 0; i < 7; ++i) assert_int_equal(offsets[nodes[i] + 1] - offsets[nodes[i]], n_neighbors[i]);
-  assert_int_equal(offsets[19], 2 * 49);
-  riis_adjacency_destroy(&adjacency);
-  riis_vtk_mesh_destroy(&mesh);
 }
 
 /* Returns whether the file has the expected rows. */
@@ -165,88 +116,6 @@ static void expect_same_rows(const char *name, const riis_csr *expected) {
   assert_memory_equal(csr.columns, expected->columns, (size_t)((const int64_t *)csr.offsets)[csr.n_rows] * 4);
   riis_adjacency_destroy(&adjacency);
   riis_vtk_mesh_destroy(&mesh);
-}
-
-/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts of the file and in several pieces. */
-static void test_polyhedra(void **state) {
-  (void)state;
-  const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
-  plain_mesh hexahedra = plain_hexahedra(5, lower, upper);
-  for (int n_pieces = 1; n_pieces <= 3; ++n_pieces) {
-    riis_adjacency *adjacency = NULL;
-    riis_csr csr;
-    plain_write("cells.vtu", &hexahedra, PLAIN_CELLS, n_pieces);
-    plain_write("streams.vtu", &hexahedra, PLAIN_STREAMS, n_pieces);
-    plain_write("lists.vtu", &hexahedra, PLAIN_LISTS, n_pieces);
-    riis_vtk_mesh *mesh = read_mesh("cells.vtu");
-    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
-    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
-    assert_int_equal(csr.n_rows, n_pieces * 125);
-    assert_true(((const int64_t *)csr.offsets)[csr.n_rows] > 300);
-    expect_same_rows("streams.vtu", &csr);
-    expect_same_rows("lists.vtu", &csr);
-    riis_adjacency_destroy(&adjacency);
-    riis_vtk_mesh_destroy(&mesh);
-    /* When riis writes the mesh again, the file still has the faces. */
-    mesh = read_mesh("lists.vtu");
-    expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
-    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
-    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
-    expect_same_rows("again.vtu", &csr);
-    riis_adjacency_destroy(&adjacency);
-    riis_vtk_mesh_destroy(&mesh);
-  }
-  plain_free(&hexahedra);
-}
-
-/* The edges of a quadratic tetrahedron are exactly the edges of the four tetrahedra at its corners. */
-static void test_quadratic_tetrahedra(void **state) {
-  (void)state;
-  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
-  plain_mesh hexahedra = plain_hexahedra(4, lower, upper), quadratic = plain_quadratic_tetrahedra(&hexahedra),
-             corners = plain_cut(&quadratic, 4);
-  riis_mesh_cells cells;
-  riis_adjacency *adjacency = NULL;
-  riis_csr csr;
-  expect_fine(riis_mesh_cells_init(&cells, sizeof cells));
-  cells.n_nodes = corners.n_nodes, cells.n_cells = corners.n_cells, cells.nodes_per_cell = 4;
-  cells.node_ids = corners.ids, cells.id_bits = 64;
-  expect_fine(riis_adjacency_create_from_cells(&cells, &adjacency));
-  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
-  plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
-  expect_same_rows("quadratic.vtu", &csr);
-  riis_adjacency_destroy(&adjacency);
-  plain_free(&hexahedra);
-  plain_free(&quadratic);
-  plain_free(&corners);
-}
-
-/* Cells whose edges riis does not know are counted: a convex point set, a Lagrange tetrahedron with nodes beyond its lattice,
- * and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
-static void test_unknown_cells(void **state) {
-  (void)state;
-  const struct {
-    const char *cells;
-    int n_volumes, n_left_out;
-  } cases[] = {{"CELLS 0 0\nCELL_TYPES 0\n", 0, 0},
-               {"CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n", 0, 0},
-               {"CELLS 2 11\n5 0 1 2 3 4\n4 4 5 6 7\nCELL_TYPES 2\n41\n10\n", 2, 1},
-               {"CELLS 1 16\n15 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\nCELL_TYPES 1\n71\n", 1, 1},
-               {"CELLS 1 22\n21 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\nCELL_TYPES 1\n73\n", 1, 1}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-    char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 21 double\n";
-    for (int k = 0; k < 21; ++k) sprintf(text + strlen(text), "%d %d %d\n", k % 3, k / 3 % 3, k / 9);
-    strcat(text, cases[i].cells);
-    scratch_write_text("unknown.vtk", text);
-    riis_vtk_mesh *mesh = read_mesh("unknown.vtk");
-    int64_t n_volumes = -1, n_left_out = -1;
-    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, &n_left_out));
-    assert_int_equal(n_volumes, cases[i].n_volumes);
-    assert_int_equal(n_left_out, cases[i].n_left_out);
-    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, NULL, NULL));
-    expect_refused(riis_vtk_mesh_get_volume_cells(NULL, &n_volumes, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
-    riis_vtk_mesh_destroy(&mesh);
-  }
 }
 
 /* Makes a triangle whose bounding box is the given box. */
@@ -295,39 +164,8 @@ static void expect_long_edges(const char *name, int64_t n_nodes, const double lo
   free(are_joined);
 }
 
-static void test_long_edges(void **state) {
-  (void)state;
-  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}, inner[3] = {0.3, 0.2, 0.1}, outer[3] = {0.8, 0.9, 0.6};
-  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
-  expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
-  expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
-  /* The limit equals the length of the cubes' diagonals, up to a billionth. */
-  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
-  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
-  expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
-}
-
-static void test_long_edges_refused(void **state) {
-  (void)state;
-  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
-  riis_vtk_mesh *mesh = read_mesh("box.vtu");
-  riis_surface *surface = surface_in(lower, upper);
-  riis_adjacency *adjacency = NULL;
-  const double bad[3] = {-1, NAN, INFINITY};
-  const char *const texts[3] = {"longer_than is -1;", "longer_than is nan;", "longer_than is inf;"};
-  for (int i = 0; i < 3; ++i)
-    expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, bad[i], 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
-                   texts[i]);
-  expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, 0, -1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
-                 "n_threads is -1");
-  assert_null(adjacency);
-  riis_surface_destroy(&surface);
-  riis_vtk_mesh_destroy(&mesh);
-}
-
 /* A quad's diagonals are not edges, and a voxel orders its nodes differently from a hexahedron. */
-static void test_voxel(void **state) {
-  (void)state;
+TEST(test_voxel) {
   scratch_write_text("voxel.vtk",
                      "# vtk DataFile Version 3.0\nvoxel\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 9 double\n"
                      "0 0 0 1 0 0 0 1 0 1 1 0 0 0 1 1 0 1 0 1 1 1 1 1 5 5 5\n"
@@ -346,8 +184,7 @@ static void test_voxel(void **state) {
 
 /* Meshes without volume cells, or with cells whose edges are unknown, have empty rows. The neighbour search still finds all
  * nodes. */
-static void test_no_volume(void **state) {
-  (void)state;
+TEST(test_no_volume) {
   const char *cells[] = {"CELLS 0 0\nCELL_TYPES 0\n", "CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n",
                          "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n41\n"};
   const uint8_t are_joined[100] = {0};
@@ -405,8 +242,7 @@ static void test_no_volume(void **state) {
   riis_surface_destroy(&surface);
 }
 
-static void test_threads(void **state) {
-  (void)state;
+TEST(test_threads) {
   shim_write_zoo(scratch_path("zoo.vtu"));
   scratch_write_text("point.vtk",
                      "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 1 double\n0 0 0\n"
@@ -423,20 +259,156 @@ static void test_threads(void **state) {
   }
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tetrahedra),
-      cmocka_unit_test(test_every_cell),
-      cmocka_unit_test(test_voxel),
-      cmocka_unit_test(test_no_volume),
-      cmocka_unit_test(test_threads),
-      cmocka_unit_test(test_long_edges),
-      cmocka_unit_test(test_long_edges_refused),
-      cmocka_unit_test(test_curved_cells),
-      cmocka_unit_test(test_triquadratic_pyramid),
-      cmocka_unit_test(test_polyhedra),
-      cmocka_unit_test(test_quadratic_tetrahedra),
-      cmocka_unit_test(test_unknown_cells),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+TEST(test_long_edges) {
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1}, inner[3] = {0.3, 0.2, 0.1}, outer[3] = {0.8, 0.9, 0.6};
+  assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
+  expect_long_edges("box.vtu", n_box, inner, outer, 0, 0);
+  expect_long_edges("box.vtu", n_box, lower, upper, 0.126, 0);
+  /* The limit equals the length of the cubes' diagonals, up to a billionth. */
+  expect_long_edges("box.vtu", n_box, lower, upper, 0.125 * sqrt(3), 0);
+  assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
+  expect_long_edges("zoo.vtu", n_shim_zoo, inner, outer, 2, 0);
 }
+
+TEST(test_long_edges_refused) {
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  riis_vtk_mesh *mesh = read_mesh("box.vtu");
+  riis_surface *surface = surface_in(lower, upper);
+  riis_adjacency *adjacency = NULL;
+  const double bad[3] = {-1, NAN, INFINITY};
+  const char *const texts[3] = {"longer_than is -1;", "longer_than is nan;", "longer_than is inf;"};
+  for (int i = 0; i < 3; ++i)
+    expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, bad[i], 1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+                   texts[i]);
+  expect_refused(riis_vtk_mesh_create_long_edges(mesh, surface, 0, -1, NULL, &adjacency), RIIS_INVALID_ARGUMENT,
+                 "n_threads is -1");
+  assert_null(adjacency);
+  riis_surface_destroy(&surface);
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+/* The mesh has random cells of all types of higher order, and prisms with six sides. */
+TEST(test_curved_cells) {
+  enum { n_nodes = 300 };
+  random_source random = random_start("test_mesh_adjacency");
+  for (int round = 0; round < 5; ++round) {
+    assert_int_equal(shim_write_curved(scratch_path("curved.vtu"), n_nodes, (uint32_t)random_bits(&random)), 1);
+    expect_adjacency("curved.vtu", n_nodes, 1000);
+    riis_vtk_mesh *mesh = read_mesh("curved.vtu");
+    int64_t n_volumes = 0, n_left_out = -1, n_cells = 0;
+    expect_fine(riis_vtk_mesh_get_nodes(mesh, NULL, &n_cells, NULL));
+    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, &n_left_out));
+    assert_true(n_volumes == n_cells && n_left_out == 0);
+    riis_vtk_mesh_destroy(&mesh);
+  }
+  scratch_write_text("prism.vtk",
+                     "# vtk DataFile Version 3.0\nprism\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n"
+                     "0 0 0 1 0 0 2 1 0 1 2 0 0 2 0 -1 1 0 0 0 1 1 0 1 2 1 1 1 2 1 0 2 1 -1 1 1\n"
+                     "CELLS 1 13\n12 0 1 2 3 4 5 6 7 8 9 10 11\nCELL_TYPES 1\n16\n");
+  expect_adjacency("prism.vtk", 12, 36);
+}
+
+/* In a triangle, the node in the middle is joined to all other nodes. In a triquadratic pyramid, the node in the middle
+ * is joined to the middles of the faces. */
+TEST(test_triquadratic_pyramid) {
+  char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 19 double\n";
+  for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), "%d %d %d\n", k % 3, k / 3 % 3, k / 9);
+  strcat(text, "CELLS 1 20\n19");
+  for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
+  strcat(text, "\nCELL_TYPES 1\n37\n");
+  scratch_write_text("pyramid.vtk", text);
+  /* The nodes whose numbers of neighbours are tested are: a corner of the base, the apex, and the middles of a side of the
+   * base, of a side to the apex, of the base, of a triangle, and of the cell. */
+  static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
+  riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
+  riis_adjacency *adjacency = NULL;
+  riis_csr csr;
+  expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
+  const int64_t *offsets = csr.offsets;
+  for (int i = 0; i < 7; ++i) assert_int_equal(offsets[nodes[i] + 1] - offsets[nodes[i]], n_neighbors[i]);
+  assert_int_equal(offsets[19], 2 * 49);
+  riis_adjacency_destroy(&adjacency);
+  riis_vtk_mesh_destroy(&mesh);
+}
+
+/* Hexahedra have the same edges as polyhedra with the same faces, in both layouts of the file and in several pieces. */
+TEST(test_polyhedra) {
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 2, 3};
+  plain_mesh hexahedra = plain_hexahedra(5, lower, upper);
+  for (int n_pieces = 1; n_pieces <= 3; ++n_pieces) {
+    riis_adjacency *adjacency = NULL;
+    riis_csr csr;
+    plain_write("cells.vtu", &hexahedra, PLAIN_CELLS, n_pieces);
+    plain_write("streams.vtu", &hexahedra, PLAIN_STREAMS, n_pieces);
+    plain_write("lists.vtu", &hexahedra, PLAIN_LISTS, n_pieces);
+    riis_vtk_mesh *mesh = read_mesh("cells.vtu");
+    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
+    assert_int_equal(csr.n_rows, n_pieces * 125);
+    assert_true(((const int64_t *)csr.offsets)[csr.n_rows] > 300);
+    expect_same_rows("streams.vtu", &csr);
+    expect_same_rows("lists.vtu", &csr);
+    riis_adjacency_destroy(&adjacency);
+    riis_vtk_mesh_destroy(&mesh);
+    /* When riis writes the mesh again, the file still has the faces. */
+    mesh = read_mesh("lists.vtu");
+    expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
+    expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));
+    expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
+    expect_same_rows("again.vtu", &csr);
+    riis_adjacency_destroy(&adjacency);
+    riis_vtk_mesh_destroy(&mesh);
+  }
+  plain_free(&hexahedra);
+}
+
+/* The edges of a quadratic tetrahedron are exactly the edges of the four tetrahedra at its corners. */
+TEST(test_quadratic_tetrahedra) {
+  const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  plain_mesh hexahedra = plain_hexahedra(4, lower, upper), quadratic = plain_quadratic_tetrahedra(&hexahedra),
+             corners = plain_cut(&quadratic, 4);
+  riis_mesh_cells cells;
+  riis_adjacency *adjacency = NULL;
+  riis_csr csr;
+  expect_fine(riis_mesh_cells_init(&cells, sizeof cells));
+  cells.n_nodes = corners.n_nodes, cells.n_cells = corners.n_cells, cells.nodes_per_cell = 4;
+  cells.node_ids = corners.ids, cells.id_bits = 64;
+  expect_fine(riis_adjacency_create_from_cells(&cells, &adjacency));
+  expect_fine(riis_adjacency_get_csr(adjacency, &csr, sizeof csr));
+  plain_write("quadratic.vtu", &quadratic, PLAIN_CELLS, 1);
+  expect_same_rows("quadratic.vtu", &csr);
+  riis_adjacency_destroy(&adjacency);
+  plain_free(&hexahedra);
+  plain_free(&quadratic);
+  plain_free(&corners);
+}
+
+/* Cells whose edges riis does not know are counted: a convex point set, a Lagrange tetrahedron with nodes beyond its lattice,
+ * and a Lagrange wedge of 21 nodes. Faces and points do not count as volume cells. */
+TEST(test_unknown_cells) {
+  const struct {
+    const char *cells;
+    int n_volumes, n_left_out;
+  } cases[] = {{"CELLS 0 0\nCELL_TYPES 0\n", 0, 0},
+               {"CELLS 2 8\n3 0 1 2\n3 1 2 3\nCELL_TYPES 2\n5\n5\n", 0, 0},
+               {"CELLS 2 11\n5 0 1 2 3 4\n4 4 5 6 7\nCELL_TYPES 2\n41\n10\n", 2, 1},
+               {"CELLS 1 16\n15 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14\nCELL_TYPES 1\n71\n", 1, 1},
+               {"CELLS 1 22\n21 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\nCELL_TYPES 1\n73\n", 1, 1}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+    char text[1024] = "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 21 double\n";
+    for (int k = 0; k < 21; ++k) sprintf(text + strlen(text), "%d %d %d\n", k % 3, k / 3 % 3, k / 9);
+    strcat(text, cases[i].cells);
+    scratch_write_text("unknown.vtk", text);
+    riis_vtk_mesh *mesh = read_mesh("unknown.vtk");
+    int64_t n_volumes = -1, n_left_out = -1;
+    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, &n_volumes, &n_left_out));
+    assert_int_equal(n_volumes, cases[i].n_volumes);
+    assert_int_equal(n_left_out, cases[i].n_left_out);
+    expect_fine(riis_vtk_mesh_get_volume_cells(mesh, NULL, NULL));
+    expect_refused(riis_vtk_mesh_get_volume_cells(NULL, &n_volumes, NULL), RIIS_INVALID_ARGUMENT, "mesh is NULL");
+    riis_vtk_mesh_destroy(&mesh);
+  }
+}
+
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

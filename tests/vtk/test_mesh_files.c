@@ -80,8 +80,7 @@ static void round_trip(const char *name, int encoding, int float_points) {
   if (!legacy) expect_same_array(scratch_path(name), scratch_path("out.vtu"), 'p', "name", 0);
 }
 
-static void test_round_trips(void **state) {
-  (void)state;
+TEST(test_round_trips) {
   for (int float_points = 0; float_points < 2; ++float_points) {
     round_trip("in.vtu", SHIM_ASCII, float_points);
     round_trip("in.vtu", SHIM_BINARY, float_points);
@@ -93,8 +92,7 @@ static void test_round_trips(void **state) {
 }
 
 /* The box's nodes are shuffled, so only a reader that keeps their order passes the test. */
-static void test_nodes_are_shuffled(void **state) {
-  (void)state;
+TEST(test_nodes_are_shuffled) {
   static double xyz[3 * n_nodes];
   assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   assert_int_equal(shim_read_points(scratch_path("in.vtu"), NULL, NULL, NULL, xyz), 1);
@@ -104,8 +102,7 @@ static void test_nodes_are_shuffled(void **state) {
 }
 
 /* The file has every keyword of the legacy format that an unstructured grid may have, as older versions spell them. */
-static void test_legacy_keywords(void **state) {
-  (void)state;
+TEST(test_legacy_keywords) {
   scratch_write_text(
       "old.vtk",
       "# vtk DataFile Version 2.0\nold\nASCII\nDATASET UNSTRUCTURED_GRID\n"
@@ -138,8 +135,7 @@ static void test_legacy_keywords(void **state) {
 }
 
 /* The file has bit arrays and blocks of METADATA. VTK's writer puts such blocks after arrays whose range was queried. */
-static void test_legacy_metadata(void **state) {
-  (void)state;
+TEST(test_legacy_metadata) {
   for (int i = 0; i < 4; ++i) {
     int64_t n = 0, n_read_cells = 0;
     assert_int_equal(shim_write_legacy(scratch_path("range.vtk"), i % 2, i < 2 ? 42 : 51), 1);
@@ -162,8 +158,7 @@ static void test_legacy_metadata(void **state) {
 #define LEGACY(version) "# vtk DataFile Version " version "\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
 
 /* Lines end with a carriage return, a mesh has no cells, or METADATA stands where VTK never puts it. */
-static void test_legacy_layouts(void **state) {
-  (void)state;
+TEST(test_legacy_layouts) {
   const char *texts[] = {
       LEGACY("2.0") "0 0 0 1 0 0 0 1 0 0 0 1\r\nMETADATA\r\nINFORMATION 0\r\n\r\nCELLS 1 5\r\n4 0 1 2 3\r\n"
                     "CELL_TYPES 1\r\n10\r\n",
@@ -182,8 +177,7 @@ static void test_legacy_layouts(void **state) {
 }
 
 /* The word "Array" in a name or a comment does not begin an array. */
-static void test_word_array(void **state) {
-  (void)state;
+TEST(test_word_array) {
   scratch_write_text(
       "word.vtu",
       "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
@@ -249,8 +243,7 @@ static void expect_marks(const char *path, const riis_marks *result, double far_
   assert_true(n_marked > 10 && n_far > 10 && n_marked + n_far < n_nodes);
 }
 
-static void test_marks(void **state) {
-  (void)state;
+TEST(test_marks) {
   assert_int_equal(shim_write_box(scratch_path("in.vtu"), SHIM_RAW, n_side, lower, upper, 0), 1);
   riis_vtk_mesh *mesh = read_mesh("in.vtu");
   riis_marks *result = mark(mesh, 0.15, 0.3);
@@ -284,12 +277,4 @@ static void test_marks(void **state) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_round_trips),     cmocka_unit_test(test_nodes_are_shuffled),
-      cmocka_unit_test(test_legacy_keywords), cmocka_unit_test(test_legacy_metadata),
-      cmocka_unit_test(test_legacy_layouts),  cmocka_unit_test(test_word_array),
-      cmocka_unit_test(test_marks),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -64,8 +64,7 @@ static void expect_cells(const char *whole, const char *part, int corners_per_ce
   }
 }
 
-static void test_box(void **state) {
-  (void)state;
+TEST(test_box) {
   static int64_t corners[most_values];
   static unsigned char is_wanted[n_box];
   static double ids[n_box], values[3 * n_box], of_part[3 * n_box];
@@ -98,8 +97,7 @@ static void test_box(void **state) {
 }
 
 /* The mesh has cells of many kinds, including polyhedra. VTK finds the same faces in the part as riis does. */
-static void test_kinds(void **state) {
-  (void)state;
+TEST(test_kinds) {
   int64_t ids[n_shim_zoo], n_points = 0, n_cells = 0, n_all = 0, n_faces[2] = {0, 0}, n_inwards = 0;
   for (int i = 0; i < n_shim_zoo; ++i) ids[i] = i;
   const char *part = part_of("zoo.vtu", n_shim_zoo, ids);
@@ -118,8 +116,7 @@ static void test_kinds(void **state) {
 }
 
 /* A node without cells stays in the part. A part without nodes is an empty mesh. */
-static void test_few_nodes(void **state) {
-  (void)state;
+TEST(test_few_nodes) {
   const int64_t last = n_shim_zoo - 1;
   int64_t n_points = 0;
   riis_vtk_mesh *mesh = NULL, *part = NULL;
@@ -158,8 +155,7 @@ static void expect_size(const char *name) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-static void test_size(void **state) {
-  (void)state;
+TEST(test_size) {
   expect_size("box.vtu");
   expect_size("zoo.vtu");
 }
@@ -236,8 +232,7 @@ static void expect_integers(const char *name, const marking *m, const int32_t *v
   for (int i = 0; i < n_box; ++i) assert_true(found[i] == elsewhere);
 }
 
-static void test_fields(void **state) {
-  (void)state;
+TEST(test_fields) {
   const int32_t all = 2 * RIIS_FIELD_PATCH - 1;
   riis_mark_list fields;
   marking m = marked_box("mitral", -0.6, all);
@@ -265,8 +260,7 @@ static void test_fields(void **state) {
 
 /* Only fields that the marking computed are available. If the mesh is far from the valve, all arrays exist but contain no
  * values. */
-static void test_fields_that_lack(void **state) {
-  (void)state;
+TEST(test_fields_that_lack) {
   marking m = marked_box("mitral", -0.6, RIIS_FIELD_SIDE);
   expect_refused(riis_vtk_mesh_set_fields(m.file, m.result, RIIS_FIELD_NORMAL, "m"), RIIS_INVALID_ARGUMENT,
                  "marks lack the field of m_normal");
@@ -280,10 +274,4 @@ static void test_fields_that_lack(void **state) {
   forget(&m);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_box),  cmocka_unit_test(test_kinds),  cmocka_unit_test(test_few_nodes),
-      cmocka_unit_test(test_size), cmocka_unit_test(test_fields), cmocka_unit_test(test_fields_that_lack),
-  };
-  return cmocka_run_group_tests(tests, make_files, scratch_teardown);
-}
+int main(void) { return run_cases(make_files, scratch_teardown); }

@@ -124,15 +124,9 @@ static void delaunay(const char *kind) {
   expect_same_in_file(scratch_path("delaunay.vtu"), kind, n);
 }
 
-static void aortic_in_a_delaunay_mesh(void **state) {
-  (void)state;
-  delaunay("aortic");
-}
+TEST(aortic_in_a_delaunay_mesh) { delaunay("aortic"); }
 
-static void mitral_in_a_delaunay_mesh(void **state) {
-  (void)state;
-  delaunay("mitral");
-}
+TEST(mitral_in_a_delaunay_mesh) { delaunay("mitral"); }
 
 #ifdef RIIS_GMSH
 /* Makes a cylinder around the valve. Its mesh is fine near one point and coarser away from it. */
@@ -166,29 +160,21 @@ static void graded_by_gmsh(const char *kind) {
 }
 #endif
 
-static void aortic_in_a_gmsh_mesh(void **state) {
-  (void)state;
+TEST(aortic_in_a_gmsh_mesh) {
 #ifdef RIIS_GMSH
   graded_by_gmsh("aortic");
 #endif
 }
 
-static void mitral_in_a_gmsh_mesh(void **state) {
-  (void)state;
+TEST(mitral_in_a_gmsh_mesh) {
 #ifdef RIIS_GMSH
   graded_by_gmsh("mitral");
 #endif
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(aortic_in_a_delaunay_mesh),
-      cmocka_unit_test(mitral_in_a_delaunay_mesh),
-      cmocka_unit_test(aortic_in_a_gmsh_mesh),
-      cmocka_unit_test(mitral_in_a_gmsh_mesh),
-  };
   rng = random_start("test_mesh_search");
-  const int failed = cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+  const int failed = run_cases(scratch_setup, scratch_teardown);
 #ifndef RIIS_GMSH
   if (!failed) {
     printf("no gmsh: its part was skipped\n");

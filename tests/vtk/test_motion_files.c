@@ -114,8 +114,7 @@ static void expect_files(const riis_vtk_motion *motion, int64_t n_expected, cons
   assert_string_equal(paths[n - 1], scratch_path(last));
 }
 
-static void test_collections(void **state) {
-  (void)state;
+TEST(test_collections) {
   char absolute[2048], *here = getcwd(NULL, 0);
   write_frames("", ".vtp");
   write_collection("here.pvd", "", ".vtp");
@@ -136,8 +135,7 @@ static void test_collections(void **state) {
 }
 
 /* Reads a collection in the working directory by its bare name. */
-static void test_collection_in_working_directory(void **state) {
-  (void)state;
+TEST(test_collection_in_working_directory) {
   char *here = getcwd(NULL, 0);
   riis_vtk_motion *motion = NULL;
   write_frames("", ".vtp");
@@ -163,8 +161,7 @@ static riis_vtk_motion *list(const char *const endings[n_keys], const char *leaf
   return motion;
 }
 
-static void test_lists(void **state) {
-  (void)state;
+TEST(test_lists) {
   const char *const polydata[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
   const char *const mixed[n_keys] = {".vtu", ".vtp", ".vtu", ".vtp"};
   const char *const stl[n_keys] = {".stl", ".STL", ".stl", ".STL"};
@@ -179,8 +176,7 @@ static void test_lists(void **state) {
 }
 
 /* For every interpolation and period, frames from files and from arrays give the same bits. */
-static void test_same_as_arrays(void **state) {
-  (void)state;
+TEST(test_same_as_arrays) {
   const char *const endings[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
   static double xyz[n_keys][sheet_n_vertices][3];
   static int64_t corners[sheet_n_triangles][3];
@@ -236,8 +232,7 @@ static void write_displaced(const char *name, const char *const arrays[n_keys], 
   sheet_write(name, 0, &extras);
 }
 
-static void test_displacements(void **state) {
-  (void)state;
+TEST(test_displacements) {
   const char *const plain[n_keys] = {"displacement_0", "displacement_1", "displacement_2", "displacement_3"};
   const char *const steps[n_keys] = {"displacement_0050", "displacement100", "displacement_0900", "displacement_1000"};
   riis_vtk_motion *motion = NULL;
@@ -260,8 +255,7 @@ static void test_displacements(void **state) {
 
 /* A quad lies beside a triangle. During the motion, the quad's shorter diagonal changes, but the quad is cut as in the first
  * file. */
-static void test_quads_are_cut_once(void **state) {
-  (void)state;
+TEST(test_quads_are_cut_once) {
   const char *const fourth[2] = {"1 1 0", "0.2 0.2 0"}, *const names[2] = {"convex.vtp", "concave.vtp"};
   const char *paths[2];
   riis_vtk_motion *motion = NULL;
@@ -294,8 +288,7 @@ static void test_quads_are_cut_once(void **state) {
 }
 
 /* Corners in .stl files may come together during the motion, but must not separate. */
-static void test_corners_of_stl(void **state) {
-  (void)state;
+TEST(test_corners_of_stl) {
   const char *facets =
       "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
       "facet normal 0 0 1\nouter loop\nvertex %s 0 0\nvertex 1 1 0\nvertex 0 1 -0\nendloop\nendfacet\n"
@@ -326,8 +319,7 @@ static void test_corners_of_stl(void **state) {
 }
 
 /* A surface is written with its velocities. */
-static void test_velocity_is_written(void **state) {
-  (void)state;
+TEST(test_velocity_is_written) {
   const char *const endings[n_keys] = {".vtp", ".vtp", ".vtp", ".vtp"};
   riis_keyframes *keyframes = keyframes_of(list(endings, NULL), 0, RIIS_INTERPOLATION_LINEAR);
   riis_surface *surface = NULL;
@@ -352,12 +344,4 @@ static void test_velocity_is_written(void **state) {
   riis_keyframes_destroy(&keyframes);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_collections),    cmocka_unit_test(test_collection_in_working_directory),
-      cmocka_unit_test(test_lists),          cmocka_unit_test(test_same_as_arrays),
-      cmocka_unit_test(test_displacements),  cmocka_unit_test(test_quads_are_cut_once),
-      cmocka_unit_test(test_corners_of_stl), cmocka_unit_test(test_velocity_is_written),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

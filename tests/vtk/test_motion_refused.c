@@ -31,8 +31,7 @@ static void expect_collection(const char *name, const char *text, const char *fi
   assert_int_equal(n_printed, 0);
 }
 
-static void test_not_collections(void **state) {
-  (void)state;
+TEST(test_not_collections) {
   expect_collection("missing.pvd", NULL, "missing.pvd: ", "No such file or directory");
   expect_collection("frames.xml", COLLECTION(""), "frames.xml: ", "a collection of files in time must be a .pvd file");
   expect_collection("empty.pvd", "", "empty.pvd: ", "is empty");
@@ -45,8 +44,7 @@ static void test_not_collections(void **state) {
   expect_collection("twice.pvd", COLLECTION("<DataSet file=\"a\" file=\"b\"/>"), "twice.pvd: ", "duplicate attribute");
 }
 
-static void test_no_data_sets(void **state) {
-  (void)state;
+TEST(test_no_data_sets) {
   const char *const none = "names no files: it has no DataSet in a Collection";
   expect_collection("none.pvd", COLLECTION(""), "none.pvd: ", none);
   expect_collection("comment.pvd", COLLECTION("<!--" DATA_SET("0", "a.vtp") "-->"), "comment.pvd: ", none);
@@ -59,8 +57,7 @@ static void test_no_data_sets(void **state) {
                     "other.pvd: ", none);
 }
 
-static void test_bad_data_sets(void **state) {
-  (void)state;
+TEST(test_bad_data_sets) {
   sheet_write("a.vtp", 0, NULL);
   const struct {
     const char *data_sets, *text;
@@ -90,8 +87,7 @@ static void test_bad_data_sets(void **state) {
                     "self.pvd: ", "a surface must be a .vtp, .vtu or .stl file");
 }
 
-static void test_too_many_data_sets(void **state) {
-  (void)state;
+TEST(test_too_many_data_sets) {
   const char *const data_set = "<DataSet timestep='0' file='a'/>";
   const size_t n = 1000001, size = strlen(data_set);
   char *text = malloc(200 + n * size), *end = text;
@@ -131,8 +127,7 @@ static void expect_second(const char *second, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-static void test_other_cells(void **state) {
-  (void)state;
+TEST(test_other_cells) {
   const char *const points = "0 0 0  1 0 0  1 1 0  0 1 0", *const two = "0 1 2 0 2 3";
   write_square("first.vtp", points, two, "3 6", 4, 2);
   expect_second("missing.vtp", "No such file or directory");
@@ -150,8 +145,7 @@ static void test_other_cells(void **state) {
   expect_second("spoilt.vtp", "cell 0 names point 7 of 4");
 }
 
-static void test_bad_coordinates(void **state) {
-  (void)state;
+TEST(test_bad_coordinates) {
   const struct {
     const char *points, *text;
   } cases[] = {
@@ -169,8 +163,7 @@ static void test_bad_coordinates(void **state) {
   }
 }
 
-static void test_bad_lists(void **state) {
-  (void)state;
+TEST(test_bad_lists) {
   sheet_write("a.vtp", 0, NULL);
   const char *const path = scratch_path("a.vtp"), *const paths[3] = {path, path, path}, *const hole[2] = {path, NULL};
   const double equal[3] = {0, 0.5, 0.5}, odd[2] = {0, NAN}, large[2] = {0, 2e30};
@@ -208,8 +201,7 @@ static void expect_displacements(const char *arrays, const char *field, int64_t 
   assert_null(motion);
 }
 
-static void test_bad_displacements(void **state) {
-  (void)state;
+TEST(test_bad_displacements) {
   static char two[16384], text[16384];
   sheet_displacement(sheet_displacement(two, "d_0", 0), "d_1", 1);
   expect_displacements(NULL, NULL, 2, RIIS_FILE_ERROR, "has no point array d_0, d_1, ...; there is none");
@@ -238,8 +230,7 @@ static void test_bad_displacements(void **state) {
 #define TIME_VALUE(n, values) \
   "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"" n "\" format=\"ascii\">" values "</DataArray>"
 
-static void test_bad_times_of_displacements(void **state) {
-  (void)state;
+TEST(test_bad_times_of_displacements) {
   static char two[16384];
   const double descending[2] = {1, 0};
   riis_vtk_motion *motion = NULL;
@@ -272,8 +263,7 @@ static void test_bad_times_of_displacements(void **state) {
   assert_null(motion);
 }
 
-static void test_arguments_of_arrays(void **state) {
-  (void)state;
+TEST(test_arguments_of_arrays) {
   riis_vtk_motion *motion = NULL;
   riis_surface_arrays faces;
   riis_keyframe_arrays frames;
@@ -306,8 +296,7 @@ static int is_read_or_refused(const char *name) {
 }
 
 /* A collection is truncated after each of its bytes, and each byte is replaced by others. */
-static void test_damaged_collections(void **state) {
-  (void)state;
+TEST(test_damaged_collections) {
   static const unsigned char others[] = {0, '<', '"', '&', 0xff};
   char text[] = "<?xml version=\"1.0\"?>\n" COLLECTION("\n" DATA_SET("0", "a.vtp") "\n" DATA_SET("0.5", "a.vtp"));
   const size_t size = strlen(text);
@@ -335,8 +324,7 @@ static void test_damaged_collections(void **state) {
 
 /* Elements nested a million deep would overflow the stack of a reader that recurses. XML entities that refer to other entities
  * would fill the memory of a reader that expands them. */
-static void test_hostile_collections(void **state) {
-  (void)state;
+TEST(test_hostile_collections) {
   const size_t n = 1000000;
   char *text = malloc(200 + 7 * n), *end = text;
   assert_non_null(text);
@@ -358,20 +346,4 @@ static void test_hostile_collections(void **state) {
   expect_collection("laughs.pvd", NULL, "laughs.pvd: ", "amplification");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_not_collections),
-      cmocka_unit_test(test_no_data_sets),
-      cmocka_unit_test(test_bad_data_sets),
-      cmocka_unit_test(test_too_many_data_sets),
-      cmocka_unit_test(test_other_cells),
-      cmocka_unit_test(test_bad_coordinates),
-      cmocka_unit_test(test_bad_lists),
-      cmocka_unit_test(test_bad_displacements),
-      cmocka_unit_test(test_bad_times_of_displacements),
-      cmocka_unit_test(test_arguments_of_arrays),
-      cmocka_unit_test(test_damaged_collections),
-      cmocka_unit_test(test_hostile_collections),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -34,15 +34,11 @@ static void expect_unavailable(const char *display, const char *part_of_text) {
   riis_valve_destroy(&valve);
 }
 
-static void test_no_display(void **state) {
-  (void)state;
+TEST(test_no_display) {
   expect_unavailable(NULL, "DISPLAY is not set");
   expect_unavailable("", "DISPLAY is not set");
   expect_unavailable(":7654", "DISPLAY :7654 cannot be opened");
   expect_unavailable("nonsense", "DISPLAY nonsense cannot be opened");
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_display)};
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

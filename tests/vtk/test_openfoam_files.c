@@ -84,8 +84,7 @@ static const broken faults[] = {
     {3, "0()", "1(0", "neighbour: is truncated"},
 };
 
-static void test_tetrahedron(void **state) {
-  (void)state;
+TEST(test_tetrahedron) {
   run("mkdir -p tet/constant/polyMesh");
   write_tetrahedron(-1, NULL);
   const char *paths[] = {"tet", "tet/", "tet/constant/polyMesh", "tet/case.foam"};
@@ -101,8 +100,7 @@ static void test_tetrahedron(void **state) {
   }
 }
 
-static void test_broken(void **state) {
-  (void)state;
+TEST(test_broken) {
   run("mkdir -p tet/constant/polyMesh");
   riis_vtk_mesh *mesh = NULL;
   for (size_t i = 0; i < sizeof faults / sizeof *faults; ++i) {
@@ -218,8 +216,7 @@ static void expect_same_order(const char *a, const char *b) {
   for (int i = 0; i < 2; ++i) riis_vtk_mesh_destroy(&meshes[i]);
 }
 
-static void test_block_mesh(void **state) {
-  (void)state;
+TEST(test_block_mesh) {
   write_case("text", "ascii", "off");
   write_case("binary", "binary", "off");
   write_case("packed", "ascii", "on");
@@ -322,15 +319,11 @@ static void test_centers(const char *name) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-static void test_block_centers(void **state) {
-  (void)state;
-  test_centers("text");
-}
+TEST(test_block_centers) { test_centers("text"); }
 
 #ifdef RIIS_GMSH
 /* gmsh's tetrahedra, and those with a layer of prisms and hexahedra, as cases of OpenFOAM, and their dual polyhedra. */
-static void test_other_cells(void **state) {
-  (void)state;
+TEST(test_other_cells) {
   scratch_write_text("mix.geo",
                      "SetFactory(\"OpenCASCADE\");\nBox(1) = {-1, -1.1, -1.2, 2, 2.2, 2.4};\nMesh.MeshSizeMax = 0.9;\n"
                      "Extrude {0, 0, 1} { Surface{6}; Layers{2}; Recombine; }\nPhysical Volume(1) = {1, 2};\n");
@@ -357,17 +350,8 @@ static void test_other_cells(void **state) {
 int main(void) {
   /* Debian's package needs this folder, and its programs do not know it. */
   setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_tetrahedron), cmocka_unit_test(test_broken),
-#ifdef RIIS_BLOCKMESH
-      cmocka_unit_test(test_block_mesh),  cmocka_unit_test(test_block_centers),
-#ifdef RIIS_GMSH
-      cmocka_unit_test(test_other_cells),
-#endif
-#endif
-  };
 #ifndef RIIS_BLOCKMESH
   printf("without OpenFOAM: only text that the test wrote\n");
 #endif
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
+  return run_cases(scratch_setup, scratch_teardown);
 }

@@ -7,8 +7,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-static void test_box(void **state) {
-  (void)state;
+TEST(test_box) {
   const double lower[3] = {-1, 0, 2}, upper[3] = {1, 3, 7};
   int64_t n_faces = 0, n_inwards = 0;
   for (int n = 2; n < 9; n += 3) {
@@ -20,8 +19,7 @@ static void test_box(void **state) {
 }
 
 /* The meshes have cells of all linear types, cells of higher order, polyhedra, and tetrahedra that share most of their faces. */
-static void test_types(void **state) {
-  (void)state;
+TEST(test_types) {
   int64_t n_faces = 0, n_inwards = 0;
   assert_int_equal(shim_write_zoo(scratch_path("zoo.vtu")), 1);
   assert_int_equal(shim_compare_outside(scratch_path("zoo.vtu"), &n_faces, &n_inwards), 0);
@@ -38,7 +36,4 @@ static void test_types(void **state) {
   assert_int_equal(n_inwards, 0);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_box), cmocka_unit_test(test_types)};
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -88,30 +88,6 @@ static void expect_picture(const char *name, int expected_width, int expected_he
   assert_true(n_coloured[0] > width * height / 40 && n_coloured[1] > width * height / 40);
 }
 
-static void test_views(void **state) {
-  (void)state;
-  const int n_before = scratch_n_files();
-  draw("side.png", mesh, RIIS_VTK_VIEW_SIDE, 800, 400);
-  draw("top.png", mesh, RIIS_VTK_VIEW_TOP, 800, 400);
-  draw("oblique.png", mesh, RIIS_VTK_VIEW_OBLIQUE, 800, 400);
-  assert_int_equal(scratch_n_files(), n_before + 3);
-  const char *names[3] = {"side.png", "top.png", "oblique.png"};
-  for (int i = 0; i < 3; ++i) {
-    expect_picture(names[i], 800, 400);
-    assert_false(scratch_is_same(names[i], names[(i + 1) % 3]));
-  }
-}
-
-static void test_one_panel(void **state) {
-  (void)state;
-  draw("alone.png", NULL, RIIS_VTK_VIEW_TOP, 300, 500);
-  expect_picture("alone.png", 300, 500);
-  draw("small.png", mesh, RIIS_VTK_VIEW_TOP, 64, 64);
-  int width = 0, height = 0, n_colours = 0, n_coloured[2];
-  assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_coloured), 1);
-  assert_true(width == 64 && height == 64 && n_colours > 1);
-}
-
 static void draw_texts(const char *name, const char *title, const char *const *names, int64_t n_names) {
   riis_vtk_picture_options options;
   expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
@@ -122,8 +98,7 @@ static void draw_texts(const char *name, const char *title, const char *const *n
 }
 
 /* The texts are visible. Characters outside ASCII are drawn as ?, and no text is rendered as a formula. */
-static void test_texts(void **state) {
-  (void)state;
+TEST(test_texts) {
   const char *names[3] = {"right", "left", "leaflet 2"};
   draw_texts("plain.png", NULL, NULL, 0);
   draw_texts("default.png", "Surface", (const char *const[]){"leaflet 0"}, 1);
@@ -139,9 +114,30 @@ static void test_texts(void **state) {
   assert_true(scratch_is_same("odd.png", "marked.png"));
 }
 
+TEST(test_views) {
+  const int n_before = scratch_n_files();
+  draw("side.png", mesh, RIIS_VTK_VIEW_SIDE, 800, 400);
+  draw("top.png", mesh, RIIS_VTK_VIEW_TOP, 800, 400);
+  draw("oblique.png", mesh, RIIS_VTK_VIEW_OBLIQUE, 800, 400);
+  assert_int_equal(scratch_n_files(), n_before + 3);
+  const char *names[3] = {"side.png", "top.png", "oblique.png"};
+  for (int i = 0; i < 3; ++i) {
+    expect_picture(names[i], 800, 400);
+    assert_false(scratch_is_same(names[i], names[(i + 1) % 3]));
+  }
+}
+
+TEST(test_one_panel) {
+  draw("alone.png", NULL, RIIS_VTK_VIEW_TOP, 300, 500);
+  expect_picture("alone.png", 300, 500);
+  draw("small.png", mesh, RIIS_VTK_VIEW_TOP, 64, 64);
+  int width = 0, height = 0, n_colours = 0, n_coloured[2];
+  assert_int_equal(shim_read_png(scratch_path("small.png"), &width, &height, &n_colours, n_coloured), 1);
+  assert_true(width == 64 && height == 64 && n_colours > 1);
+}
+
 /* A mesh without marked nodes still gives a picture. */
-static void test_nothing_marked(void **state) {
-  (void)state;
+TEST(test_nothing_marked) {
   const double lower[3] = {5, 5, 5}, upper[3] = {6, 6, 6};
   riis_vtk_mesh *other = marked_box("far.vtu", 3, lower, upper);
   draw("far.png", other, RIIS_VTK_VIEW_OBLIQUE, 400, 200);
@@ -195,49 +191,6 @@ static int count_pixels(const char *name, int panel, int (*is_kind)(const unsign
   return n;
 }
 
-/* If one scene draws several views, each equals the picture that a separate call draws. */
-static void test_one_scene(void **state) {
-  (void)state;
-  const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_THREE, RIIS_VTK_VIEW_VALVE_OBLIQUE, RIIS_VTK_VIEW_TOP};
-  const char *paths[4] = {scratch_path("s0.png"), scratch_path("s1.png"), scratch_path("s2.png"),
-                          scratch_path("s3.png")};
-  const char *const names[4] = {"s0.png", "s1.png", "s2.png", "s3.png"};
-  const int64_t edge[2] = {0, 1};
-  riis_vtk_picture_options options;
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  options.n_leaking_edges = 1;
-  options.leaking_edges = edge;
-  scratch_watch_output();
-  const riis_status status = riis_vtk_draw_views(surface, mesh, &options, 4, views, paths);
-  assert_int_equal(scratch_end_watch(), 0);
-  expect_fine(status);
-  for (int i = 0; i < 4; ++i) {
-    options.view = views[i];
-    expect_fine(riis_vtk_draw(surface, mesh, &options, scratch_path("alone.png")));
-    assert_true(scratch_is_same(names[i], "alone.png"));
-  }
-  assert_false(scratch_is_same("s0.png", "s1.png"));
-}
-
-/* If a mesh is so coarse that no whole cell is marked, the marked nodes are still shown. In a fine mesh, whole marked cells
- * are shown. */
-static void test_partly_marked(void **state) {
-  (void)state;
-  const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
-  riis_vtk_mesh *coarse = marked_box("coarse.vtu", 5, lower, upper);
-  const int32_t views[3] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_OBLIQUE};
-  for (int i = 0; i < 3; ++i) {
-    draw("coarse.png", coarse, views[i], 1600, 800);
-    assert_int_equal(count_pixels("coarse.png", 1, is_full), 0);
-    assert_true(count_pixels("coarse.png", 1, is_pale) > 20000);
-    draw("fine.png", mesh, views[i], 1600, 800);
-    const int n_full = count_pixels("fine.png", 1, is_full), n_pale = count_pixels("fine.png", 1, is_pale);
-    assert_true(n_pale > 1000);
-    assert_true(n_full > 2 * n_pale);
-  }
-  riis_vtk_mesh_destroy(&coarse);
-}
-
 /* Finds the numbers of the edge's two nodes by their positions. No two nodes of the mesh coincide. */
 static void two_nodes(int64_t edge[2]) {
   const double *xyz = NULL;
@@ -259,9 +212,113 @@ static void two_nodes(int64_t edge[2]) {
   assert_true(edge[0] != edge[1]);
 }
 
+/* Returns the longest run of dark pixels in the rows from..to of the right panel. */
+static int longest_dark_run(const pixels *picture, int from, int to) {
+  int longest = 0;
+  for (int y = from; y < to; ++y) {
+    int run = 0;
+    for (int x = picture->width / 2; x < picture->width; ++x) {
+      run = pixel_at(picture, x, y)[0] < 130 ? run + 1 : 0;
+      if (run > longest) longest = run;
+    }
+  }
+  return longest;
+}
+
+static int is_line(const unsigned char *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] < 200; }
+
+/* Returns the largest number of changes between line and background in a row of the right panel. */
+static int most_changes_in_a_row(const pixels *picture, int *row) {
+  int most = 0;
+  for (int y = lower_band; y < picture->height - upper_band; ++y) {
+    int n = 0;
+    for (int x = picture->width / 2 + 1; x < picture->width; ++x)
+      n += is_line(pixel_at(picture, x, y)) != is_line(pixel_at(picture, x - 1, y));
+    if (n > most) *row = y;
+    if (n > most) most = n;
+  }
+  return most;
+}
+
+/* Returns how many columns, or rows, of a picture with one panel contain a pixel in a full colour, outside the bands of text. */
+static int count_coloured(const char *name, int by_rows) {
+  pixels picture = read_pixels(name);
+  const int y_end = picture.height - upper_band, n_lines = by_rows ? y_end : picture.width;
+  int n = 0;
+  for (int line = by_rows ? lower_band : 0; line < n_lines; ++line) {
+    int has_colour = 0;
+    for (int at = by_rows ? 0 : lower_band; at < (by_rows ? picture.width : y_end); ++at)
+      has_colour |= is_full(by_rows ? pixel_at(&picture, at, line) : pixel_at(&picture, line, at));
+    n += has_colour;
+  }
+  free(picture.rgb);
+  return n;
+}
+
+static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *drawn) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_null(options.unit);
+  options.width = drawn ? 800 : 400;
+  options.height = 400;
+  options.unit = unit;
+  options.view = RIIS_VTK_VIEW_OBLIQUE;
+  expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
+}
+
+/* If a file may have only n_bytes, as on a full disk, neither a picture nor a temporary file is left. */
+TEST(test_full_disk) {
+  struct rlimit limit, small;
+  getrlimit(RLIMIT_FSIZE, &limit);
+  void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+  const int n_before = scratch_n_files();
+  const rlim_t rooms[] = {1, 100, 5000, 9000};
+  for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; ++i) {
+    small = limit;
+    small.rlim_cur = rooms[i];
+    scratch_watch_output();
+    setrlimit(RLIMIT_FSIZE, &small);
+    const riis_status status = riis_vtk_draw(surface, NULL, NULL, scratch_path("full.png"));
+    setrlimit(RLIMIT_FSIZE, &limit);
+    assert_int_equal(scratch_end_watch(), 0);
+    expect_refused(status, RIIS_FILE_ERROR, "full.png: ");
+    assert_int_equal(scratch_n_files(), n_before);
+  }
+  signal(SIGXFSZ, handler);
+}
+
+TEST(test_refusals) {
+  const int n_before = scratch_n_files();
+  expect_refused(riis_vtk_draw(surface, NULL, NULL, scratch_path("a.jpg")), RIIS_FILE_ERROR, "must be .png");
+  expect_refused(riis_vtk_draw(surface, NULL, NULL, scratch_path("no_folder/a.png")), RIIS_FILE_ERROR, "a.png: ");
+  assert_int_equal(scratch_n_files(), n_before);
+}
+
+/* If one scene draws several views, each equals the picture that a separate call draws. */
+TEST(test_one_scene) {
+  const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_THREE, RIIS_VTK_VIEW_VALVE_OBLIQUE, RIIS_VTK_VIEW_TOP};
+  const char *paths[4] = {scratch_path("s0.png"), scratch_path("s1.png"), scratch_path("s2.png"),
+                          scratch_path("s3.png")};
+  const char *const names[4] = {"s0.png", "s1.png", "s2.png", "s3.png"};
+  const int64_t edge[2] = {0, 1};
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.n_leaking_edges = 1;
+  options.leaking_edges = edge;
+  scratch_watch_output();
+  const riis_status status = riis_vtk_draw_views(surface, mesh, &options, 4, views, paths);
+  assert_int_equal(scratch_end_watch(), 0);
+  expect_fine(status);
+  for (int i = 0; i < 4; ++i) {
+    options.view = views[i];
+    expect_fine(riis_vtk_draw(surface, mesh, &options, scratch_path("alone.png")));
+    assert_true(scratch_is_same(names[i], "alone.png"));
+  }
+  assert_false(scratch_is_same("s0.png", "s1.png"));
+}
+
 /* A leaking edge in the middle of the mesh is visible in every view. The caption mentions leaks only if they are known. */
-static void test_leaks(void **state) {
-  (void)state;
+TEST(test_leaks) {
   const char *paths[3] = {scratch_path("l0.png"), scratch_path("l1.png"), scratch_path("l2.png")};
   const char *const names[3] = {"l0.png", "l1.png", "l2.png"};
   const int32_t views[3] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_OBLIQUE};
@@ -285,23 +342,49 @@ static void test_leaks(void **state) {
   }
 }
 
-/* Returns the longest run of dark pixels in the rows from..to of the right panel. */
-static int longest_dark_run(const pixels *picture, int from, int to) {
-  int longest = 0;
-  for (int y = from; y < to; ++y) {
-    int run = 0;
-    for (int x = picture->width / 2; x < picture->width; ++x) {
-      run = pixel_at(picture, x, y)[0] < 130 ? run + 1 : 0;
-      if (run > longest) longest = run;
-    }
+/* If a mesh is so coarse that no whole cell is marked, the marked nodes are still shown. In a fine mesh, whole marked cells
+ * are shown. */
+TEST(test_partly_marked) {
+  const double lower[3] = {-1.7, -1.7, -1.3}, upper[3] = {1.7, 1.7, 0.4};
+  riis_vtk_mesh *coarse = marked_box("coarse.vtu", 5, lower, upper);
+  const int32_t views[3] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_OBLIQUE};
+  for (int i = 0; i < 3; ++i) {
+    draw("coarse.png", coarse, views[i], 1600, 800);
+    assert_int_equal(count_pixels("coarse.png", 1, is_full), 0);
+    assert_true(count_pixels("coarse.png", 1, is_pale) > 20000);
+    draw("fine.png", mesh, views[i], 1600, 800);
+    const int n_full = count_pixels("fine.png", 1, is_full), n_pale = count_pixels("fine.png", 1, is_pale);
+    assert_true(n_pale > 1000);
+    assert_true(n_full > 2 * n_pale);
   }
-  return longest;
+  riis_vtk_mesh_destroy(&coarse);
+}
+
+/* In a tube 20 times as long as wide, the region around the valve is drawn as large as in a short tube. Dashes show where the
+ * tube is cut off. */
+TEST(test_long_mesh) {
+  const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
+  riis_vtk_mesh *tube = marked_box("tube.vtu", 21, lower, upper);
+  draw("short.png", mesh, RIIS_VTK_VIEW_SIDE, 1600, 800);
+  draw("long.png", tube, RIIS_VTK_VIEW_SIDE, 1600, 800);
+  const int n_short = count_pixels("short.png", 0, is_full), n_long = count_pixels("long.png", 0, is_full);
+  assert_true(n_long > 0.9 * n_short && n_long < 1.1 * n_short);
+  pixels picture = read_pixels("long.png");
+  int row = 0;
+  assert_true(most_changes_in_a_row(&picture, &row) > 40);
+  /* No part of the mesh is between the dashes and the panel's edge. */
+  const int end = row < picture.height / 2 ? lower_band + 4 : picture.height - upper_band - 5;
+  for (int x = picture.width / 2; x < picture.width; ++x) assert_true(pixel_at(&picture, x, end)[0] > 250);
+  free(picture.rgb);
+  picture = read_pixels("short.png");
+  assert_true(most_changes_in_a_row(&picture, &row) < 20);
+  free(picture.rgb);
+  riis_vtk_mesh_destroy(&tube);
 }
 
 /* Seen from above, the mesh is 3.4 wide. So the scale bar's length, 1, should have a known number of pixels. No part of the
  * mesh is behind the texts. */
-static void test_scale_and_bands(void **state) {
-  (void)state;
+TEST(test_scale_and_bands) {
   draw("bands.png", mesh, RIIS_VTK_VIEW_TOP, 1600, 800);
   pixels picture = read_pixels("bands.png");
   int left = picture.width, right = 0, n_skin_in_bands = 0;
@@ -323,64 +406,10 @@ static void test_scale_and_bands(void **state) {
   free(picture.rgb);
 }
 
-static int is_line(const unsigned char *rgb) { return rgb[0] == rgb[1] && rgb[1] == rgb[2] && rgb[0] < 200; }
-
-/* Returns the largest number of changes between line and background in a row of the right panel. */
-static int most_changes_in_a_row(const pixels *picture, int *row) {
-  int most = 0;
-  for (int y = lower_band; y < picture->height - upper_band; ++y) {
-    int n = 0;
-    for (int x = picture->width / 2 + 1; x < picture->width; ++x)
-      n += is_line(pixel_at(picture, x, y)) != is_line(pixel_at(picture, x - 1, y));
-    if (n > most) *row = y;
-    if (n > most) most = n;
-  }
-  return most;
-}
-
-/* In a tube 20 times as long as wide, the region around the valve is drawn as large as in a short tube. Dashes show where the
- * tube is cut off. */
-static void test_long_mesh(void **state) {
-  (void)state;
-  const double lower[3] = {-1.7, -1.7, -30}, upper[3] = {1.7, 1.7, 38};
-  riis_vtk_mesh *tube = marked_box("tube.vtu", 21, lower, upper);
-  draw("short.png", mesh, RIIS_VTK_VIEW_SIDE, 1600, 800);
-  draw("long.png", tube, RIIS_VTK_VIEW_SIDE, 1600, 800);
-  const int n_short = count_pixels("short.png", 0, is_full), n_long = count_pixels("long.png", 0, is_full);
-  assert_true(n_long > 0.9 * n_short && n_long < 1.1 * n_short);
-  pixels picture = read_pixels("long.png");
-  int row = 0;
-  assert_true(most_changes_in_a_row(&picture, &row) > 40);
-  /* No part of the mesh is between the dashes and the panel's edge. */
-  const int end = row < picture.height / 2 ? lower_band + 4 : picture.height - upper_band - 5;
-  for (int x = picture.width / 2; x < picture.width; ++x) assert_true(pixel_at(&picture, x, end)[0] > 250);
-  free(picture.rgb);
-  picture = read_pixels("short.png");
-  assert_true(most_changes_in_a_row(&picture, &row) < 20);
-  free(picture.rgb);
-  riis_vtk_mesh_destroy(&tube);
-}
-
-/* Returns how many columns, or rows, of a picture with one panel contain a pixel in a full colour, outside the bands of text. */
-static int count_coloured(const char *name, int by_rows) {
-  pixels picture = read_pixels(name);
-  const int y_end = picture.height - upper_band, n_lines = by_rows ? y_end : picture.width;
-  int n = 0;
-  for (int line = by_rows ? lower_band : 0; line < n_lines; ++line) {
-    int has_colour = 0;
-    for (int at = by_rows ? 0 : lower_band; at < (by_rows ? picture.width : y_end); ++at)
-      has_colour |= is_full(by_rows ? pixel_at(&picture, at, line) : pixel_at(&picture, line, at));
-    n += has_colour;
-  }
-  free(picture.rgb);
-  return n;
-}
-
 /* Flat leaflets are seen edge on: closed ones from the side, and open ones from above. They appear as lines that fill 1/1.08
  * of the panel, because the camera fits the leaflets with this margin. The upper band of text takes another 20 rows of the
  * panel. */
-static void test_edge_on(void **state) {
-  (void)state;
+TEST(test_edge_on) {
   const int32_t views[2] = {RIIS_VTK_VIEW_SIDE, RIIS_VTK_VIEW_TOP};
   const double expected[2] = {800 / 1.08, 626 / 1.08 + 26};
   riis_surface *const kept = surface;
@@ -400,20 +429,8 @@ static void test_edge_on(void **state) {
   riis_valve_destroy(&valve);
 }
 
-static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *drawn) {
-  riis_vtk_picture_options options;
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  assert_null(options.unit);
-  options.width = drawn ? 800 : 400;
-  options.height = 400;
-  options.unit = unit;
-  options.view = RIIS_VTK_VIEW_OBLIQUE;
-  expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
-}
-
 /* A unit follows the number at the scale bar unchanged. The unit replaces the words that stand there otherwise. */
-static void test_unit(void **state) {
-  (void)state;
+TEST(test_unit) {
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
     const riis_vtk_mesh *const drawn = with_mesh ? mesh : NULL;
     draw_unit("none.png", NULL, drawn);
@@ -427,36 +444,6 @@ static void test_unit(void **state) {
     assert_false(scratch_is_same("none.png", "mm.png"));
     assert_false(scratch_is_same("mms.png", "mm.png"));
   }
-}
-
-/* If a file may have only n_bytes, as on a full disk, neither a picture nor a temporary file is left. */
-static void test_full_disk(void **state) {
-  (void)state;
-  struct rlimit limit, small;
-  getrlimit(RLIMIT_FSIZE, &limit);
-  void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
-  const int n_before = scratch_n_files();
-  const rlim_t rooms[] = {1, 100, 5000, 9000};
-  for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; ++i) {
-    small = limit;
-    small.rlim_cur = rooms[i];
-    scratch_watch_output();
-    setrlimit(RLIMIT_FSIZE, &small);
-    const riis_status status = riis_vtk_draw(surface, NULL, NULL, scratch_path("full.png"));
-    setrlimit(RLIMIT_FSIZE, &limit);
-    assert_int_equal(scratch_end_watch(), 0);
-    expect_refused(status, RIIS_FILE_ERROR, "full.png: ");
-    assert_int_equal(scratch_n_files(), n_before);
-  }
-  signal(SIGXFSZ, handler);
-}
-
-static void test_refusals(void **state) {
-  (void)state;
-  const int n_before = scratch_n_files();
-  expect_refused(riis_vtk_draw(surface, NULL, NULL, scratch_path("a.jpg")), RIIS_FILE_ERROR, "must be .png");
-  expect_refused(riis_vtk_draw(surface, NULL, NULL, scratch_path("no_folder/a.png")), RIIS_FILE_ERROR, "a.png: ");
-  assert_int_equal(scratch_n_files(), n_before);
 }
 
 enum { wide = 900, high = 300, n_pictures = 4 };
@@ -542,8 +529,7 @@ static double share_of_changes(const char *a, const char *b) {
 
 /* If a valve and its mesh are turned and moved together, views by the valve's axes stay the same, and views by the mesh's axes do
  * not. */
-static void test_valve_axes(void **state) {
-  (void)state;
+TEST(test_valve_axes) {
   enum { n = 1500 };
   static const char *const kinds[5] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   static const char *const before[n_pictures] = {"a0.png", "a1.png", "a2.png", "a_three.png"};
@@ -585,8 +571,7 @@ static void test_valve_axes(void **state) {
 
 /* A picture of three views has a column for each, and the columns have one scale: the surface is as wide from the side as from
  * above. Each column has panels for the surface and the marks. Widths that three does not divide are filled with white. */
-static void test_three_views(void **state) {
-  (void)state;
+TEST(test_three_views) {
   static const int widths[3] = {1200, 1201, 1202};
   for (int i = 0; i < 3; ++i) {
     draw("three.png", mesh, RIIS_VTK_VIEW_THREE, widths[i], 800);
@@ -618,22 +603,5 @@ static void test_three_views(void **state) {
 int main(int argc, char **argv) {
   (void)argc;
   enter_virtual_display(argv);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_texts),
-      cmocka_unit_test(test_views),
-      cmocka_unit_test(test_one_panel),
-      cmocka_unit_test(test_nothing_marked),
-      cmocka_unit_test(test_full_disk),
-      cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_one_scene),
-      cmocka_unit_test(test_leaks),
-      cmocka_unit_test(test_partly_marked),
-      cmocka_unit_test(test_long_mesh),
-      cmocka_unit_test(test_scale_and_bands),
-      cmocka_unit_test(test_edge_on),
-      cmocka_unit_test(test_unit),
-      cmocka_unit_test(test_valve_axes),
-      cmocka_unit_test(test_three_views),
-  };
-  return cmocka_run_group_tests(tests, make_all, destroy_all);
+  return run_cases(make_all, destroy_all);
 }

@@ -80,8 +80,7 @@ static void expect_written(const riis_surface *surface, const char *path) {
   expect_cell_array(path, "riis_triangle", "long long", n_triangles, NULL, triangle_id);
 }
 
-static void test_valve_is_written(void **state) {
-  (void)state;
+TEST(test_valve_is_written) {
   riis_surface *surface = make_valve();
   expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
   expect_written(surface, scratch_path("valve.vtp"));
@@ -114,8 +113,7 @@ static riis_surface *surface_of_file(const char *name, const riis_surface_option
 }
 
 /* A valve's surface that is written and read back is the same surface: closest points have the same bits. */
-static void test_round_trip(void **state) {
-  (void)state;
+TEST(test_round_trip) {
   riis_surface *valve = make_valve();
   expect_fine(riis_vtk_surface_write(valve, scratch_path("valve.vtp")));
   riis_surface_arrays arrays;
@@ -155,8 +153,7 @@ static void write_polydata(const char *name, const char *verts, const char *poly
 #define LEAFLETS(type, values) \
   "<DataArray type=\"" type "\" Name=\"riis_leaflet\" format=\"ascii\">" values "</DataArray>"
 
-static void test_quads_stay_quads(void **state) {
-  (void)state;
+TEST(test_quads_stay_quads) {
   write_polydata("quads.vtp", "NumberOfPolys=\"2\"", CELLS("0 1 2 3 1 4 5 2", "4 8"), "", LEAFLETS("UInt8", "5 9"));
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
@@ -197,8 +194,7 @@ static void expect_faces(const char *name, int64_t n_triangles, double area, con
   riis_surface_destroy(&surface);
 }
 
-static void test_mixed_polygons(void **state) {
-  (void)state;
+TEST(test_mixed_polygons) {
   /* A triangle, a quad, a pentagon, and a strip of two triangles give 1 + 2 + 3 + 2 triangles. */
   write_polydata("mixed.vtp", "NumberOfPolys=\"3\" NumberOfStrips=\"1\"", CELLS("0 1 3 1 4 5 2 0 1 2 6 3", "3 7 12"),
                  CELLS("0 1 3 2", "4"), LEAFLETS("Float64", "4 1 0 2"));
@@ -208,8 +204,7 @@ static void test_mixed_polygons(void **state) {
 
 /* Quads with an inward corner at 1 or 3, as the only cell and beside a triangle, are cut along the diagonal that lies inside.
  * They have an area of 0.2 each and keep their winding. A quad with the inward corner at 0 or 2 keeps its order. */
-static void test_concave_quads(void **state) {
-  (void)state;
+TEST(test_concave_quads) {
   const int32_t leaflets[3] = {0, 0, 0};
   const char *orders[4] = {"0 1 2 3", "1 2 3 0", "2 3 0 1", "3 0 1 2"};
   for (int i = 0; i < 4; ++i) {
@@ -229,15 +224,13 @@ static void test_concave_quads(void **state) {
   }
 }
 
-static void test_without_leaflets(void **state) {
-  (void)state;
+TEST(test_without_leaflets) {
   write_polydata("plain.vtp", "NumberOfPolys=\"1\"", CELLS("0 1 3", "3"), "", "");
   const int32_t leaflets[1] = {0};
   expect_faces("plain.vtp", 1, 0.5, leaflets);
 }
 
-static void test_unstructured_grid(void **state) {
-  (void)state;
+TEST(test_unstructured_grid) {
   char text[2048];
   snprintf(text, sizeof text,
            "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
@@ -291,8 +284,7 @@ static void expect_stl(const char *name) {
   riis_surface_destroy(&surface);
 }
 
-static void test_stl(void **state) {
-  (void)state;
+TEST(test_stl) {
   write_binary_stl("binary.stl", 3, 3);
   expect_stl("binary.stl");
   write_ascii_stl("ascii.stl", 3, 1);
@@ -314,8 +306,7 @@ static void test_stl(void **state) {
 
 /* Upper and lower case, blanks and line breaks are as other programs write them. Keywords count only at the beginning of a
  * line. */
-static void test_ascii_stl_layouts(void **state) {
-  (void)state;
+TEST(test_ascii_stl_layouts) {
   const char *const facet =
       "  FACET NORMAL 0 0 1\n OUTER LOOP\nVERTEX 0 0 0\nVERTEX 1.5 0 0\nVERTEX 0 1 0\nENDLOOP\n ENDFACET\n";
   char text[8192];
@@ -326,8 +317,7 @@ static void test_ascii_stl_layouts(void **state) {
 }
 
 /* The calling program may have set a locale whose decimal separator is a comma. That locale must stay. */
-static void test_decimal_comma(void **state) {
-  (void)state;
+TEST(test_decimal_comma) {
   static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "es_ES.UTF-8"};
   size_t i = 0;
   while (i < sizeof names / sizeof names[0] && !setlocale(LC_ALL, names[i])) ++i;
@@ -349,8 +339,7 @@ static void test_decimal_comma(void **state) {
 }
 
 /* A surface from arrays with skipped triangles is written as queries return it, without uv. */
-static void test_user_surface_is_written(void **state) {
-  (void)state;
+TEST(test_user_surface_is_written) {
   riis_surface_options options;
   riis_surface_arrays arrays;
   write_binary_stl("binary.stl", 3, 3);
@@ -375,8 +364,7 @@ static void expect_file_error(const char *name, const char *part_of_text) {
   assert_int_equal(n_printed, 0);
 }
 
-static void test_not_surfaces(void **state) {
-  (void)state;
+TEST(test_not_surfaces) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   expect_file_error("missing.vtp", "No such file or directory");
   scratch_write_text("surface.obj", "v 0 0 0\n");
@@ -399,8 +387,7 @@ static void test_not_surfaces(void **state) {
   expect_file_error("flat.vtp", "cell 0 is a polygon that cannot be cut");
 }
 
-static void test_broken_leaflets(void **state) {
-  (void)state;
+TEST(test_broken_leaflets) {
   const char *const two = CELLS("0 1 3 1 2 3", "3 6");
   write_polydata("short.vtp", "NumberOfPolys=\"2\"", two, "", LEAFLETS("Int32", "1"));
   expect_file_error("short.vtp", "short.vtp: ");
@@ -421,8 +408,7 @@ static void test_broken_leaflets(void **state) {
   expect_file_error("words.vtp", "riis_leaflet must hold one number a cell");
 }
 
-static void test_truncated_stl(void **state) {
-  (void)state;
+TEST(test_truncated_stl) {
   write_binary_stl("cut.stl", 3, 2);
   expect_file_error("cut.stl", "is truncated or not an STL file: 184 bytes, 3 triangles");
   write_binary_stl("more.stl", 2, 3);
@@ -433,8 +419,7 @@ static void test_truncated_stl(void **state) {
   expect_file_error("odd.stl", "odd.stl: ");
 }
 
-static void test_truncated_polydata(void **state) {
-  (void)state;
+TEST(test_truncated_polydata) {
   riis_surface *valve = make_valve();
   expect_fine(riis_vtk_surface_write(valve, scratch_path("whole.vtp")));
   riis_surface_destroy(&valve);
@@ -457,16 +442,4 @@ static void test_truncated_polydata(void **state) {
   assert_true(n_refused > 3000);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_valve_is_written),        cmocka_unit_test(test_round_trip),
-      cmocka_unit_test(test_quads_stay_quads),        cmocka_unit_test(test_mixed_polygons),
-      cmocka_unit_test(test_concave_quads),           cmocka_unit_test(test_without_leaflets),
-      cmocka_unit_test(test_unstructured_grid),       cmocka_unit_test(test_stl),
-      cmocka_unit_test(test_ascii_stl_layouts),       cmocka_unit_test(test_decimal_comma),
-      cmocka_unit_test(test_user_surface_is_written), cmocka_unit_test(test_not_surfaces),
-      cmocka_unit_test(test_broken_leaflets),         cmocka_unit_test(test_truncated_stl),
-      cmocka_unit_test(test_truncated_polydata),
-  };
-  return cmocka_run_group_tests(tests, scratch_setup, scratch_teardown);
-}
+int main(void) { return run_cases(scratch_setup, scratch_teardown); }

@@ -78,31 +78,21 @@ static void compare(double scale, double shift, int method, const char *name) {
   riis_surface_destroy(&surface);
 }
 
-static void test_static_locator(void **state) {
-  (void)state;
+TEST(test_static_locator) {
   compare(1, 0, SHIM_STATIC_LOCATOR, "vtkStaticCellLocator");
   compare(0.01, 0.3, SHIM_STATIC_LOCATOR, "vtkStaticCellLocator");
 }
 
-static void test_cell_locator(void **state) {
-  (void)state;
+TEST(test_cell_locator) {
   compare(1, 0, SHIM_CELL_LOCATOR, "vtkCellLocator");
   compare(10, -50, SHIM_CELL_LOCATOR, "vtkCellLocator");
 }
 
-static void test_implicit_distance(void **state) {
-  (void)state;
-  compare(1, 0, SHIM_IMPLICIT_DISTANCE, "vtkImplicitPolyDataDistance");
-}
+TEST(test_implicit_distance) { compare(1, 0, SHIM_IMPLICIT_DISTANCE, "vtkImplicitPolyDataDistance"); }
 
 int main(void) {
   const char *seed = getenv("RIIS_TEST_SEED");
   random_state = seed ? strtoull(seed, NULL, 10) : 20260721;
   print_message("RIIS_TEST_SEED=%llu\n", (unsigned long long)random_state);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_static_locator),
-      cmocka_unit_test(test_cell_locator),
-      cmocka_unit_test(test_implicit_distance),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_cases(NULL, NULL);
 }

@@ -35,8 +35,7 @@ static int destroy_all(void **state) {
   return scratch_teardown(state);
 }
 
-static void test_null(void **state) {
-  (void)state;
+TEST(test_null) {
   riis_vtk_mesh *other = NULL;
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
@@ -73,162 +72,8 @@ static void test_null(void **state) {
   riis_vtk_surface_destroy(&file);
 }
 
-static void test_struct_sizes(void **state) {
-  (void)state;
-  riis_vtk_surface *file = NULL;
-  riis_surface_arrays arrays = {0};
-  riis_vtk_picture_options options = {0};
-  expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
-  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), NULL, &file));
-  expect_refused(riis_vtk_surface_get_arrays(file, NULL, sizeof arrays), RIIS_INVALID_ARGUMENT, "arrays is NULL");
-  expect_refused(riis_vtk_surface_get_arrays(file, &arrays, 0), RIIS_INVALID_STRUCT_SIZE,
-                 "the struct size of arrays is 0; ");
-  assert_int_equal(arrays.struct_size, 0);
-  riis_vtk_surface_destroy(&file);
-  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 112, INT64_MAX};
-  for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i) {
-    char text[64];
-    snprintf(text, sizeof text, "the struct size of options is %lld; ", (long long)bad_sizes[i]);
-    expect_refused(riis_vtk_picture_options_init(&options, bad_sizes[i]), RIIS_INVALID_STRUCT_SIZE, text);
-    assert_int_equal(options.struct_size, 0);
-    options.struct_size = bad_sizes[i];
-    expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_STRUCT_SIZE, text);
-    options.struct_size = 0;
-  }
-}
-
-static void expect_bad_edges(const char *part_of_text, const riis_vtk_mesh *drawn, int64_t n, const int64_t *edges) {
-  riis_vtk_picture_options options;
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  assert_true(options.n_leaking_edges == 0 && !options.leaking_edges);
-  options.n_leaking_edges = n;
-  options.leaking_edges = edges;
-  expect_refused(riis_vtk_draw(surface, drawn, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
-  assert_int_equal(scratch_exists("a.png"), 0);
-}
-
-static void test_leaking_edges(void **state) {
-  (void)state;
-  const int64_t fine[4] = {0, 1, 25, 26}, below[4] = {0, 1, -1, 2}, above[4] = {0, 1, 2, 27};
-  expect_bad_edges("n_leaking_edges is -1", mesh, -1, fine);
-  expect_bad_edges("n_leaking_edges is 2, options->leaking_edges is NULL", mesh, 2, NULL);
-  expect_bad_edges("n_leaking_edges is 2, and mesh is NULL", NULL, 2, fine);
-  expect_bad_edges("leaking_edges[2] is -1; the mesh has 27 nodes", mesh, 2, below);
-  expect_bad_edges("leaking_edges[3] is 27; the mesh has 27 nodes", mesh, 2, above);
-  expect_bad_edges("mesh has no marks", mesh, 2, fine);
-}
-
-static void test_many_views(void **state) {
-  (void)state;
-  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 8};
-  const char *paths[2] = {scratch_path("a.png"), NULL}, *jpg[1] = {scratch_path("a.jpg")};
-  expect_refused(riis_vtk_draw_views(NULL, NULL, NULL, 1, views, paths), RIIS_INVALID_ARGUMENT, "surface is NULL");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, -1, views, paths), RIIS_INVALID_ARGUMENT, "n_views is -1");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, NULL, paths), RIIS_INVALID_ARGUMENT, "views is NULL");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, views, NULL), RIIS_INVALID_ARGUMENT, "paths is NULL");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 8");
-  const int32_t fine[2] = {0, 1};
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, fine, paths), RIIS_INVALID_ARGUMENT, "paths[1] is NULL");
-  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, fine, jpg), RIIS_FILE_ERROR, "must be .png");
-  expect_fine(riis_vtk_draw_views(surface, NULL, NULL, 0, NULL, NULL));
-  assert_int_equal(scratch_exists("a.png"), 0);
-}
-
-static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t width, int32_t height,
-                               int32_t reserved) {
-  riis_vtk_picture_options options;
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  assert_true(options.view == RIIS_VTK_VIEW_OBLIQUE && options.width == 1600 && options.height == 800 &&
-              !options.reserved && !options.title && !options.leaflet_names && !options.n_leaflet_names);
-  options.view = view;
-  options.width = width;
-  options.height = height;
-  options.reserved = reserved;
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
-  assert_int_equal(scratch_exists("a.png"), 0);
-}
-
-static void test_picture_options(void **state) {
-  (void)state;
-  expect_bad_picture("view is 8", 8, 800, 800, 0);
-  expect_bad_picture("view is -1", -1, 800, 800, 0);
-  expect_bad_picture("width is 63", RIIS_VTK_VIEW_TOP, 63, 800, 0);
-  expect_bad_picture("height is 8193", RIIS_VTK_VIEW_TOP, 800, 8193, 0);
-  expect_bad_picture("reserved is 1", RIIS_VTK_VIEW_TOP, 800, 800, 1);
-  expect_refused(riis_vtk_draw(surface, mesh, NULL, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "mesh has no marks");
-  riis_vtk_picture_options options;
-  const char *names[2] = {"one", NULL};
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  options.n_leaflet_names = -1;
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
-                 "n_leaflet_names is -1");
-  options.n_leaflet_names = 2;
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
-                 "n_leaflet_names is 2, options->leaflet_names is NULL");
-  options.leaflet_names = names;
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
-                 "leaflet_names[1] is NULL");
-}
-
-static void expect_bad_axes(const char *part_of_text, double x, double y, double z, double angle) {
-  riis_vtk_picture_options options;
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  options.rotation_axis[0] = x;
-  options.rotation_axis[1] = y;
-  options.rotation_axis[2] = z;
-  options.rotation_angle = angle;
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
-}
-
-/* The axes of the valve have the ranges of a placement. An older caller, whose struct lacks them, gets the mesh's axes. */
-static void test_axes_of_valve(void **state) {
-  (void)state;
-  riis_vtk_picture_options options;
-  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
-  assert_true(options.rotation_axis[0] == 0 && options.rotation_axis[1] == 0 && options.rotation_axis[2] == 1 &&
-              options.rotation_angle == 0);
-  expect_bad_axes("options->rotation_axis is (0, 0, 0), shorter than 1e-50", 0, 0, 0, 1);
-  expect_bad_axes("options->rotation_axis[1] is nan, not -1e50 to 1e50", 0, (double)NAN, 1, 1);
-  expect_bad_axes("options->rotation_axis[2] is -2e+50, not -1e50 to 1e50", 0, 0, -2e50, 1);
-  expect_bad_axes("options->rotation_angle is 2e+06, not -1e6 to 1e6", 0, 0, 1, 2e6);
-  expect_bad_axes("options->rotation_angle is inf, not -1e6 to 1e6", 0, 0, 1, (double)INFINITY);
-  memset(&options, 0xff, sizeof options);
-  expect_fine(riis_vtk_picture_options_init(&options, 72));
-  options.width = 1;
-  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
-}
-
-/* A name with a line break still gives a message of one line. The message for a very long name keeps the reason. */
-static void test_odd_names(void **state) {
-  (void)state;
-  riis_vtk_mesh *other = NULL;
-  expect_refused(riis_vtk_mesh_read(scratch_path("a\nb.vtu"), &other), RIIS_FILE_ERROR,
-                 "a?b.vtu: cannot be read: No such file");
-  static char name[4000];
-  memset(name, 'x', sizeof name - 1);
-  expect_refused(riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR,
-                 "xxx: a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
-}
-
-static void test_floating_point_environment(void **state) {
-  (void)state;
-  riis_vtk_mesh *other = NULL;
-  fesetround(FE_UPWARD);
-  feclearexcept(FE_ALL_EXCEPT);
-  feraiseexcept(FE_OVERFLOW);
-  const riis_status status = riis_vtk_mesh_read(scratch_path("in.vtu"), &other);
-  const int rounding = fegetround();
-  const int flags = fetestexcept(FE_ALL_EXCEPT);
-  fesetenv(FE_DFL_ENV);
-  expect_fine(status);
-  riis_vtk_mesh_destroy(&other);
-  assert_int_equal(rounding, FE_UPWARD);
-  assert_true(flags & FE_OVERFLOW);
-}
-
 /* Refusals of a list of pieces, and the roles of the nodes of a mesh without neighbours. */
-static void test_pieces(void **state) {
-  (void)state;
+TEST(test_pieces) {
   riis_vtk_pieces *pieces = NULL;
   riis_vtk_mesh *piece = NULL;
   riis_vtk_sharing sharing;
@@ -291,17 +136,150 @@ static void test_pieces(void **state) {
   riis_vtk_mesh_destroy(&piece);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_null),
-      cmocka_unit_test(test_pieces),
-      cmocka_unit_test(test_struct_sizes),
-      cmocka_unit_test(test_leaking_edges),
-      cmocka_unit_test(test_many_views),
-      cmocka_unit_test(test_picture_options),
-      cmocka_unit_test(test_axes_of_valve),
-      cmocka_unit_test(test_odd_names),
-      cmocka_unit_test(test_floating_point_environment),
-  };
-  return cmocka_run_group_tests(tests, make_all, destroy_all);
+TEST(test_struct_sizes) {
+  riis_vtk_surface *file = NULL;
+  riis_surface_arrays arrays = {0};
+  riis_vtk_picture_options options = {0};
+  expect_fine(riis_vtk_surface_write(surface, scratch_path("valve.vtp")));
+  expect_fine(riis_vtk_surface_read(scratch_path("valve.vtp"), NULL, &file));
+  expect_refused(riis_vtk_surface_get_arrays(file, NULL, sizeof arrays), RIIS_INVALID_ARGUMENT, "arrays is NULL");
+  expect_refused(riis_vtk_surface_get_arrays(file, &arrays, 0), RIIS_INVALID_STRUCT_SIZE,
+                 "the struct size of arrays is 0; ");
+  assert_int_equal(arrays.struct_size, 0);
+  riis_vtk_surface_destroy(&file);
+  const int64_t bad_sizes[] = {-8, 0, 4, 40, 52, 63, 112, INT64_MAX};
+  for (size_t i = 0; i < sizeof bad_sizes / sizeof bad_sizes[0]; ++i) {
+    char text[64];
+    snprintf(text, sizeof text, "the struct size of options is %lld; ", (long long)bad_sizes[i]);
+    expect_refused(riis_vtk_picture_options_init(&options, bad_sizes[i]), RIIS_INVALID_STRUCT_SIZE, text);
+    assert_int_equal(options.struct_size, 0);
+    options.struct_size = bad_sizes[i];
+    expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_STRUCT_SIZE, text);
+    options.struct_size = 0;
+  }
 }
+
+static void expect_bad_edges(const char *part_of_text, const riis_vtk_mesh *drawn, int64_t n, const int64_t *edges) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_true(options.n_leaking_edges == 0 && !options.leaking_edges);
+  options.n_leaking_edges = n;
+  options.leaking_edges = edges;
+  expect_refused(riis_vtk_draw(surface, drawn, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
+  assert_int_equal(scratch_exists("a.png"), 0);
+}
+
+TEST(test_leaking_edges) {
+  const int64_t fine[4] = {0, 1, 25, 26}, below[4] = {0, 1, -1, 2}, above[4] = {0, 1, 2, 27};
+  expect_bad_edges("n_leaking_edges is -1", mesh, -1, fine);
+  expect_bad_edges("n_leaking_edges is 2, options->leaking_edges is NULL", mesh, 2, NULL);
+  expect_bad_edges("n_leaking_edges is 2, and mesh is NULL", NULL, 2, fine);
+  expect_bad_edges("leaking_edges[2] is -1; the mesh has 27 nodes", mesh, 2, below);
+  expect_bad_edges("leaking_edges[3] is 27; the mesh has 27 nodes", mesh, 2, above);
+  expect_bad_edges("mesh has no marks", mesh, 2, fine);
+}
+
+TEST(test_many_views) {
+  const int32_t views[2] = {RIIS_VTK_VIEW_TOP, 8};
+  const char *paths[2] = {scratch_path("a.png"), NULL}, *jpg[1] = {scratch_path("a.jpg")};
+  expect_refused(riis_vtk_draw_views(NULL, NULL, NULL, 1, views, paths), RIIS_INVALID_ARGUMENT, "surface is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, -1, views, paths), RIIS_INVALID_ARGUMENT, "n_views is -1");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, NULL, paths), RIIS_INVALID_ARGUMENT, "views is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, views, NULL), RIIS_INVALID_ARGUMENT, "paths is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, views, paths), RIIS_INVALID_ARGUMENT, "views[1] is 8");
+  const int32_t fine[2] = {0, 1};
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 2, fine, paths), RIIS_INVALID_ARGUMENT, "paths[1] is NULL");
+  expect_refused(riis_vtk_draw_views(surface, NULL, NULL, 1, fine, jpg), RIIS_FILE_ERROR, "must be .png");
+  expect_fine(riis_vtk_draw_views(surface, NULL, NULL, 0, NULL, NULL));
+  assert_int_equal(scratch_exists("a.png"), 0);
+}
+
+static void expect_bad_picture(const char *part_of_text, int32_t view, int32_t width, int32_t height,
+                               int32_t reserved) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_true(options.view == RIIS_VTK_VIEW_OBLIQUE && options.width == 1600 && options.height == 800 &&
+              !options.reserved && !options.title && !options.leaflet_names && !options.n_leaflet_names);
+  options.view = view;
+  options.width = width;
+  options.height = height;
+  options.reserved = reserved;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
+  assert_int_equal(scratch_exists("a.png"), 0);
+}
+
+TEST(test_picture_options) {
+  expect_bad_picture("view is 8", 8, 800, 800, 0);
+  expect_bad_picture("view is -1", -1, 800, 800, 0);
+  expect_bad_picture("width is 63", RIIS_VTK_VIEW_TOP, 63, 800, 0);
+  expect_bad_picture("height is 8193", RIIS_VTK_VIEW_TOP, 800, 8193, 0);
+  expect_bad_picture("reserved is 1", RIIS_VTK_VIEW_TOP, 800, 800, 1);
+  expect_refused(riis_vtk_draw(surface, mesh, NULL, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "mesh has no marks");
+  riis_vtk_picture_options options;
+  const char *names[2] = {"one", NULL};
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.n_leaflet_names = -1;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
+                 "n_leaflet_names is -1");
+  options.n_leaflet_names = 2;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
+                 "n_leaflet_names is 2, options->leaflet_names is NULL");
+  options.leaflet_names = names;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT,
+                 "leaflet_names[1] is NULL");
+}
+
+static void expect_bad_axes(const char *part_of_text, double x, double y, double z, double angle) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  options.rotation_axis[0] = x;
+  options.rotation_axis[1] = y;
+  options.rotation_axis[2] = z;
+  options.rotation_angle = angle;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, part_of_text);
+}
+
+/* The axes of the valve have the ranges of a placement. An older caller, whose struct lacks them, gets the mesh's axes. */
+TEST(test_axes_of_valve) {
+  riis_vtk_picture_options options;
+  expect_fine(riis_vtk_picture_options_init(&options, sizeof options));
+  assert_true(options.rotation_axis[0] == 0 && options.rotation_axis[1] == 0 && options.rotation_axis[2] == 1 &&
+              options.rotation_angle == 0);
+  expect_bad_axes("options->rotation_axis is (0, 0, 0), shorter than 1e-50", 0, 0, 0, 1);
+  expect_bad_axes("options->rotation_axis[1] is nan, not -1e50 to 1e50", 0, (double)NAN, 1, 1);
+  expect_bad_axes("options->rotation_axis[2] is -2e+50, not -1e50 to 1e50", 0, 0, -2e50, 1);
+  expect_bad_axes("options->rotation_angle is 2e+06, not -1e6 to 1e6", 0, 0, 1, 2e6);
+  expect_bad_axes("options->rotation_angle is inf, not -1e6 to 1e6", 0, 0, 1, (double)INFINITY);
+  memset(&options, 0xff, sizeof options);
+  expect_fine(riis_vtk_picture_options_init(&options, 72));
+  options.width = 1;
+  expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
+}
+
+/* A name with a line break still gives a message of one line. The message for a very long name keeps the reason. */
+TEST(test_odd_names) {
+  riis_vtk_mesh *other = NULL;
+  expect_refused(riis_vtk_mesh_read(scratch_path("a\nb.vtu"), &other), RIIS_FILE_ERROR,
+                 "a?b.vtu: cannot be read: No such file");
+  static char name[4000];
+  memset(name, 'x', sizeof name - 1);
+  expect_refused(riis_vtk_mesh_read(name, &other), RIIS_FILE_ERROR,
+                 "xxx: a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
+}
+
+TEST(test_floating_point_environment) {
+  riis_vtk_mesh *other = NULL;
+  fesetround(FE_UPWARD);
+  feclearexcept(FE_ALL_EXCEPT);
+  feraiseexcept(FE_OVERFLOW);
+  const riis_status status = riis_vtk_mesh_read(scratch_path("in.vtu"), &other);
+  const int rounding = fegetround();
+  const int flags = fetestexcept(FE_ALL_EXCEPT);
+  fesetenv(FE_DFL_ENV);
+  expect_fine(status);
+  riis_vtk_mesh_destroy(&other);
+  assert_int_equal(rounding, FE_UPWARD);
+  assert_true(flags & FE_OVERFLOW);
+}
+
+int main(void) { return run_cases(make_all, destroy_all); }

@@ -78,8 +78,7 @@ static void destroy(void) {
   remove(scratch_path("written.vtp"));
 }
 
-static void the_components_memory_runs_out(void **state) {
-  (void)state;
+TEST(the_components_memory_runs_out) {
   int64_t n_injected = 0;
   for (size_t i = 0; i < sizeof scenarios / sizeof scenarios[0]; ++i) {
     const char *name = scenarios[i].name;
@@ -172,7 +171,4 @@ static int tear_down(void **state) {
   return scratch_teardown(state);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_components_memory_runs_out)};
-  return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return run_cases(set_up, tear_down); }

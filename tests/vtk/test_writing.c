@@ -43,8 +43,7 @@ static void expect_content(const char *name, const char *expected) {
   free(bytes);
 }
 
-static void test_places(void **state) {
-  (void)state;
+TEST(test_places) {
   const int n_before = scratch_n_files();
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path("no_folder/out.vtu")), RIIS_FILE_ERROR,
                  "No such file or directory");
@@ -63,8 +62,7 @@ static void test_places(void **state) {
   riis_surface_destroy(&surface);
 }
 
-static void test_locked(void **state) {
-  (void)state;
+TEST(test_locked) {
   if (geteuid() == 0) skip(); /* root may write every file, so the test is skipped */
   assert_int_equal(mkdir(scratch_path("locked"), 0500), 0);
   expect_refused(riis_vtk_mesh_write(mesh, scratch_path("locked/out.vtu")), RIIS_FILE_ERROR, "Permission denied");
@@ -91,8 +89,7 @@ static riis_status write_in_little_room(rlim_t n_bytes, const char *name) {
   return status;
 }
 
-static void test_full_disk(void **state) {
-  (void)state;
+TEST(test_full_disk) {
   scratch_write_text("kept.vtu", "what was there");
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("whole.vtu")));
   struct stat status;
@@ -113,8 +110,7 @@ static void test_full_disk(void **state) {
 }
 
 /* If the file's name is a link, the write replaces the link's target, not the link. A file may be written over its own source. */
-static void test_links_and_sources(void **state) {
-  (void)state;
+TEST(test_links_and_sources) {
   scratch_write_text("target.vtu", "old");
   assert_int_equal(symlink("target.vtu", scratch_path("link.vtu")), 0);
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("link.vtu")));
@@ -130,8 +126,7 @@ static void test_links_and_sources(void **state) {
 }
 
 /* A link to a missing file stays a link, and its target is made. Links that form a circle are an error. */
-static void test_dangling_links(void **state) {
-  (void)state;
+TEST(test_dangling_links) {
   struct stat status;
   assert_int_equal(mkdir(scratch_path("deep"), 0700), 0);
   assert_int_equal(symlink("deep/second.vtu", scratch_path("first.vtu")), 0);
@@ -150,8 +145,7 @@ static void test_dangling_links(void **state) {
   assert_true(S_ISLNK(status.st_mode));
 }
 
-static void test_permissions(void **state) {
-  (void)state;
+TEST(test_permissions) {
   const mode_t mask = umask(0027);
   expect_fine(riis_vtk_mesh_write(mesh, scratch_path("mode.vtu")));
   umask(mask);
@@ -166,8 +160,7 @@ static void test_permissions(void **state) {
 }
 
 /* VTK's output window and its warnings are silent during each call. After the call, the caller's settings are restored. */
-static void test_output_window(void **state) {
-  (void)state;
+TEST(test_output_window) {
   riis_vtk_mesh *other = NULL;
   shim_watch_window();
   scratch_write_text("broken.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>\n</VTKFile>\n");
@@ -179,12 +172,4 @@ static void test_output_window(void **state) {
   assert_int_equal(shim_n_messages(), 1);
 }
 
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_places),         cmocka_unit_test(test_locked),
-      cmocka_unit_test(test_full_disk),      cmocka_unit_test(test_links_and_sources),
-      cmocka_unit_test(test_dangling_links), cmocka_unit_test(test_permissions),
-      cmocka_unit_test(test_output_window),
-  };
-  return cmocka_run_group_tests(tests, make_mesh, destroy_mesh);
-}
+int main(void) { return run_cases(make_mesh, destroy_mesh); }
