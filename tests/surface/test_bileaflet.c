@@ -165,7 +165,7 @@ static void images_are_images(void **state) {
   }
 }
 
-/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory.md, section 14. */
+/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory/bileaflet.md. */
 static void open_leaflets_reach_beyond_the_housing(void **state) {
   (void)state;
   for (int trial = 0; trial < 20; ++trial) {

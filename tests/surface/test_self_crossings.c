@@ -470,7 +470,7 @@ static void valves_do_not_cross(void **state) {
 }
 
 /* The closed leaflets of the mitral valve touch. Fixed triangles of such leaflets may cross by twice the error bound. The depth
- * at opening 0 is printed, for docs/theory.md. */
+ * at opening 0 is printed, for docs/theory/crossings.md. */
 static void fixed_triangles_cross_within_their_error(void **state) {
   (void)state;
   riis_surface_options options = surface_options();

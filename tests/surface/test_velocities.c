@@ -212,7 +212,7 @@ static void the_bound_holds_for_any_motion(void **state) {
 }
 
 /* The bound is useful: for an opening motion it is a small fraction of the speed. If few triangles bend much, the bound is
- * close to the true error. docs/theory.md has the printed shares. */
+ * close to the true error. docs/theory/velocity.md has the printed shares. */
 static void the_bound_is_near(void **state) {
   (void)state;
   static const double most[n_kinds] = {0.35, 0.06, 0.08, 0.04, 0.06};
