@@ -48,7 +48,7 @@ def inline(line, place):
             return found[0]  # code
         return f"@htmlonly{mathml(found[2], False, place)}@endhtmlonly"
 
-    line = re.sub(r"\]\(\.\./", "](", line)  # the pages of docs lie beside the others
+    line = re.sub(r"\]\((\.\./)+", "](", line)  # the pages of docs and docs/theory lie beside the others
     return re.sub(r"[.]md#[a-z0-9-]*", ".md", FORMULA.sub(formula, line))
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_links.py FOLDER: what the documents and the sources below the folder refer to must exist.
 
-Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/NAME.md or
-docs/NAME.md, "Heading". A number of a section is refused, because it shifts. Source files that docs/walks.md and the pages of
+Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
+docs/*.md, "Heading". A number of a section is refused, because it shifts. Source files that docs/walks.md and the pages of
 docs/theory name must exist. A formula begins and ends on one line, and a page of docs/theory has at most 4000 words.
 """
 import functools
