@@ -54,7 +54,9 @@ def inline(line, place):
 
 def page(path):
     fence, formula = None, None
-    for number, line in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1):
+    text = pathlib.Path(path).read_text(encoding="utf-8")
+    text = re.sub(r"\[([^\]]*)\]\(#[\w-]*\)", r"\1", text)  # a link within the page, which Doxygen would not resolve
+    for number, line in enumerate(text.splitlines(), 1):
         place = f"{path}:{number}"
         found = FENCE.match(line)
         if fence is None and found:
