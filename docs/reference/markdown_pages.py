@@ -55,7 +55,9 @@ def inline(line, place):
 def page(path):
     fence, formula = None, None
     text = pathlib.Path(path).read_text(encoding="utf-8")
-    text = re.sub(r"\[([^\]]*)\]\(#[\w-]*\)", r"\1", text)  # a link within the page, which Doxygen would not resolve
+    # Doxygen resolves neither a link within the page nor a link whose words stand on two lines.
+    text = re.sub(r"\[([^\]]*)\]\(#[\w-]*\)", r"\1", text)
+    text = re.sub(r"\[([^\]]*)\n *([^\]\n]*\]\([^)\s]+\)\S*)", r"[\1 \2\n", text)
     for number, line in enumerate(text.splitlines(), 1):
         place = f"{path}:{number}"
         found = FENCE.match(line)
