@@ -149,7 +149,7 @@ typedef struct riis_valve riis_valve;
 /* Makes a valve with the default parameter values, which are the paper's for "aortic" and "mitral".
  *   kind  "aortic", the paper's three cusps, "mitral", two leaflets, "coapting", three equal cusps with a zone of
  *         coaptation, "trileaflet", three equal cusps that close in straight lines, or "bileaflet", a mechanical
- *         prosthesis (docs/theory.md has each); any other is RIIS_INVALID_PARAMETER */
+ *         prosthesis (docs/theory.md); any other is RIIS_INVALID_PARAMETER */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
@@ -177,7 +177,7 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory/aortic.md). Three names stand for
+/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory/sizes.md). Three names stand for
  * parameters in riis_valve_set, riis_valve_get and the two functions below. A kind without such a size refuses its
  * name, and says why:
  *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
@@ -989,7 +989,7 @@ typedef struct riis_mark_list {
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  If several leaflets are equally near (within 1e-6 half thicknesses), or several
                                  patches of one leaflet (within 1e-9), it is the mean of the velocities at their
-                                 closest points (docs/theory/velocity.md). Other fields are those of one triangle */
+                                 closest points (docs/theory/marks.md). Other fields are those of one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
                                  has the sides that only one patch has, such as free edges and the annulus. Free edges
