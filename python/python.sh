@@ -218,7 +218,7 @@ python_make_here() {
 #   out the notebooks and the cost. Build tools and Python packages come from PyPI.
 # ./run python tutorial | inverse | fit
 #   Uses the environment of ./run python. tutorial runs only the notebooks, and leaves them in out/python. inverse finds 20 valves
-#   from noisy velocities of Stokes flows (docs/theory.md). fit prints how well riis.fit recovers known valves.
+#   from noisy velocities of Stokes flows (docs/theory/gradients.md). fit prints how well riis.fit recovers known valves.
 # ./run python manylinux
 #   Builds the wheels for all systems with glibc 2.28 or later by cibuildwheel, and tests them. It needs Docker, and leaves the
 #   wheels in out/wheels.

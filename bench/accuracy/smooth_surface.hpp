@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Evaluates the smooth surface to which tolerances refer (docs/theory.md, section 2). The surface consists of Coons patches and
+// Evaluates the smooth surface to which tolerances refer (docs/theory/triangles.md). The surface consists of Coons patches and
 // patches of arcs, made from the Bézier curves themselves with the fraction of their exact length as parameter. It has no
 // polylines, no grid and no tolerance.
 // Input: curves and patches of a valve. Output: points, normals and curvatures anywhere.

@@ -105,7 +105,7 @@ Figure mitral_curves_figure() {
       "control point moves on a straight line.";
   figure.paper =
       "appendix, figures “Top and side view of the mitral valve model in a closed state” and “… in an open state”; its "
-      "misprints are corrected as docs/theory.md says.";
+      "misprints are corrected as docs/theory/mitral.md says.";
   return figure;
 }
 

@@ -75,7 +75,7 @@ const std::vector<Subject> &subjects() {
        "the inside of the annulus",
        "The saddle of the annulus flattens while the leaflets turn into the ventricle. The paper's free edges lengthen "
        "more than "
-       "tissue does, and its open orifice is large: docs/theory.md, section 15, has published values.",
+       "tissue does, and its open orifice is large: docs/theory/measures.md has published values.",
        "appendix, table of the mitral valve's parameters, of which <i>t</i> is the opening."},
       {"bileaflet",
        "The bileaflet mechanical valve, from closed to open",

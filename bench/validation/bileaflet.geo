@@ -19,7 +19,7 @@ Cylinder(1) = {0, 0, -1.3, 0, 0, 1.6, R, Pi / 2};
 Cylinder(2) = {0, 0, 0.3, 0, 0, 2.4, 1.5, Pi / 2};
 fluid() = BooleanUnion { Volume{1}; Delete; }{ Volume{2}; Delete; };
 
-// The leaflet is half an ellipse about the middle of the closed leaflet. It turns about the hinge as in docs/theory.md.
+// The leaflet is half an ellipse about the middle of the closed leaflet. It turns about the hinge as in docs/theory/bileaflet.md.
 outline = newreg;
 Disk(outline) = {0, 0, 0, R / Cos(closed), R};
 quarter = newreg;

@@ -29,7 +29,7 @@ def outline(valve, opening, n=200001):
     """Returns the area in cm2 that the leaflets leave open, and the length in cm of their outlines inside the tube. Both are
     seen along the flow."""
     radius = RADIUS[valve]
-    if valve == "bileaflet":  # docs/theory.md, section 14
+    if valve == "bileaflet":  # docs/theory/bileaflet.md
         hinge, closed, now = 0.22, numpy.radians(30), numpy.radians(30 + 55 * opening)
         q = numpy.cos(now) / numpy.cos(closed)
         edge = hinge * (1 - q)
@@ -40,7 +40,7 @@ def outline(valve, opening, n=200001):
         x, y_arc = edge + q * radius * numpy.cos(angle), radius * numpy.sin(angle)
         covered = numpy.trapz(arc - edge, y)
         length = top + _length_inside(x, y_arc, radius)
-    else:  # docs/theory.md, section 3: the free edge is a parabola, and the cusp covers only the part outside it
+    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside it
         y_end = 1.1 * 1.25 * numpy.sin(numpy.pi / 3)
         y = numpy.linspace(0, y_end, n)
         x = 1.0 + (1.1 * 1.25 * numpy.cos(numpy.pi / 3) - 1.0) * (y / y_end) ** 2

@@ -17,7 +17,7 @@ tube = 1.22; below = -2.2; above = 1.6;
 Cylinder(1) = {0, 0, below, 0, 0, above - below, tube, Pi / 3};
 fluid() = {1};
 
-// docs/theory.md, section 3, defines these curves. Here they have opening 1 and the default parameters.
+// docs/theory/trileaflet.md defines these curves. Here they have opening 1 and the default parameters.
 R = 1.25; height = 1.2; share = 0.5; ratio = 0.8; expansion = 0.1;
 edge_in = ratio * R; edge_out = (1 + expansion) * 1.25; edge_angle = Pi / 3;
 bend_in = R + share * (edge_in - R); bend_out = (1 + share * expansion) * 1.275; bend_angle = 35 * Pi / 180;

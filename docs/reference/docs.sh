@@ -32,12 +32,13 @@ run_docs() {
   step "build the Python package" env PATH="$PWD/$venv/bin:$PATH" "$venv/bin/pip" install --force-reinstall --no-deps \
     --no-build-isolation --config-settings=build-dir=build-python/docs .
   # Formulas are checked first, because Doxygen continues even if its filter fails.
-  step "check that every formula can be shown" "$venv/bin/python" docs/reference/markdown_pages.py ./*.md docs/*.md
-  "$venv/bin/python" -B docs/reference/figures_page.py README.md docs/*.md >"$reference/figures.md"
+  step "check that every formula can be shown" "$venv/bin/python" docs/reference/markdown_pages.py ./*.md docs/*.md \
+    docs/{theory,design}/*.md
+  "$venv/bin/python" -B docs/reference/figures_page.py README.md docs/*.md docs/theory/*.md >"$reference/figures.md"
   step "C and pages (Doxygen)" env RIIS_DOCS_PYTHON="$venv/bin/python" doxygen docs/reference/Doxyfile
   # Copies the files that pages link to and that are not pages themselves.
   cp --parents examples/*.c examples/*.cpp examples/*.f90 examples/*.json examples/python/*.ipynb \
-    examples/cluster/mark_pieces.sh examples/left_heart/heart.png \
+    examples/cluster/mark_pieces.sh examples/flow_fortran/source.f90 examples/left_heart/heart.png \
     tests/marking/test_{resistance,empty_mesh}.c tests/process/test_restart.c CITATION.cff LICENSE docs/*_parameters.png out/docs
   cp /usr/share/texmf/fonts/opentype/public/lm-math/latinmodern-math.otf out/docs
   sed -i 's/( <math/(<math/g' out/docs/*.html # Doxygen inserts a blank before tags that it does not know

@@ -5,7 +5,7 @@ import pathlib
 import re
 import sys
 
-FIGURE = re.compile(r"!\[([^\]]+)\]\((?:docs/)?([^)]+)\)")
+FIGURE = re.compile(r"!\[([^\]]+)\]\((?:docs/|\.\./)?([^)]+)\)")
 print("# Figures {#figures}\n\nAll figures of the pages, each with the page that explains it.\n")
 seen = set()
 for path in map(pathlib.Path, sys.argv[1:]):

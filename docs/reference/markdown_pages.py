@@ -48,14 +48,18 @@ def inline(line, place):
             return found[0]  # code
         return f"@htmlonly{mathml(found[2], False, place)}@endhtmlonly"
 
-    line = re.sub(r"\]\(\.\./", "](", line)  # the pages of docs lie beside the others
+    line = re.sub(r"\]\((\.\./)+", "](", line)  # the pages of docs and docs/theory lie beside the others
     line = re.sub(r"<!--(=[\w.]+|/)-->", "", line)  # marks of numbers that a program writes
     return re.sub(r"[.]md#[a-z0-9-]*", ".md", FORMULA.sub(formula, line))
 
 
 def page(path):
     fence, formula = None, None
-    for number, line in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1):
+    text = pathlib.Path(path).read_text(encoding="utf-8")
+    # Doxygen resolves neither a link within the page nor a link whose words stand on two lines.
+    text = re.sub(r"\[([^\]]*)\]\(#[\w-]*\)", r"\1", text)
+    text = re.sub(r"\[([^\]]*)\n *([^\]\n]*\]\([^)\s]+\)\S*)", r"[\1 \2\n", text)
+    for number, line in enumerate(text.splitlines(), 1):
         place = f"{path}:{number}"
         found = FENCE.match(line)
         if fence is None and found:

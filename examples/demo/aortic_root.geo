@@ -35,7 +35,7 @@ joint = 3;      // degrees on each side of a commissure, in which the wall chang
 
 Macro Section // makes a section at height z above the root
   // The attachment's point at this height has the distance `radius` from the axis and the angle half_angle from the cusp's middle
-  // (docs/theory.md, section 3). t is the parameter of the attachment there.
+  // (docs/theory/aortic.md). t is the parameter of the attachment there.
   If (coapting)
     // A cubic, whose height grows with t. Halving an interval finds t.
     low = 0; high = 1;

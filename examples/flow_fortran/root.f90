@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Describes the walls of an aortic root with three sinuses. The attachment of the trileaflet valve's cusps lies on the wall, so
-!! the valve seals. The numbers and formulas come from examples/demo/aortic_root.geo. docs/theory.md, section 3, describes the
+!! the valve seals. The numbers and formulas come from examples/demo/aortic_root.geo. docs/theory/aortic.md describes the
 !! attachment. Lengths are in the valve's unit, centimetres.
 module flow_root
   use, intrinsic :: iso_fortran_env, only: dp => real64

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blood of a left heart, in mm: half an ellipsoid below the base z = 0, with two tubes above it. The aortic tube is a
 // cylinder.
-// The mitral tube has the outline of the mitral valve's annulus, as riis draws it (docs/theory.md).
+// The mitral tube has the outline of the mitral valve's annulus, as riis draws it (docs/theory/mitral.md).
 //
 //   gmsh -3 -setnumber fine 2.2 -setnumber coarse 4.5 -format msh22 heart.geo
 SetFactory("OpenCASCADE");

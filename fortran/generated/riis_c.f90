@@ -590,7 +590,7 @@ module riis_c
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
   !! valve is its z axis, placed, and its skirt does not count. For arrays and keyframes it is the vector area of the
-  !! outline, towards the side to which normals point. Lengths are in mesh units (docs/theory.md, section 15).
+  !! outline, towards the side to which normals point. Lengths are in mesh units (docs/theory/measures.md).
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline only axis and rim_reach differ from
                                      !! 0

@@ -56,7 +56,7 @@
  *   restores the caller's environment at its end. The caller's OpenMP and TBB settings are not changed.
  *
  * "Paper" is B. van der Vuurst, J. Kosinka, C. Bertoglio, "Fast generation of 3D flow obstacles from
- * parametric surface models: application to cardiac valves" (2025); docs/theory.md lists every departure.
+ * parametric surface models: application to cardiac valves" (2025); docs/theory/departures.md lists every departure.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_RIIS_H
@@ -162,7 +162,7 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range; riis_surface_create checks whether the values fit together
  * "skirt_length" gives any valve except "bileaflet" a skirt: a strip outwards from the attachment, which closes the gap
- * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. "skirt_length" is 0, the default, or
+ * to the wall (docs/theory/skirt.md). The open state's own value is ignored. "skirt_length" is 0, the default, or
  * 1e-4 to 10 times the attachment's mean distance from its axis.
  * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters makes
  * both states. The default is 1 (open) for the mitral valve, 0 for others. The aortic valve at 0 has the paper's
@@ -177,7 +177,7 @@ RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, 
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory.md, section 3). Three names stand for
+/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory/sizes.md). Three names stand for
  * parameters in riis_valve_set, riis_valve_get and the two functions below. A kind without such a size refuses its
  * name, and says why:
  *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
@@ -200,7 +200,7 @@ RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
 /* Gives the valve a second state: opening 0 is then the valve's own state, opening 1 that of the valve `open`.
- * Between them, control points are blended linearly (docs/theory.md, section 5). A bileaflet valve blends lengths and
+ * Between them, control points are blended linearly (docs/theory/openings.md). A bileaflet valve blends lengths and
  * angles instead. The middle of a coapting cusp's free edge hangs as deep as the edge's length requires. A second call
  * replaces the state. No call removes it. A mitral, trileaflet or coapting valve takes its closed shape from its own
  * parameters and its open shape from the parameters of `open`.
@@ -281,7 +281,7 @@ enum {
 
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison
  * with the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
- * e = measure_tolerance * half_thickness (docs/theory.md, section 9). Their closest point has the leaflet_id of
+ * e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest point has the leaflet_id of
  * its patch, the normal of S (0 0 0 where S has none), triangle_id -1, barycentric 0 and side 0. They refuse arrays
  * for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
 enum {
@@ -309,7 +309,7 @@ typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
   double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
   double tolerance;        /* 1e-6 to 1, default 0.05. Distances to a valve's triangles and to its smooth
-                              surface differ by at most tolerance * half_thickness (docs/theory.md) */
+                              surface differ by at most tolerance * half_thickness (docs/theory/triangles.md) */
   double scale;            /* 1e-12 to 1e12, default 1 */
   double rotation_axis[3]; /* components up to 1e50, length at least 1e-50; default (0, 0, 1) */
   double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
@@ -328,7 +328,7 @@ typedef struct riis_surface_options {
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
 /* Makes the surface of a valve by curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1
- * "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
+ * "Triangulation"; docs/theory/triangles.md). Normals point downstream: from the ventricular to the sinus face
  * of the cusps, from the atrial to the ventricular face of the mitral valve, and to +z on closed bileaflet
  * leaflets. On the bileaflet ring they point outwards. Triangles of zero area, at the root of each cusp, at the
  * mitral commissures and at the ends of bileaflet middle edges, are skipped.
@@ -373,8 +373,8 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
                                          const riis_surface_options *options);
 /* Replaces the surface's content by the triangles that riis_surface_update makes, to the last bit, and gives every
  * vertex a velocity: its displacement from the point with the same patch, u and v in an earlier state, divided by
- * the time between the states (docs/theory.md, section 10). For a warped valve, u and v are those before the warp, so
- * the velocity is that of the wall (docs/theory.md, "Warp"). If the valve is at rest, also pass it as valve_before.
+ * the time between the states (docs/theory/velocity.md). For a warped valve, u and v are those before the warp, so
+ * the velocity is that of the wall (docs/theory/warp.md). If the valve is at rest, also pass it as valve_before.
  *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
@@ -435,8 +435,8 @@ RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, c
                                                         double time, double dt,
                                                         const riis_surface_options *options);
 /* Adds a direction in which the surface of a valve changes: with a parameter, with a landmark, or with the placement. A
- * marking with RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory.md,
- * "Sensitivities"). The first call makes direction 0, the next call direction 1. An update removes all directions.
+ * marking with RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md).
+ * The first call makes direction 0, the next call direction 1. An update removes all directions.
  *   valve_after, valve_before  the valve with the parameter a little larger and a little smaller than in the surface: two
  *                   copies of the surface's valve. If only the placement changes, pass the same valve twice
  *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
@@ -460,7 +460,7 @@ typedef struct riis_direction {
   double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it from all triangles */
 } riis_direction;
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction. With
- * them a caller computes derivatives of other numbers that depend on the triangles (docs/theory.md, "Sensitivities"). The
+ * them a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md). The
  * rates are those of the triangles with every RIIS_MEASURE_*.
  *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
@@ -535,7 +535,7 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 /* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
 
 /* A smooth map of space: it takes landmarks on a valve to landmarks in a patient. The map is affine plus a term |r|^3 for
- * each landmark (docs/theory.md, "Warp"). Its matrix is factored once, so new targets in each time step cost little. */
+ * each landmark (docs/theory/warp.md). Its matrix is factored once, so new targets in each time step cost little. */
 typedef struct riis_warp riis_warp;
 
 /* Options of riis_warp_create. */
@@ -636,7 +636,7 @@ typedef struct riis_gap {
   int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel. The gap is the distance along
- * the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory.md, "Skirt"). Of all
+ * the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory/skirt.md). Of all
  * places where that line meets the wall, the nearest counts. The gap is negative if the wall lies inside.
  *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
  *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
@@ -676,7 +676,7 @@ RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys th
 
 /* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
  * depth: the length of the shortest translation of one triangle after which both only touch
- * (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0.
+ * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0.
  *   options    a pair crosses if it is deeper than depth. Depths within the rounding error also count as touching:
  *              2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
  *   crossings  its content is replaced
@@ -878,7 +878,7 @@ typedef struct riis_marks riis_marks;
 RIIS_API riis_status riis_marks_create(riis_marks **marks);
 RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
 
-/* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
+/* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
 enum {
   RIIS_SEARCH_AUTO = 0,       /* clusters, except that the exhaustive search is used for distances by sampling or
                                  minimisation, for the first marking of a mesh without riis_mesh_prepare if the
@@ -926,7 +926,7 @@ enum {
 };
 
 /* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
- * (paper, 2.1; docs/theory.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
+ * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
  * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. */
 typedef struct riis_resistance {
   int64_t struct_size;   /* set by the init function */
@@ -989,7 +989,7 @@ typedef struct riis_mark_list {
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  If several leaflets are equally near (within 1e-6 half thicknesses), or several
                                  patches of one leaflet (within 1e-9), it is the mean of the velocities at their
-                                 closest points (docs/theory.md, section 10). Other fields are those of one triangle */
+                                 closest points (docs/theory/marks.md). Other fields are those of one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
                                  has the sides that only one patch has, such as free edges and the annulus. Free edges
@@ -1257,7 +1257,7 @@ enum {
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
  * valve is its z axis, placed, and its skirt does not count. For arrays and keyframes it is the vector area of the
- * outline, towards the side to which normals point. Lengths are in mesh units (docs/theory.md, section 15). */
+ * outline, towards the side to which normals point. Lengths are in mesh units (docs/theory/measures.md). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
   double outline_area;   /* the area inside the outline */
@@ -1291,7 +1291,7 @@ typedef struct riis_coaptation {
  *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
- * Areas are right to 1e-3 of the contact's outline times reach (docs/theory.md, section 15). The extent of a surface
+ * Areas are right to 1e-3 of the contact's outline times reach (docs/theory/measures.md). The extent of a surface
  * is the diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent are lost.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
@@ -1371,7 +1371,7 @@ enum {
  *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
  *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
  *   leaflet_id  RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS
- * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory.md, section 15).
+ * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory/measures.md).
  * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
  * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state unless both are 0. */
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
@@ -1463,7 +1463,7 @@ typedef struct riis_placement_arrays {
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement: least squares of the distances
- * between the landmarks and their places on the closed valve (docs/theory.md, section 17). The valve's own values are
+ * between the landmarks and their places on the closed valve (docs/theory/landmarks.md). The valve's own values are
  * the template: lengths that no landmark bears on keep their proportions. translation and opening stay.
  * Of an aortic valve, rotations and leaflet angles follow from the landmarks, and a leaflet_power that would make
  * cusps overlap is lowered. The valve may be a kind with any parameters; a valve from patches has no landmarks.

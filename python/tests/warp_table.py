@@ -97,8 +97,8 @@ def attachment_off(root, surface):
 
 
 def factors(n, noise, seed, n_landmarks):
-    """Tries factors of the noise. The noise times sqrt(f / 0.6) acts as a factor f of theory.md. A patient whose warp folds
-    counts as 99 mm away."""
+    """Tries factors of the noise. The noise times sqrt(f / 0.6) acts as a factor f of docs/theory/warp.md. A patient whose
+    warp folds counts as 99 mm away."""
     random, tried = numpy.random.default_rng(seed), (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
     off = [[] for _ in tried]
     for _ in range(n):

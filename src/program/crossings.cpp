@@ -112,7 +112,7 @@ bool has_default_values(const riis_valve *valve) {
   return true;
 }
 
-// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory.md, section 16).
+// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory/crossings.md).
 double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * --resistance writes K of every node beside its distance. The test computes K by the formula of docs/theory.md, section 12. */
+ * --resistance writes K of every node beside its distance. The test computes K by the formula of docs/theory/marks.md. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

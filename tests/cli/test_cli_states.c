@@ -224,7 +224,7 @@ static double cubic_length(double p[4][3]) {
   return length;
 }
 
-/* Returns half the length of a cusp's free edge for a power above 1 (docs/theory.md, section 3). */
+/* Returns half the length of a cusp's free edge for a power above 1 (docs/theory/aortic.md). */
 static void free_edge(double r_in, double r_out, double degrees, double power, double t0, double t3, double p[4][3]) {
   const double x = r_out * cos(degrees * pi / 180), y = r_out * sin(degrees * pi / 180);
   const double made[4][3] = {

@@ -72,7 +72,7 @@ static void check_frame(const uris_face *face, const double *frame, const riis_s
   free(corners);
 }
 
-/* Returns the ramp of fifth degree from 0 to 1 (theory.md, section 12). */
+/* Returns the ramp of fifth degree from 0 to 1 (theory/marks.md). */
 static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 
 /* ---- Tests of the files ---- */

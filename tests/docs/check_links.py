@@ -1,11 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_links.py FOLDER: links in the Markdown documents below the folder must lead to existing files and headings. Source
-files that docs/walks.md names must exist."""
+"""check_links.py FOLDER: what the documents and the sources below the folder refer to must exist.
+
+Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
+docs/*.md, "Heading". A number of a section is refused, because it shifts. Source files that docs/walks.md and the pages of
+docs/theory name must exist. A formula begins and ends on one line, and a page of docs/theory has at most 4000 words.
+"""
+import functools
 import pathlib
 import re
 import sys
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+REFERENCE = re.compile(r'\b(docs/[\w/.-]*?\.md)(?:, "([^"]+)"|,? (section \d+))?')
+FORMULA = re.compile(r"(?<![\w$\\])\$(?=[^\s$])[^$]*?(?<=[^\s$])\$(?![\w$])")
+FOLDERS = ("abi", "bench", "cmake", "debian", "docs", "examples", "fortran", "include", "packaging", "python", "src", "tests")
+MOST_WORDS = 4000
 
 
 def text_of(path):
@@ -14,14 +23,23 @@ def text_of(path):
     return re.sub(r"`[^`\n]*`", "", text)
 
 
+def slug(title):
+    return re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-")
+
+
+@functools.lru_cache(maxsize=None)
 def headings(path):
     text = re.sub(r"^( *)```.*?^\1```", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
     titles = re.findall(r"^#+ +(.*)$", text, re.MULTILINE)
-    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+    return {slug(title) for title in titles}
+
+
+def documents_of(folder):
+    return [path for pattern in ("*.md", "docs/*.md", "docs/theory/*.md", "examples/*.md") for path in folder.glob(pattern)]
 
 
 def problems(folder):
-    documents = [*folder.glob("*.md"), *folder.glob("docs/*.md"), *folder.glob("examples/*.md")]
+    documents = documents_of(folder)
     if not documents:
         yield f"no documents in {folder}"
     for document in documents:
@@ -36,20 +54,59 @@ def problems(folder):
                 yield f"{document.relative_to(folder)}: {link}: there is no such heading"
 
 
+def wrong_references(folder):
+    """Yields the pages and headings that a source or a document names and that do not exist. CHANGELOG.md may name pages of the
+    past, and the test of this script names pages that it invents."""
+    files = [path for part in FOLDERS for path in (folder / part).rglob("*")] + list(folder.glob("*"))
+    for path in files:
+        if path.name in ("CHANGELOG.md", "test_check_pages.py") or not path.is_file():
+            continue
+        try:
+            text = path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue  # a picture
+        text = re.sub(r'\\n",\n *"', " ", text.replace('\\"', '"'))  # the lines of a notebook
+        text = re.sub(r"\n[ \t]*(?://+|\*+|#+|![<>!]*)?[ \t]*", " ", text)  # a comment of several lines
+        for page, heading, section in REFERENCE.findall(text):
+            target = folder / page
+            if not target.exists():
+                yield f"{path.relative_to(folder)}: {page}: there is no such file"
+            elif section:
+                yield f"{path.relative_to(folder)}: {page}, {section}: name the heading, because numbers shift"
+            elif heading and slug(heading) not in headings(target):
+                yield f'{path.relative_to(folder)}: {page}, "{heading}": there is no such heading'
+
+
+def broken_formulas(folder):
+    """Yields the lines on which a formula has only one dollar. Code has no formulas."""
+    for document in documents_of(folder):
+        text = re.sub(r"^( *)```.*?^\1```", lambda block: "\n" * block[0].count("\n"),
+                      document.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+        for number, line in enumerate(text.splitlines(), 1):
+            if not line.startswith("    ") and "$" in FORMULA.sub("", re.sub(r"`[^`]*`", "", line)):
+                yield f"{document.relative_to(folder)}:{number}: a formula must begin and end on one line, or stand in ```math"
+
+
+def long_pages(folder):
+    for page in folder.glob("docs/theory/*.md"):
+        n_words = len(page.read_text(encoding="utf-8").split())
+        if n_words > MOST_WORDS:
+            yield f"{page.relative_to(folder)}: {n_words} words; at most {MOST_WORDS}"
+
+
 def missing_sources(folder):
-    """Yields the source files that docs/walks.md names and that do not exist."""
-    if not (folder / "docs/walks.md").exists():
-        return
-    sources = [path.relative_to(folder).as_posix() for part in ("include", "src") for path in (folder / part).rglob("*")]
-    named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", (folder / "docs/walks.md").read_text(encoding="utf-8"))
-    if not named:
-        yield "docs/walks.md names no file"
-    for name in named:
-        if not (folder / name).exists() and not any(source.endswith(f"/{name}") for source in sources):
-            yield f"docs/walks.md: {name}: there is no such file"
+    """Yields the source files that docs/walks.md and the pages of docs/theory name and that do not exist."""
+    sources = [path.relative_to(folder).as_posix() for part in ("include", "src", "tests") for path in (folder / part).rglob("*")]
+    for page in [*folder.glob("docs/walks.md"), *folder.glob("docs/theory/*.md")]:
+        named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", page.read_text(encoding="utf-8"))
+        if not named and page.name == "walks.md":
+            yield "docs/walks.md names no file"
+        for name in named:
+            if not (folder / name).exists() and not any(source.endswith(f"/{name}") for source in sources):
+                yield f"{page.relative_to(folder)}: {name}: there is no such file"
 
 
 folder = pathlib.Path(sys.argv[1])
-found = [*problems(folder), *missing_sources(folder)]
+found = [*problems(folder), *wrong_references(folder), *broken_formulas(folder), *long_pages(folder), *missing_sources(folder)]
 if found:
-    sys.exit("\n".join(found))
+    sys.exit("\n".join(dict.fromkeys(found)))

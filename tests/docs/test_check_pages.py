@@ -58,15 +58,29 @@ class Checks(unittest.TestCase):
     def test_links(self):
         good = {"README.md": "# A\n[b](docs/b.md#two-words) [a](#a) [web](https://example.org) `[c](c.md)`\n",
                 "docs/b.md": "## Two words\n```sh\n[d](d.md)\n```\n![a](a.png)\n", "docs/a.png": "",
-                "docs/walks.md": "| `part/a.cpp` | it works |\n", "src/x/part/a.cpp": ""}
+                "docs/walks.md": "| `part/a.cpp` | it works |\n",
+                "src/x/part/a.cpp": '// The proof is in docs/b.md, "Two\n// words".',
+                "docs/theory/t.md": "# T\n[b](../b.md) $x$ `$HOME`\n```math\n$\n```\nHere is `a.cpp`.\n",
+                "include/y.h": "/* docs/theory/t.md has\n * the rest. */", "CHANGELOG.md": 'docs/gone.md, "Gone"\n',
+                "examples/n.ipynb": '["see docs/b.md,\\n",\n  "\\"Two words\\""]'}
         self.assertEqual(self.run_on("check_links.py", good).stderr, "")
         for name, found, replacement, text in [
             ("README.md", "docs/b.md", "b.md", "README.md: b.md#two-words: there is no such file"),
             ("README.md", "#two-words", "#three", "docs/b.md#three: there is no such heading"),
             ("docs/b.md", "a.png", "b.png", "docs/b.md: b.png: there is no such file"),
             ("docs/walks.md", "a.cpp", "z.cpp", "docs/walks.md: part/z.cpp: there is no such file"),
+            ("docs/theory/t.md", "`a.cpp`", "`z.cpp`", "docs/theory/t.md: z.cpp: there is no such file"),
+            ("docs/theory/t.md", "../b.md", "b.md", "docs/theory/t.md: b.md: there is no such file"),
+            ("docs/theory/t.md", "$x$", "$x", "docs/theory/t.md:2: a formula must begin and end on one line"),
+            ("docs/theory/t.md", "$x$", "$$x$$", "docs/theory/t.md:2: a formula must begin and end on one line"),
+            ("docs/theory/t.md", "$x$", "word " * 4000, "docs/theory/t.md: 4010 words; at most 4000"),
+            ("src/x/part/a.cpp", "docs/b.md", "docs/c.md", "src/x/part/a.cpp: docs/c.md: there is no such file"),
+            ("src/x/part/a.cpp", "words", "sentences", 'docs/b.md, "Two sentences": there is no such heading'),
+            ("src/x/part/a.cpp", '"Two\n// words"', "section 8", "docs/b.md, section 8: name the heading"),
+            ("include/y.h", "t.md", "u.md", "include/y.h: docs/theory/u.md: there is no such file"),
+            ("examples/n.ipynb", "Two", "Three", 'examples/n.ipynb: docs/b.md, "Three words": there is no such heading'),
         ]:
-            with self.subTest(replacement):
+            with self.subTest(text):
                 self.refuses("check_links.py", good, name, found, replacement, text)
 
 

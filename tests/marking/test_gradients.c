@@ -441,8 +441,9 @@ static riis_mark_list opening_of(const char *kind, double tolerance, int32_t tri
   return within_list(marks);
 }
 
-/* The table of docs/theory.md, "Sensitivities". "Smooth" is the difference from central differences of distances to triangles
- * with the tolerance 0.0005. "Velocity" and "direction" are differences from central differences on the fixed triangles. */
+/* Prints the table that docs/theory/gradients.md sums up. "Smooth" is the difference from central differences of distances to
+ * triangles with the tolerance 0.0005. "Velocity" and "direction" are differences from central differences on the fixed
+ * triangles. */
 TEST(derivatives_approach_those_of_the_smooth_valve) {
   static double xyz[3 * n_points], distance[3][n_points], off[3][n_points];
   static const double tolerances[] = {0.05, 0.01, 0.003};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests the kernels, which are compiled for several instruction sets. Decisions and located points have the bits of the
- * scalar kernel. Single precision is off by no more than the library allows for (docs/theory.md, section 8). No pair that
+ * scalar kernel. Single precision is off by no more than the library allows for (docs/theory/clusters.md). No pair that
  * matters is left out, however small the buffer for pairs is. */
 #include "internals.h"
 #include "sanitized.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Evaluates the smooth mitral valve independently of the library. It follows the paper's appendix as corrected in
- * docs/theory.md, section 4, point by point in extended precision. A "row" is a row of that section's table. It has no
+ * docs/theory/mitral.md, point by point in extended precision. A "row" is a row of that page's table. It has no
  * polylines and no tolerance, and shares no code with the library. */
 #ifndef RIIS_TEST_MITRAL_ORACLE_H
 #define RIIS_TEST_MITRAL_ORACLE_H

@@ -73,7 +73,7 @@ class MeasuredCurve {
   std::vector<double> ends_;
 };
 
-// A state of the valve, evaluated from the formulas of docs/theory.md.
+// A state of the valve, evaluated from the formulas of docs/theory.
 class State {
  public:
   explicit State(PatchSet set) : set_(std::move(set)) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the open state that an aortic valve's own parameters define (docs/theory.md, section 3). */
+ * Tests the open state that an aortic valve's own parameters define (docs/theory/aortic.md). */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -42,7 +42,7 @@ static void set_own(riis_valve *valve, const char *cusp, const char *name, doubl
   CHECK_OK(riis_valve_set_scalar(valve, full, value));
 }
 
-/* Returns a second valve whose state is the first valve's open state, by the formulas of docs/theory.md. */
+/* Returns a second valve whose state is the first valve's open state, by the formulas of docs/theory/aortic.md. */
 static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, double expansion) {
   riis_valve *open = copy_of(valve);
   double R, h_l, h_b, third_leaflet[3], third_bending[3];

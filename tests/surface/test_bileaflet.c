@@ -135,7 +135,7 @@ TEST(closed_leaflets_fill_the_housing) {
   }
 }
 
-/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory.md, section 14. */
+/* As the leaflets open, the corners of their middle edges leave the housing: docs/theory/bileaflet.md. */
 TEST(open_leaflets_reach_beyond_the_housing) {
   for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory.md, section 3).
+ * The coapting valve: its coaptation zone, the computed path of its opening, and its sizes (docs/theory/coapting.md).
  * An oracle makes the curves from the document's formulas, with bisection and chords instead of the library's numerics. */
 #include <riis/riis.h>
 
@@ -457,7 +457,7 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
 }
 
 /* A zone that begins just above the root has no crease either. The leaflet turns upwards there with a radius of 4 micrometres, as
- * docs/theory.md says. A coarser difference than this radius once took the turn for a crease. */
+ * docs/theory/coapting.md says. A coarser difference than this radius once took the turn for a crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
   static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
                                       0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
@@ -745,7 +745,8 @@ static double middle_crease(const half *of) {
   return largest;
 }
 
-/* The measures that follow from the default sizes are those of the literature. The table is printed for docs/theory.md. */
+/* The measures that follow from the default sizes are those of the literature. The table is printed for
+ * docs/theory/coapting.md. */
 TEST(measures_are_those_of_the_literature) {
   riis_valve *valve = new_valve("coapting");
   const sizes v = sizes_of(valve);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the mitral valve through the public interface: the numbers of docs/theory.md, section 4, and properties that hold
+ * Tests the mitral valve through the public interface: the numbers of docs/theory/mitral.md, and properties that hold
  * at any opening. */
 #include <riis/riis.h>
 
@@ -102,7 +102,7 @@ static double annulus_length(const riis_triangles *c) {
   return sum;
 }
 
-/* The surface is fine enough for the digits in docs/theory.md. The oracle gives more digits. */
+/* The surface is fine enough for the digits in docs/theory/mitral.md. The oracle gives more digits. */
 TEST(numbers_of_the_model) {
   const struct {
     double opening, area, area_to_6_digits, annulus, z_low, z_high;
@@ -282,7 +282,7 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
 }
 
 /* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and the two are within 0.02 of the
- * tolerance, they become one line (docs/theory.md, section 2). At a joint of the annulus O has a kink. Next to it there is a
+ * tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus O has a kink. Next to it there is a
  * line only if the tolerance needs one. The least ratio of 3,840 valves was 0.4. (Triangles can still be flat: quads are
  * sheared where a leaflet's arcs meet its free edge at a small angle.) */
 TEST(has_no_slivers) {

@@ -463,7 +463,7 @@ TEST(valves_do_not_cross) {
 }
 
 /* The closed leaflets of the mitral valve touch. Fixed triangles of such leaflets may cross by twice the error bound. The depth
- * at opening 0 is printed, for docs/theory.md. */
+ * at opening 0 is printed, for docs/theory/crossings.md. */
 TEST(fixed_triangles_cross_within_their_error) {
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Sizes by a surgeon's names, and parameters that follow from others unless they are set (docs/theory.md, section 3). Random
+ * Sizes by a surgeon's names, and parameters that follow from others unless they are set (docs/theory/sizes.md). Random
  * calls are compared with a model of the rules. The last tests look for crossings of random valves; RIIS_TEST_LONG=1 tries as
- * many as docs/theory.md states. */
+ * many as docs/theory/sizes.md states. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -561,7 +561,8 @@ static crossing worst_crossing(riis_valve *valve, const riis_surface_options *op
   return worst;
 }
 
-/* The ranges contain the sizes of all sources in docs/theory.md. Half of the valves are placed obliquely, in another unit. */
+/* The ranges contain the sizes of all sources in docs/theory/trileaflet.md. Half of the valves are placed obliquely, in another
+ * unit. */
 TEST(trileaflet_cusps_do_not_cross) {
   const int n = is_long_test() ? 350 : 10;
   int n_crossing = 0;

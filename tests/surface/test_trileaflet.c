@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The trileaflet valve has three equal cusps. They have the same bits where they meet, close a vessel, and open (docs/theory.md,
- * section 3). */
+ * The trileaflet valve has three equal cusps. They have the same bits where they meet, close a vessel, and open
+ * (docs/theory/trileaflet.md). */
 #include <riis/riis.h>
 
 #include "test_support.h"

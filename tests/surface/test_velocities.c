@@ -210,7 +210,7 @@ TEST(the_bound_holds_for_any_motion) {
 }
 
 /* The bound is useful: for an opening motion it is a small fraction of the speed. If few triangles bend much, the bound is
- * close to the true error. docs/theory.md has the printed shares. */
+ * close to the true error. docs/theory/velocity.md has the printed shares. */
 TEST(the_bound_is_near) {
   static const double most[n_kinds] = {0.35, 0.06, 0.08, 0.04, 0.06};
   const int n = is_sanitized() ? 10 : 100;

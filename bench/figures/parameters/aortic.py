@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the meaning of the aortic valve's parameters on the left cusp (docs/theory.md, section 3)."""
+"""Draws the meaning of the aortic valve's parameters on the left cusp (docs/theory/aortic.md)."""
 
 import math
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the meaning of the bileaflet valve's parameters (docs/theory.md, section 14)."""
+"""Draws the meaning of the bileaflet valve's parameters (docs/theory/bileaflet.md)."""
 
 import math
 

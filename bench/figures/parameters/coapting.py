@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the meaning of the coapting valve's parameters on its right cusp (docs/theory.md, section 3)."""
+"""Draws the meaning of the coapting valve's parameters on its right cusp (docs/theory/coapting.md)."""
 
 import math
 

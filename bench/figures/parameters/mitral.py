@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the meaning of the mitral valve's parameters (docs/theory.md, section 4)."""
+"""Draws the meaning of the mitral valve's parameters (docs/theory/mitral.md)."""
 
 import math
 

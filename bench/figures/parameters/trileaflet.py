@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the meaning of the trileaflet valve's parameters on its right cusp (docs/theory.md, section 3)."""
+"""Draws the meaning of the trileaflet valve's parameters on its right cusp (docs/theory/trileaflet.md)."""
 
 import math
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances by minimisation (paper, 4.1 "Minimization"): Powell's method minimises |S(u,v) - P|^2 on every patch, starting at
 // (0.5, 0.5). It ends in a local minimum. So the result is always the distance to some point of S, but not always to the
-// closest point (docs/theory.md, section 9).
+// closest point (docs/theory/paper-distances.md, "Minimisation").
 // In: placed patches, the tolerance of the minimisation. Out: the least of all patches' local minima.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distances by sampling (paper, 4.1 "Sampling"): the method finds the nearest of evenly spaced points S(u,v). The number of
-// samples of a patch depends on its width and height (docs/theory.md, section 9).
+// samples of a patch depends on its width and height (docs/theory/paper-distances.md, "Sampling").
 // In: placed patches, the allowed error of a distance. Out: nearest samples.
 #pragma once
 

@@ -4,7 +4,7 @@
 // middle control point is the middle of the straight line plus the offset
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
 // So D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
-// length. That product vanishes where the edge stands still, and changes its sign at the edge's corners: docs/theory.md.)
+// length. That product vanishes where the edge stands still, and changes its sign at the edge's corners: docs/theory/mitral.md.)
 // In: two curves and the factor. Out: O(u), and a bound on its distance from linear between two u.
 #pragma once
 

@@ -29,7 +29,7 @@ class CurvePoints {
   const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
   // Bounds the distance between the chord from share i to share j and the curve, at equal shares of their lengths
-  // (docs/theory.md, "Chord error"). The bound is not refined further once it is at most `enough`.
+  // (docs/theory/curves.md, "Chord error"). The bound is not refined further once it is at most `enough`.
   double chord_error(std::size_t i, std::size_t j, double enough);
 
  private:

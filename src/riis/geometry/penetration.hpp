@@ -13,7 +13,7 @@ using Triangle = std::array<Vec3, 3>;
 
 // Returns the length of the shortest translation of one triangle after which the two only touch. Returns 0 if this length is at
 // most `limit`. Triangles that only touch, or that lie in one plane, have depth 0. The error is at most 2^-24 of the longest
-// edge plus 2^-48 of the largest coordinate (docs/theory.md, section 16).
+// edge plus 2^-48 of the largest coordinate (docs/theory/crossings.md, "Rounding").
 double penetration_depth(const Triangle &a, const Triangle &b, double limit);
 
 struct CommonSegment {

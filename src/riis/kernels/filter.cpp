@@ -96,7 +96,7 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
     const float shift = __builtin_fabsf(task.shift[i]);
     largest_shift = shift > largest_shift ? shift : largest_shift;
   }
-  const Floats rounding = Floats::all(0x1p-19f * (task.ratio + largest_shift + 1));  // docs/theory.md, section 8
+  const Floats rounding = Floats::all(0x1p-19f * (task.ratio + largest_shift + 1));  // docs/theory/clusters.md
   uint32_t found = 0;
   for (int32_t k = 0; k < n_candidates; ++k) {
     const GroupBounds &group = task.bounds[candidates[k]];

@@ -3,9 +3,9 @@
 // chosen at run time. This header has only plain data and declarations: a function body here would be compiled for several
 // instruction sets under one name.
 //
-// filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error (docs/theory.md,
-// section 8). Coordinates are in the surface's frame: relative to its middle, and scaled by a power of two so that its half
-// extent is from 1/2 to 1.
+// filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
+// (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to its middle, and scaled by a power of two so
+// that its half extent is from 1/2 to 1.
 // decide, locate: double precision, with exactly the bits of the decision kernel (geometry/point_triangle.hpp).
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory.md, section 17).
+// Sets a valve's sizes from a patient's landmarks, and finds its placement (docs/theory/landmarks.md).
 // In: landmarks, and a valve whose proportions are the template. Out: the valve of the patient, its placement and the residuals.
 #pragma once
 

@@ -134,7 +134,7 @@ class ClusterSearch {
   }
 
   // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
-  // limit (docs/theory.md, section 8).
+  // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = view(clusters_.clusters).size();
     // A thread compares a region anew if another thread had some of its clusters.

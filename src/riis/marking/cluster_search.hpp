@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search over clusters of nodes, and the memory that it reuses from one marking to the next. It filters in single precision,
-// sixteen triangles at a time, and decides in double precision (docs/theory.md, section 8).
+// sixteen triangles at a time, and decides in double precision (docs/theory/clusters.md, "The proof").
 #pragma once
 
 #include <cstddef>

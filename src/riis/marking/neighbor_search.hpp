@@ -58,7 +58,7 @@ class NeighborScratch {
 };
 
 // Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). Then, for each node that the walk did not reach,
-// proves that it is far, or else queries it (docs/theory.md, section 7). The walk starts at the nodes in `last`, usually those
+// proves that it is far, or else queries it (docs/theory/search.md). The walk starts at the nodes in `last`, usually those
 // found by the last marking. The mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory.md, "Resistance").
+// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance").
 // In: the nodes within the limit, with their fields. Out: the term and its sums, added to the caller's arrays.
 #pragma once
 

@@ -14,7 +14,7 @@ namespace {
 // depth of least_deepest cannot come from rounding.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
-// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory.md, section 16).
+// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory/crossings.md).
 double depth_of_contacts(const Valve &valve, const Surface &surface) {
   if (valve.kind().has_exact_contacts) return least_deepest * surface.half_thickness();
   return 2 * surface.triangles().error_bound;

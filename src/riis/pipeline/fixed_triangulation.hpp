@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A triangulation that stays the same while a valve opens and closes (docs/theory.md, "Fixed triangulation").
+// A triangulation that stays the same while a valve opens and closes (docs/theory/triangles.md, "Fixed triangulation").
 // In: a valve, the allowed error. Out: a plan of the triangles that serves all openings.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory.md, "Velocity").
+// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory/velocity.md).
 // In: the patch now and before, its grid. Out: the displacement of every vertex.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grids whose lines stay the same while a valve opens (docs/theory.md, "Fixed triangulation").
+// Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation").
 // In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all these openings. Also
 // grids on these lines at any opening, with their errors.
 #pragma once

@@ -11,9 +11,9 @@
 
 namespace riis {
 
-// The allowed error is divided as in docs/theory.md, "Tolerance". A point of a Coons patch has the errors of a u curve, of a v
-// curve and of merged grid lines. Each of these errors is bounded by its share below. At least 1 - 2 * (curve_share +
-// merge_share) remains for splitting a quad into triangles.
+// The allowed error is divided as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch has the errors of
+// a u curve, of a v curve and of merged grid lines. Each of these errors is bounded by its share below. At least
+// 1 - 2 * (curve_share + merge_share) remains for splitting a quad into triangles.
 inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for quads, and many
 // quads would be subdivided.

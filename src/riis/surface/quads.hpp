@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quads of grids, and how often they are halved before they are split into triangles (docs/theory.md, section 2).
+// Quads of grids, and how often they are halved before they are split into triangles (docs/theory/triangles.md).
 // In: grids, the allowed error. Out: the level of each quad, and a bound on the error of its triangles.
 #pragma once
 
@@ -25,7 +25,7 @@ inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 -
 
 // Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. If both
 // are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across that plane
-// (docs/theory.md, section 2).
+// (docs/theory/triangles.md).
 double split_error(const Quad &quad);
 
 inline Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ties: triangles that are as near to a point as its closest triangle, and that belong to another leaflet, or to another patch
-// of the same leaflet (docs/theory.md, section 10). Only velocities need ties.
+// of the same leaflet (docs/theory/marks.md, "Equally near leaflets"). Only velocities need ties.
 // In: triangles in the order in which a search compares them. Out: the ties of each point, which do not depend on this order.
 #pragma once
 

@@ -30,7 +30,7 @@ struct Frame {
 float round_down(double x);
 float round_up(double x);
 
-// Bounds the error of the filters' distances in the surface's frame (docs/theory.md, section 8). The points come from a frame
+// Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). The points come from a frame
 // `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths up to
 // `longest_edge`.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {

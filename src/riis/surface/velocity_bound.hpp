@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bounds the difference between the velocities of a surface's triangles and those of the smooth valve (docs/theory.md,
-// "Velocity").
+// Bounds the difference between the velocities of a surface's triangles and those of the smooth valve (docs/theory/velocity.md).
 // In: the patches of two states, the time between them, the grids of the triangles. Out: a bound at equal (patch, u, v).
 #pragma once
 

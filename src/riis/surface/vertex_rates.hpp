@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Derivatives of a surface's vertices with respect to a parameter (docs/theory.md, "Sensitivities").
+// Derivatives of a surface's vertices with respect to a parameter (docs/theory/gradients.md).
 // In: the patches and the grids of the surface, the patches of two near states. Out: the rate of every vertex.
 #pragma once
 

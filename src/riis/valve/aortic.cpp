@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aortic valve. It has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters"; docs/theory.md).
+// The aortic valve. It has three cusps of four patches each (paper, 2.1 and table "Aortic valve parameters";
+// docs/theory/aortic.md).
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -30,7 +31,7 @@ const char *const cusp_names[n_cusps] = {"right", "left", "non_coronary"};
 // The names of the cusps in messages. They are character constants, because a std::string is needed only if a check fails.
 const char *const cusps[n_cusps] = {"the right cusp", "the left cusp", "the non_coronary cusp"};
 constexpr std::size_t open_radius_ratio = n_general + n_cusps * n_of_cusp, commissure_expansion = open_radius_ratio + 1;
-// With these defaults the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory.md, section 3).
+// With these defaults the orifice is 3.9 cm2, and no free edge changes its length by more than 5 % (docs/theory/aortic.md).
 constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }

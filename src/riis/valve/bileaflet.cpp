@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bileaflet mechanical valve. It has two rigid flat leaflets in a round housing, and each turns about its hinge
-// (docs/theory.md, "The bileaflet valve").
+// (docs/theory/bileaflet.md).
 // In: the parameters of two states, the opening. Out: patches of two leaflets and, if ring_height is not 0, of the housing's
 // wall.
 #include <riis/riis.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The coapting valve. Its three equal cusps lie side by side in a coaptation zone, and their free edges keep their length while
-// the valve opens (docs/theory.md, "The coapting valve").
+// the valve opens (docs/theory/coapting.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,7 +76,7 @@ Rule gap_rule(const ParameterValues &values) { return {0.016 * values[commissure
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// Lengths are in centimetres. docs/theory.md has the sources of the values.
+// Lengths are in centimetres. docs/theory/coapting.md has the sources of the values.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;

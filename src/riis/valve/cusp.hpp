@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory.md, section 3).
+// Half a semilunar cusp: its curves, the shape to which it opens, and its two patches (docs/theory/aortic.md).
 // In: lengths, angles and exponents of one cusp. Out: Bézier curves in the cusp's frame, and patches in a set.
 #pragma once
 

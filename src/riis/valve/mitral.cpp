@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mitral valve. It has an annulus, an anterior leaflet and a posterior leaflet of three scallops, and it can be closed, open
-// or in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory.md, section 4).
+// or in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory/mitral.md).
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The annulus of the mitral valve, from its sizes (docs/theory.md, section 4).
+// The annulus of the mitral valve, from its sizes (docs/theory/mitral.md).
 #pragma once
 
 #include <array>

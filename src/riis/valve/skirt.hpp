@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The skirt of a valve: a strip that leads outwards from the attachment to the wall (docs/theory.md, "Skirt").
+// The skirt of a valve: a strip that leads outwards from the attachment to the wall (docs/theory/skirt.md).
 // In: the patches of a valve, the length of the skirt. Out: the same patches and those of the skirt.
 #pragma once
 

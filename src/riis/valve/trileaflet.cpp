@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The trileaflet valve. Its three equal cusps close completely: their free edges meet along straight lines from the commissures
-// to the axis (docs/theory.md, section 3).
+// to the axis (docs/theory/trileaflet.md).
 #include <utility>
 
 #include "common/array_view.hpp"
@@ -23,7 +23,7 @@ enum Parameter {
 constexpr double half_angle = 60;
 
 // The rules for sizes that the caller did not set. If other sizes change and these do not follow, the cusps cross
-// (docs/theory.md, section 3).
+// (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
 Rule bending_radius_in_rule(const ParameterValues &values) { return {0.32 * values[root_radius][0]}; }
@@ -35,10 +35,10 @@ Rule tangent_rule(const ParameterValues &values) { return {0.2 * values[root_rad
 void check_values(const ParameterValues &values);
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening);
 
-// The defaults are in centimetres, and docs/theory.md lists their sources. The root follows Roman et al. 1989. The heights follow
-// Bierbach et al. 2010 and Schaefers et al. 2013. The orifice follows Bonow et al. 2006, and the expansion of the commissures
-// Pang et al. 2000. Root and commissures have equal radii: their measured ratio is 1.11 in Jelenc et al. 2024 and 1/1.2 in
-// Thubrikar et al. 1981. The bending curve is chosen to fit these values.
+// The defaults are in centimetres, and docs/theory/trileaflet.md lists their sources. The root follows Roman et al. 1989. The
+// heights follow Bierbach et al. 2010 and Schaefers et al. 2013. The orifice follows Bonow et al. 2006, and the expansion of the
+// commissures Pang et al. 2000. Root and commissures have equal radii: their measured ratio is 1.11 in Jelenc et al. 2024 and
+// 1/1.2 in Thubrikar et al. 1981. The bending curve is chosen to fit these values.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;

@@ -18,7 +18,7 @@ constexpr double thinnest_share = 0.05;
 // Sources also count as planar if noise would change the stretch across the plane by more than this.
 constexpr double largest_stretch_error = 0.1;
 // The share of the noise that the residuals should have. It is below 1, because the map follows a part of the noise. The
-// attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory.md, "Warp").
+// attachments of random patients were met best with shares from 0.5 to 0.7 (docs/theory/warp.md, "Equations").
 constexpr double residual_share = 0.6;
 constexpr double line_share = 1e-6, same_place_share = 1e-6;
 

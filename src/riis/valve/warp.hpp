@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A smooth map of space from landmarks (docs/theory.md, "Warp"): affine plus a radial function |r|^3 at each landmark.
+// A smooth map of space from landmarks (docs/theory/warp.md): affine plus a radial function |r|^3 at each landmark.
 // In: landmarks at rest and where they are now. Out: the map's values and derivatives.
 #pragma once
 

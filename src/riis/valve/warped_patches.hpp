@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches in space: every image becomes a patch of its own, and a warp may move its curves (docs/theory.md, "Warp").
+// Patches in space: every image becomes a patch of its own, and a warp may move its curves (docs/theory/warp.md).
 // In: the patches of a kind of valve, a map. Out: patches that are their own images.
 #pragma once
 
