@@ -2,8 +2,8 @@
 """check_links.py FOLDER: what the documents and the sources below the folder refer to must exist.
 
 Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
-docs/*.md, "Heading". A number of a section is refused, because it shifts. Source files that docs/walks.md and the pages of
-docs/theory name must exist. A formula begins and ends on one line, and a page of docs/theory has at most 4000 words.
+docs/*.md, "Heading". A number of a section is refused, because it shifts. Source files that docs/walks.md, docs/theory and
+docs/design name must exist. A formula begins and ends on one line. A page of docs/theory or docs/design has at most 4000 words.
 """
 import functools
 import pathlib
@@ -34,8 +34,12 @@ def headings(path):
     return {slug(title) for title in titles}
 
 
+def pages_of_books(folder):
+    return [*folder.glob("docs/theory/*.md"), *folder.glob("docs/design/*.md")]
+
+
 def documents_of(folder):
-    return [path for pattern in ("*.md", "docs/*.md", "docs/theory/*.md", "examples/*.md") for path in folder.glob(pattern)]
+    return [path for pattern in ("*.md", "docs/*.md", "examples/*.md") for path in folder.glob(pattern)] + pages_of_books(folder)
 
 
 def problems(folder):
@@ -88,16 +92,16 @@ def broken_formulas(folder):
 
 
 def long_pages(folder):
-    for page in folder.glob("docs/theory/*.md"):
+    for page in pages_of_books(folder):
         n_words = len(page.read_text(encoding="utf-8").split())
         if n_words > MOST_WORDS:
             yield f"{page.relative_to(folder)}: {n_words} words; at most {MOST_WORDS}"
 
 
 def missing_sources(folder):
-    """Yields the source files that docs/walks.md and the pages of docs/theory name and that do not exist."""
+    """Yields the source files that docs/walks.md and the pages of docs/theory and docs/design name and that do not exist."""
     sources = [path.relative_to(folder).as_posix() for part in ("include", "src", "tests") for path in (folder / part).rglob("*")]
-    for page in [*folder.glob("docs/walks.md"), *folder.glob("docs/theory/*.md")]:
+    for page in [*folder.glob("docs/walks.md"), *pages_of_books(folder)]:
         named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", page.read_text(encoding="utf-8"))
         if not named and page.name == "walks.md":
             yield "docs/walks.md names no file"
