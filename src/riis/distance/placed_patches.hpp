@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/bounds.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/placement.hpp"
-#include "surface/triangle_groups.hpp"
 #include "valve/patches.hpp"
 
 namespace riis {

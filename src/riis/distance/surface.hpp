@@ -12,15 +12,29 @@
 #include <vector>
 
 #include "distance/patch_distance.hpp"
-#include "surface/orifice.hpp"
+#include "geometry/placement.hpp"
+#include "surface/edges.hpp"
 #include "surface/pseudonormals.hpp"
-#include "surface/side_lines.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
 #include "surface/velocity_bound.hpp"
 #include "surface/vertex_rates.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
+
+// The placement, the disc, the housing, the skirt and the kind of the valve that a surface was made from.
+struct ValveFrame {
+  Placement placement;
+  Valve::Disc disc;      // before placement
+  std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
+  std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
+  const ValveKind *kind;
+  bool is_warped;
+
+  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
+  Vec3 axis() const;
+};
 
 class Surface {
  public:

@@ -7,18 +7,12 @@
 #include <map>
 #include <vector>
 
-#include "surface/triangle_set.hpp"
+#include "surface/edges.hpp"
 
 namespace riis {
 
 struct Contact {
   double area, edge;
-};
-
-// A straight part of a leaflet's free edge.
-struct EdgePart {
-  std::int32_t leaflet_id;
-  Vec3 from, to;
 };
 
 // Returns the contact of each leaflet. A point of a leaflet is in contact if another leaflet is within `reach` of it. `parts` has

@@ -488,6 +488,27 @@ ImageMotion::ImageMotion(const PatchImage &now, const PatchImage &before, const 
   difference_.offset = now_.offset - then.offset;
 }
 
+Vector<double> joints_of(const PatchSet &set, const Side &side) {
+  Vector<double> joints = set.curve_of(side).joints();
+  if (!side.reversed) return joints;
+  std::reverse(joints.begin(), joints.end());
+  for (double &joint : joints) joint = 1 - joint;
+  return joints;
+}
+
+Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
+  Vector<double> made = lines;
+  if (from.empty() || from.size() != to.size()) return made;
+  std::size_t k = 0;
+  for (double &u : made) {
+    while (k < from.size() && u >= from[k]) ++k;
+    const double a = k == 0 ? 0 : from[k - 1], b = k == from.size() ? 1 : from[k];
+    const double a_now = k == 0 ? 0 : to[k - 1], b_now = k == from.size() ? 1 : to[k];
+    u = u == a ? a_now : u == 1 ? 1 : a_now + (u - a) / (b - a) * (b_now - a_now);
+  }
+  return made;
+}
+
 void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names) {
   if (now.patches.size() != before.patches.size())
     fail(RIIS_INVALID_PARAMETER, names.state, " has ", before.patches.size(), " patches, ", names.of, " has ",

@@ -198,6 +198,11 @@ class ImageMotion {
 // At the ends, O comes from the shared sides, as in the neighbouring patches.
 Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
 
+// Returns the joints of a side in the patch's parameter.
+Vector<double> joints_of(const PatchSet &set, const Side &side);
+// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
+Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
+
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images
 // and kinds. The message names the states.
 void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});

@@ -12,31 +12,10 @@
 #include "common/array_view.hpp"
 #include "geometry/curve_points.hpp"
 #include "parallel/parallel_for.hpp"
+#include "surface/displacement.hpp"
 #include "surface/grids.hpp"
 
 namespace riis {
-
-Vector<double> joints_of(const PatchSet &set, const Side &side) {
-  Vector<double> joints = set.curve_of(side).joints();
-  if (!side.reversed) return joints;
-  std::reverse(joints.begin(), joints.end());
-  for (double &joint : joints) joint = 1 - joint;
-  return joints;
-}
-
-Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to) {
-  Vector<double> made = lines;
-  if (from.empty() || from.size() != to.size()) return made;
-  std::size_t k = 0;
-  for (double &u : made) {
-    while (k < from.size() && u >= from[k]) ++k;
-    const double a = k == 0 ? 0 : from[k - 1], b = k == from.size() ? 1 : from[k];
-    const double a_now = k == 0 ? 0 : to[k - 1], b_now = k == from.size() ? 1 : to[k];
-    u = u == a ? a_now : u == 1 ? 1 : a_now + (u - a) / (b - a) * (b_now - a_now);
-  }
-  return made;
-}
-
 namespace {
 
 // A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.

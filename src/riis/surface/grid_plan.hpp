@@ -39,11 +39,6 @@ class CurveNumbering {
   std::size_t n_curves_;
 };
 
-// Returns the joints of a side in the patch's parameter.
-Vector<double> joints_of(const PatchSet &set, const Side &side);
-// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
-Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
-
 struct GridPlan {
   Vector<Vector<double>> shares;  // shares of each curve's length at its vertices; empty if only arcs end on it
   Vector<PatchPlan> patches;

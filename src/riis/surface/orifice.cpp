@@ -2,15 +2,12 @@
 #include "surface/orifice.hpp"
 
 #include <cmath>
-#include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "common/array_view.hpp"
 #include "geometry/plane_cover.hpp"
-#include "surface/boundary.hpp"
-#include "surface/side_lines.hpp"
+#include "surface/edges.hpp"
 
 namespace riis {
 namespace {
@@ -131,65 +128,12 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
           kind};
 }
 
-// Returns the open edges of each leaflet that are not on the outline of the orifice. Edges between two leaflets are open.
-std::vector<EdgePart> free_edges_of_arrays(const TriangleSet &set) {
-  std::set<std::pair<std::int64_t, std::int64_t>> on_outline;
-  for (const OpenEdge &edge : longest_boundary(set)) on_outline.emplace(edge.from, edge.to);
-  std::vector<EdgePart> parts;
-  for (const OpenEdge &edge : open_edges(set, true))
-    if (on_outline.count({edge.from, edge.to}) == 0)
-      parts.push_back({view(set.leaflet_id)[edge.triangle], set.vertex(edge.from), set.vertex(edge.to)});
-  return parts;
-}
-
 }  // namespace
-
-Vec3 ValveFrame::axis() const {
-  if (disc.rim.empty()) return placement.rotation * Vec3{0, 0, 1};
-  Vec3 area{0, 0, 0};
-  for (std::size_t i = 0; i < disc.rim.size(); ++i)
-    area = area + cross(disc.rim[i] - disc.rim[0], disc.rim[(i + 1) % disc.rim.size()] - disc.rim[0]);
-  return placement.rotation * ((1 / length(area)) * area);
-}
 
 Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits) {
   if (!frame) return measured(set, outline_of_boundary(set), RIIS_OUTLINE_BOUNDARY, -1, limits);
   const std::int32_t kind = frame->disc.radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT;
   return measured(set, outline_of(set, *frame), kind, frame->skirt, limits);
-}
-
-std::vector<EdgePart> free_edge_parts(const TriangleSet &set) {
-  if (!set.is_of_patches()) return free_edges_of_arrays(set);
-  std::vector<EdgePart> parts;
-  for (const SideLine &edge : free_edges(set))
-    for (std::size_t k = 1; k < edge.vertex_id.size(); ++k)
-      parts.push_back({edge.leaflet_id, set.vertex(edge.vertex_id[k - 1]), set.vertex(edge.vertex_id[k])});
-  return parts;
-}
-
-std::vector<riis_leaflet> leaflets_of(const TriangleSet &set) {
-  std::map<std::int32_t, riis_leaflet> found;
-  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
-    const std::int32_t id = view(set.leaflet_id)[i];
-    riis_leaflet &leaflet = found.try_emplace(id, riis_leaflet{0, 0, 0, id, 0}).first->second;
-    ++leaflet.n_triangles;
-    leaflet.area += set.area(i);
-  }
-  if (set.is_of_patches())
-    for (const SideLine &edge : free_edges(set)) found.at(edge.leaflet_id).free_edge += length_of(set, edge);
-  else
-    for (const EdgePart &part : free_edges_of_arrays(set))
-      found.at(part.leaflet_id).free_edge += distance(part.from, part.to);
-  std::vector<riis_leaflet> leaflets;
-  for (const auto &[id, leaflet] : found) leaflets.push_back(leaflet);
-  return leaflets;
-}
-
-double area_without(const std::vector<riis_leaflet> &leaflets, std::int32_t leaflet_id) {
-  double area = 0;
-  for (const riis_leaflet &leaflet : leaflets)
-    if (leaflet.leaflet_id != leaflet_id) area += leaflet.area;
-  return area;
 }
 
 }  // namespace riis

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the orifice of a valve. The orifice is the part of an outline that the triangles do not cover, seen along the axis.
-// In: the triangles, and the frame of the valve if they come from one. Out: areas and a perimeter, and the sizes of leaflets.
+// In: the triangles, and the frame of the valve if they come from one. Out: areas and a perimeter.
 #pragma once
 
 #include <riis/riis.h>
 
 #include <cstdint>
-#include <vector>
 
-#include "geometry/placement.hpp"
-#include "surface/coaptation.hpp"
-#include "surface/triangle_set.hpp"
-#include "valve/valve.hpp"
+#include "distance/surface.hpp"
 
 namespace riis {
 
@@ -21,19 +17,6 @@ namespace riis {
 // 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
-
-// The placement, the disc, the housing, the skirt and the kind of the valve that a surface was made from.
-struct ValveFrame {
-  Placement placement;
-  Valve::Disc disc;      // before placement
-  std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
-  std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
-  const ValveKind *kind;
-  bool is_warped;
-
-  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
-  Vec3 axis() const;
-};
 
 // The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the frame.
 struct Orifice {
@@ -49,14 +32,5 @@ struct OrificeLimits {
 
 // Measures the orifice. The frame is null for triangles from arrays, whose longest boundary is the outline.
 Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits);
-
-// Returns the leaflets, ascending by id.
-std::vector<riis_leaflet> leaflets_of(const TriangleSet &set);
-
-// Returns the straight parts of the leaflets' free edges.
-std::vector<EdgePart> free_edge_parts(const TriangleSet &set);
-
-// Returns the area of all leaflets except one.
-double area_without(const std::vector<riis_leaflet> &leaflets, std::int32_t leaflet_id);
 
 }  // namespace riis

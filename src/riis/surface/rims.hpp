@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "base/recycled.hpp"
-#include "surface/triangle_set.hpp"
 #include "valve/patches.hpp"
 
 namespace riis {

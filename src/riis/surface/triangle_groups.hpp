@@ -41,11 +41,6 @@ inline float filter_error(double ratio, double shift, double reach, double longe
 // `reach`, which includes the error.
 inline float filter_tolerance(double error, double reach) { return static_cast<float>(5 * error * (reach + error)); }
 
-// Groups the triangles from begin to end - 1 of a set by their position, and adds the groups to `grouping`.
-void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
-// Replaces `grouping` by groups of all triangles of a set, by their position. Reuses its memory.
-void group_all_by_place(const TriangleSet &set, Grouping &grouping);
-
 struct TriangleGroups {
   static constexpr std::int64_t groups_per_pack = 16;
 

@@ -76,6 +76,11 @@ struct TriangleSet {
   bool is_of_patches() const { return !uv.empty(); }
 };
 
+// Groups the triangles from begin to end - 1 of a set by their position, and adds the groups to `grouping`.
+void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
+// Replaces `grouping` by groups of all triangles of a set, by their position. Reuses its memory.
+void group_all_by_place(const TriangleSet &set, Grouping &grouping);
+
 // The most triangles that the library accepts. Ids of four bytes could count more, but each triangle takes a few hundred bytes.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 

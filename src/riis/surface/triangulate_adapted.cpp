@@ -4,10 +4,10 @@
 #include <numeric>
 #include <utility>
 
+#include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
 #include "surface/grids.hpp"
 #include "surface/pieces.hpp"
-#include "surface/triangle_groups.hpp"
 #include "surface/triangulate.hpp"
 
 namespace riis {

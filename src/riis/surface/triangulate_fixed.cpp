@@ -12,7 +12,6 @@
 #include "parallel/parallel_for.hpp"
 #include "surface/grids.hpp"
 #include "surface/pieces.hpp"
-#include "surface/triangle_groups.hpp"
 #include "surface/triangulate.hpp"
 
 namespace riis {

@@ -9,7 +9,6 @@
 #include "geometry/curve_points.hpp"
 #include "parallel/parallel_for.hpp"
 #include "surface/displacement.hpp"
-#include "surface/grid_plan.hpp"
 
 namespace riis {
 namespace {

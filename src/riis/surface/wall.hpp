@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/placement.hpp"
-#include "surface/side_lines.hpp"
+#include "surface/edges.hpp"
 #include "surface/triangle_scene.hpp"
 #include "surface/triangle_set.hpp"
 #include "valve/skirt.hpp"
