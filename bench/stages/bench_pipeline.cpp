@@ -6,10 +6,10 @@
 
 #include "api/handles.hpp"
 #include "geometry/polyline.hpp"
+#include "scene/triangle_scene.hpp"
 #include "shared/handles.hpp"
-#include "surface/grids.hpp"
-#include "surface/triangle_scene.hpp"
-#include "surface/triangulate.hpp"
+#include "triangulate/grids.hpp"
+#include "triangulate/triangulate.hpp"
 
 namespace {
 

@@ -36,16 +36,16 @@ copy
 mkdir "$scratch/cellar"
 refuses "src/cellar is no product"
 copy
-echo '#include "marking/mesh.hpp"' >>"$scratch/program/report.hpp"
+echo '#include "mesh/mesh.hpp"' >>"$scratch/program/report.hpp"
 refuses 'includes "marking", but src/program has only common program and the public headers'
 copy
-echo '#include "../riis/marking/mesh.hpp"' >>"$scratch/program/report.hpp"
+echo '#include "../riis/mesh/mesh.hpp"' >>"$scratch/program/report.hpp"
 refuses 'includes "..", but src/program has only common program'
 copy
 echo '#include "program/report.hpp"' >>"$scratch/riis_vtk/files.hpp"
 refuses 'includes "program", but src/riis_vtk has only common riis_vtk and the public headers'
 copy
-echo '#include "riis_vtk/files.hpp"' >>"$scratch/riis/api/handles.hpp"
+echo '#include "riis_vtk/base/files.hpp"' >>"$scratch/riis/api/handles.hpp"
 refuses "src/riis/riis_vtk is no floor"
 copy
 echo '#include "base/errors.hpp"' >>"$scratch/common/message.hpp"

@@ -9,7 +9,7 @@
 
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
-#include "marking/adjacency.hpp"
+#include "mesh/adjacency.hpp"
 
 struct edge_set {
   std::set<std::pair<std::int64_t, std::int64_t>> directed;

@@ -13,11 +13,11 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
-#include "marking/cells_across.hpp"
-#include "surface/coaptation.hpp"
-#include "surface/orifice.hpp"
-#include "surface/swept_volume.hpp"
-#include "surface/wall.hpp"
+#include "measures/cells_across.hpp"
+#include "measures/coaptation.hpp"
+#include "measures/orifice.hpp"
+#include "measures/swept_volume.hpp"
+#include "measures/wall.hpp"
 
 using riis::check_range;
 using riis::guarded;

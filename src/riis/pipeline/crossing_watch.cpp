@@ -5,7 +5,7 @@
 
 #include "base/log.hpp"
 #include "common/array_view.hpp"
-#include "surface/crossings.hpp"
+#include "measures/crossings.hpp"
 
 namespace riis {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "distance/surface.hpp"
+#include "scene/surface.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {

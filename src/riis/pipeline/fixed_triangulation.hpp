@@ -3,7 +3,7 @@
 // In: a valve, the allowed error. Out: a plan of the triangles that serves all openings.
 #pragma once
 
-#include "surface/triangulate.hpp"
+#include "triangulate/triangulate.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "arrays/user_arrays.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
-#include "distance/patch_distance.hpp"
-#include "surface/triangulate.hpp"
-#include "surface/user_arrays.hpp"
+#include "paper_distances/patch_distance.hpp"
+#include "triangulate/triangulate.hpp"
 
 namespace riis {
 namespace {

@@ -8,10 +8,10 @@
 
 #include <cstdint>
 
-#include "distance/surface.hpp"
+#include "arrays/user_arrays.hpp"
 #include "geometry/placement.hpp"
 #include "pipeline/fixed_triangulation.hpp"
-#include "surface/user_arrays.hpp"
+#include "scene/surface.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
@@ -40,7 +40,7 @@ struct ValveMotion {
   const PatchSet *patches_before = nullptr;  // the patches of that state if they are known
 };
 
-// A direction in which a valve changes, by two near states (surface/vertex_rates.hpp).
+// A direction in which a valve changes, by two near states (motion/vertex_rates.hpp).
 struct ValveDirection {
   const Valve &after, &before;
   Placement placement_after, placement_before;

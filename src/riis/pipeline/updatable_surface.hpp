@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
+#include "arrays/keyframes.hpp"
 #include "pipeline/crossing_watch.hpp"
 #include "pipeline/fixed_triangulation.hpp"
 #include "pipeline/make_surface.hpp"
-#include "surface/keyframes.hpp"
 
 namespace riis {
 
