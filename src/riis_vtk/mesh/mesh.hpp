@@ -75,4 +75,7 @@ VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double l
 // cells. At most 20,000 cells are used, at equal distances in the list.
 double median_edge_of(vtkUnstructuredGrid *grid);
 
+// Writes the arrays of cells as fields of a case of OpenFOAM, into the folder of a time (foam_fields.cpp).
+void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh);
+
 }  // namespace riis::vtk

@@ -14,8 +14,6 @@
 
 #include "riis_vtk/base/files.hpp"
 
-struct riis_vtk_mesh;
-
 namespace riis::vtk {
 
 // The field array that a grid has if its file holds single precision. riis_vtk_mesh_get_notes reads it.
@@ -30,10 +28,8 @@ bool is_openfoam(const std::string &path);
 vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path);
 std::string foam_case_of(const std::string &path);
 
-// Whether the path is a folder of a time in a case of OpenFOAM, which may be missing. Writes the arrays of cells as its fields
-// (foam_fields.cpp).
+// Whether the path is a folder of a time in a case of OpenFOAM, which may be missing.
 bool is_foam_time(const std::string &path);
-void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh);
 
 // XDMF with its data in the file itself or in HDF5 files (xdmf.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_xdmf(const std::string &path);
