@@ -22,7 +22,7 @@
 #include "paper_distances/sample_set.hpp"
 #include "parallel/parallel_for.hpp"
 #include "scene/triangle_scene.hpp"
-#include "seal/crossing.hpp"
+#include "seal/segment_triangle.hpp"
 #include "triangulate/grids.hpp"
 #include "triangulate/triangulate.hpp"
 #include "valve/patches.hpp"
@@ -58,10 +58,10 @@ T *room(std::size_t n) {
 }
 
 // Makes a curve of n cubics, 12 numbers each.
-Curve chain(std::int64_t n_pieces, const double *control) {
-  Vector<Bezier> pieces;
-  for (std::int64_t i = 0; i < n_pieces; ++i) pieces.push_back(curve(3, control + 12 * i));
-  return Curve(std::move(pieces));
+Curve chain(std::int64_t n_spans, const double *control) {
+  Vector<Bezier> spans;
+  for (std::int64_t i = 0; i < n_spans; ++i) spans.push_back(curve(3, control + 12 * i));
+  return Curve(std::move(spans));
 }
 
 void give(const Flattened &made, int64_t *n_points, double **points, double **t, double **errors) {
@@ -111,26 +111,26 @@ riis_status bezier_flatten(int degree, const double *control, double max_error, 
   return guarded([&] { give(flatten(curve(degree, control), max_error), n_points, points, t, errors); });
 }
 
-riis_status chain_flatten(int64_t n_pieces, const double *control, double max_error, int64_t *n_points, double **points,
+riis_status chain_flatten(int64_t n_spans, const double *control, double max_error, int64_t *n_points, double **points,
                           double **t, double **errors) {
-  return guarded([&] { give(flatten(chain(n_pieces, control), max_error), n_points, points, t, errors); });
+  return guarded([&] { give(flatten(chain(n_spans, control), max_error), n_points, points, t, errors); });
 }
 
-double chain_length(int64_t n_pieces, const double *control) { return chain(n_pieces, control).length(); }
+double chain_length(int64_t n_spans, const double *control) { return chain(n_spans, control).length(); }
 
-void chain_at(int64_t n_pieces, const double *control, double share, double *point, double *tangent) {
-  const Curve::Frame frame = chain(n_pieces, control).frame(share);
-  put(frame.point, point);
-  put(frame.tangent, tangent);
+void chain_at(int64_t n_spans, const double *control, double share, double *point, double *tangent) {
+  const Curve::PointAndTangent there = chain(n_spans, control).with_tangent(share);
+  put(there.point, point);
+  put(there.tangent, tangent);
 }
 
-int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
+int64_t chain_between(int64_t n_spans, const double *control, double share0, double share1, int reversed,
                       double *part) {
-  const Curve whole = chain(n_pieces, control), between = whole.between(share0, share1);
+  const Curve whole = chain(n_spans, control), between = whole.between(share0, share1);
   const Curve made = reversed ? between.reversed() : between;
-  for (std::size_t i = 0; i < made.pieces().size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) put(made.pieces()[i].control[k], part + 12 * i + 3 * k);
-  return static_cast<int64_t>(made.pieces().size());
+  for (std::size_t i = 0; i < made.spans().size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) put(made.spans()[i].control[k], part + 12 * i + 3 * k);
+  return static_cast<int64_t>(made.spans().size());
 }
 
 void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
@@ -221,7 +221,7 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
             room<int64_t>(n_images),        room<int32_t>(n_images),         room<int32_t>(n_images),
             room<int32_t>(n_images),        room<double>(12 * n_images)};
     for (std::size_t i = 0; i < n_curves; ++i) {
-      const Bezier &only = made.curves[i].pieces().front();
+      const Bezier &only = made.curves[i].spans().front();
       set->degree[i] = only.degree;
       for (std::size_t k = 0; k < 4; ++k) put(only.control[k], set->control + 12 * i + 3 * k);
     }

@@ -11,17 +11,17 @@
 namespace riis {
 
 // All numbers within `radius` of `middle`.
-struct Span {
+struct Interval {
   double middle, radius;
 
-  static Span between(double low, double high) { return {0.5 * (low + high), 0.5 * (high - low)}; }
+  static Interval between(double low, double high) { return {0.5 * (low + high), 0.5 * (high - low)}; }
   double magnitude() const { return std::abs(middle) + radius; }
 };
 
-inline Span operator+(Span a, Span b) { return {a.middle + b.middle, a.radius + b.radius}; }
-inline Span operator-(Span a, Span b) { return {a.middle - b.middle, a.radius + b.radius}; }
-inline Span operator*(double a, Span b) { return {a * b.middle, std::abs(a) * b.radius}; }
-inline Span operator*(Span a, Span b) {
+inline Interval operator+(Interval a, Interval b) { return {a.middle + b.middle, a.radius + b.radius}; }
+inline Interval operator-(Interval a, Interval b) { return {a.middle - b.middle, a.radius + b.radius}; }
+inline Interval operator*(double a, Interval b) { return {a * b.middle, std::abs(a) * b.radius}; }
+inline Interval operator*(Interval a, Interval b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.magnitude()};
 }
 
@@ -37,22 +37,22 @@ struct Ball {
 inline Ball operator+(const Ball &a, const Ball &b) { return {a.middle + b.middle, a.radius + b.radius}; }
 inline Ball operator-(const Ball &a, const Ball &b) { return {a.middle - b.middle, a.radius + b.radius}; }
 inline Ball operator*(double a, const Ball &b) { return {a * b.middle, std::abs(a) * b.radius}; }
-inline Ball operator*(Span a, const Ball &b) {
+inline Ball operator*(Interval a, const Ball &b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.largest_length()};
 }
 // The radius of a product of two vectors, of either kind.
 inline double radius_of_product(const Ball &a, const Ball &b) {
   return length(a.middle) * b.radius + a.radius * b.largest_length();
 }
-inline Span dot(const Ball &a, const Ball &b) { return {dot(a.middle, b.middle), radius_of_product(a, b)}; }
+inline Interval dot(const Ball &a, const Ball &b) { return {dot(a.middle, b.middle), radius_of_product(a, b)}; }
 inline Ball cross(const Ball &a, const Ball &b) { return {cross(a.middle, b.middle), radius_of_product(a, b)}; }
-inline Span square(const Ball &a) {
+inline Interval square(const Ball &a) {
   const double least = std::max(a.least_length(), 0.0), largest = a.largest_length();
-  return Span::between(least * least, largest * largest);
+  return Interval::between(least * least, largest * largest);
 }
 
 // Inverts positive numbers.
-inline Span inverse(double least, double largest) { return Span::between(1 / largest, 1 / least); }
+inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
 
 // Returns a's part across unit vectors. The projections across two unit vectors differ by the sine of the angle between them,
 // which is at most the distance between the unit vectors.

@@ -31,7 +31,7 @@ class Flattening {
     flattened_.t.push_back(0);
   }
 
-  // Adds a part of one piece. The part goes from share t0 to t1 of the whole curve.
+  // Adds a part of one span. The part goes from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
     const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
@@ -45,16 +45,16 @@ class Flattening {
     add(right, 0.5 * part_length, middle, t1, depth + 1);
   }
 
-  // Adds a part of one or several pieces. The part goes from share t0 to t1 of the whole curve.
+  // Adds a part of one or several spans. The part goes from share t0 to t1 of the whole curve.
   void add(const Curve &part, double t0, double t1, int depth) {
-    const Vector<Bezier> &pieces = part.pieces();
-    if (pieces.size() == 1) {
-      add(pieces.front(), part.length(), t0, t1, depth);
+    const Vector<Bezier> &spans = part.spans();
+    if (spans.size() == 1) {
+      add(spans.front(), part.length(), t0, t1, depth);
       return;
     }
     const auto curvature = [&] {
       double largest = 0;
-      for (const Bezier &piece : pieces) largest = std::max(largest, largest_curvature(piece));
+      for (const Bezier &span : spans) largest = std::max(largest, largest_curvature(span));
       return largest;
     };
     if (accept(part.last(), distance_to_chord(part), part.length(), curvature, t1)) return;
@@ -91,9 +91,9 @@ class Flattening {
   // A Bézier curve lies no farther from a segment than the farthest of the curve's control points.
   static double distance_to_chord(const Curve &part) {
     double largest = 0;
-    for (const Bezier &piece : part.pieces())
-      for (int i = 0; i <= piece.degree; ++i)
-        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), view(piece.control)[i], part.last())));
+    for (const Bezier &span : part.spans())
+      for (int i = 0; i <= span.degree; ++i)
+        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), view(span.control)[i], part.last())));
     return largest;
   }
 
@@ -105,11 +105,11 @@ class Flattening {
 
 }  // namespace
 
-Curve::Curve(const Bezier &piece) : pieces_{piece}, ends_{arc_length(piece)} {}
+Curve::Curve(const Bezier &span) : spans_{span}, ends_{arc_length(span)} {}
 
-Curve::Curve(Vector<Bezier> pieces) : pieces_(std::move(pieces)) {
+Curve::Curve(Vector<Bezier> spans) : spans_(std::move(spans)) {
   double end = 0;
-  for (const Bezier &piece : pieces_) ends_.push_back(end += arc_length(piece));
+  for (const Bezier &span : spans_) ends_.push_back(end += arc_length(span));
 }
 
 Vector<double> Curve::joints() const {
@@ -118,80 +118,80 @@ Vector<double> Curve::joints() const {
   return shares;
 }
 
-PointOnPiece Curve::on_piece(double share) const {
-  if (share >= 1 || !(length() > 0)) return {pieces_.size() - 1, 1};
+PointOnSpan Curve::on_span(double share) const {
+  if (share >= 1 || !(length() > 0)) return {spans_.size() - 1, 1};
   const double behind = std::max(share, 0.0) * length();
-  // A point at a joint belongs to the later piece, also if rounding puts it slightly before the joint.
-  std::size_t piece = 0;
-  while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible_share * length()) ++piece;
-  const double start = piece == 0 ? 0 : ends_[piece - 1];
-  if (behind <= start + negligible_share * length()) return {piece, 0};
-  return {piece, parameter_at_length(pieces_[piece], length(piece), behind - start)};
+  // A point at a joint belongs to the later span, also if rounding puts it slightly before the joint.
+  std::size_t span = 0;
+  while (span + 1 < spans_.size() && behind >= ends_[span] - negligible_share * length()) ++span;
+  const double start = span == 0 ? 0 : ends_[span - 1];
+  if (behind <= start + negligible_share * length()) return {span, 0};
+  return {span, parameter_at_length(spans_[span], length(span), behind - start)};
 }
 
-std::array<PointOnPiece, 7> Curve::divide(const Place &from, const Place &to) const {
-  std::array<PointOnPiece, 7> points;
+std::array<PointOnSpan, 7> Curve::divide(const Place &from, const Place &to) const {
+  std::array<PointOnSpan, 7> points;
   std::array<double, 7> t;
-  const std::size_t piece = from.where.piece;
-  const double part = to.share - from.share, end = to.where.piece == piece ? to.where.t : 1;
-  const bool is_one_piece = to.where.piece == piece || (to.where.piece == piece + 1 && to.where.t == 0);
-  if (is_one_piece && divide_part(pieces_[piece], length(), from.where.t, end, part * length(), t))
-    for (std::size_t k = 0; k < 7; ++k) view(points)[k] = {piece, view(t)[k]};
+  const std::size_t span = from.where.span;
+  const double part = to.share - from.share, end = to.where.span == span ? to.where.t : 1;
+  const bool is_one_span = to.where.span == span || (to.where.span == span + 1 && to.where.t == 0);
+  if (is_one_span && divide_part(spans_[span], length(), from.where.t, end, part * length(), t))
+    for (std::size_t k = 0; k < 7; ++k) view(points)[k] = {span, view(t)[k]};
   else
     for (std::size_t k = 0; k < 7; ++k)
-      view(points)[k] = on_piece(from.share + 0.125 * static_cast<double>(k + 1) * part);
+      view(points)[k] = on_span(from.share + 0.125 * static_cast<double>(k + 1) * part);
   return points;
 }
 
-Curve::Frame Curve::frame(const PointOnPiece &where) const {
-  const Bezier &piece = pieces_[where.piece];
-  const Vec3 along = derivative(piece, where.t);
+Curve::PointAndTangent Curve::with_tangent(const PointOnSpan &where) const {
+  const Bezier &span = spans_[where.span];
+  const Vec3 along = derivative(span, where.t);
   const double speed = riis::length(along);
-  return {evaluate(piece, where.t), speed > 0 ? (1.0 / speed) * along : Vec3{0, 0, 0}};
+  return {evaluate(span, where.t), speed > 0 ? (1.0 / speed) * along : Vec3{0, 0, 0}};
 }
 
-Bezier Curve::piece_beside(double share, bool after) const {
-  const PointOnPiece where = on_piece(share);
-  const Bezier &piece = pieces_[where.piece];
-  if (after) return where.t > 0 ? split(piece, where.t).second : piece;
-  if (where.t == 0 && where.piece > 0) return pieces_[where.piece - 1];
-  return where.t < 1 ? split(piece, where.t).first : piece;
+Bezier Curve::span_beside(double share, bool after) const {
+  const PointOnSpan where = on_span(share);
+  const Bezier &span = spans_[where.span];
+  if (after) return where.t > 0 ? split(span, where.t).second : span;
+  if (where.t == 0 && where.span > 0) return spans_[where.span - 1];
+  return where.t < 1 ? split(span, where.t).first : span;
 }
 
-Vector<Bezier> Curve::pieces_between(const PointOnPiece &from, const PointOnPiece &to) const {
+Vector<Bezier> Curve::spans_between(const PointOnSpan &from, const PointOnSpan &to) const {
   Vector<Bezier> part;
-  for (std::size_t i = from.piece; i <= to.piece; ++i) {
-    if (i == to.piece && to.t == 0 && i > from.piece) break;
-    Bezier piece = pieces_[i];
-    if (i == to.piece && to.t < 1) piece = split(piece, to.t).first;
-    if (i == from.piece && from.t > 0) piece = split(piece, i == to.piece ? from.t / to.t : from.t).second;
-    part.push_back(piece);
+  for (std::size_t i = from.span; i <= to.span; ++i) {
+    if (i == to.span && to.t == 0 && i > from.span) break;
+    Bezier span = spans_[i];
+    if (i == to.span && to.t < 1) span = split(span, to.t).first;
+    if (i == from.span && from.t > 0) span = split(span, i == to.span ? from.t / to.t : from.t).second;
+    part.push_back(span);
   }
   return part;
 }
 
 Curve Curve::reversed() const {
-  Vector<Bezier> pieces = pieces_;
-  reverse(pieces);
-  return Curve(std::move(pieces));
+  Vector<Bezier> spans = spans_;
+  reverse(spans);
+  return Curve(std::move(spans));
 }
 
 Curve Curve::through(Vec3 first, Vec3 last) const {
   Curve moved = *this;
-  moved.pieces_.front().control[0] = first;
-  Bezier &last_piece = moved.pieces_.back();
-  view(last_piece.control)[last_piece.degree] = last;
+  moved.spans_.front().control[0] = first;
+  Bezier &last_span = moved.spans_.back();
+  view(last_span.control)[last_span.degree] = last;
   return moved;
 }
 
-void reverse(Vector<Bezier> &pieces) {
-  std::reverse(pieces.begin(), pieces.end());
-  for (Bezier &piece : pieces) piece = piece.reversed();
+void reverse(Vector<Bezier> &spans) {
+  std::reverse(spans.begin(), spans.end());
+  for (Bezier &span : spans) span = span.reversed();
 }
 
 bool are_equal(const Curve &a, const Curve &b) {
   return std::equal(
-      a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(), [](const Bezier &p, const Bezier &q) {
+      a.spans().begin(), a.spans().end(), b.spans().begin(), b.spans().end(), [](const Bezier &p, const Bezier &q) {
         const auto n = static_cast<std::ptrdiff_t>(p.degree) + 1;
         return p.degree == q.degree && std::equal(p.control.begin(), p.control.begin() + n, q.control.begin());
       });

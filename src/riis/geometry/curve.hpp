@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of one or several Bézier pieces, parametrised by the share of the length.
-// In: Bézier pieces. Out: points and parts of the curve by share, and polylines that approximate the curve.
+// Curves of one or several Bézier spans, parametrised by the share of the length.
+// In: Bézier spans. Out: points and parts of the curve by share, and polylines that approximate the curve.
 #pragma once
 
 #include <array>
@@ -14,56 +14,54 @@ namespace riis {
 // A share of a curve's length that is negligible.
 inline constexpr double negligible_share = 1e-14;
 
-// A point of a curve: the index of its piece, and the parameter on that piece.
-struct PointOnPiece {
-  std::size_t piece;
+// A point of a curve: the index of its span, and the parameter on that span.
+struct PointOnSpan {
+  std::size_t span;
   double t;
 };
 
-// Every piece but the first begins where the previous piece ends, and in the same direction. So the curve's curvature may jump
+// Every span but the first begins where the previous span ends, and in the same direction. So the curve's curvature may jump
 // there, but its direction does not. (A curve with corners is several curves, and its patch is several patches.)
 class Curve {
  public:
-  Curve(const Bezier &piece);  // NOLINT(google-explicit-constructor): a single piece is a curve
-  explicit Curve(Vector<Bezier> pieces);
+  Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve
+  explicit Curve(Vector<Bezier> spans);
 
-  const Vector<Bezier> &pieces() const { return pieces_; }
+  const Vector<Bezier> &spans() const { return spans_; }
   double length() const { return ends_.back(); }
-  double length(std::size_t piece) const { return piece == 0 ? ends_[0] : ends_[piece] - ends_[piece - 1]; }
-  Vec3 first() const { return pieces_.front().first(); }
-  Vec3 last() const { return pieces_.back().last(); }
+  double length(std::size_t span) const { return span == 0 ? ends_[0] : ends_[span] - ends_[span - 1]; }
+  Vec3 first() const { return spans_.front().first(); }
+  Vec3 last() const { return spans_.back().last(); }
 
-  // Returns the shares of the length at which one piece ends and the next begins, in ascending order.
+  // Returns the shares of the length at which one span ends and the next begins, in ascending order.
   Vector<double> joints() const;
 
   // The point at a share of the length, and the unit tangent there. The tangent is 0 if the curve has no direction.
-  struct Frame {
+  struct PointAndTangent {
     Vec3 point, tangent;
   };
-  Frame frame(double share) const { return frame(on_piece(share)); }
-  Frame frame(const PointOnPiece &where) const;
-  Vec3 at(double share) const { return at(on_piece(share)); }
-  Vec3 at(const PointOnPiece &where) const { return evaluate(pieces_[where.piece], where.t); }
+  PointAndTangent with_tangent(double share) const { return with_tangent(on_span(share)); }
+  PointAndTangent with_tangent(const PointOnSpan &where) const;
+  Vec3 at(double share) const { return at(on_span(share)); }
+  Vec3 at(const PointOnSpan &where) const { return evaluate(spans_[where.span], where.t); }
 
   // Finds the point at a share of the length, by Newton's method.
-  PointOnPiece on_piece(double share) const;
+  PointOnSpan on_span(double share) const;
   // Returns the points that divide the part between two shares, from.share < to.share, into eight parts of equal length.
   struct Place {
     double share;
-    PointOnPiece where;
+    PointOnSpan where;
   };
-  std::array<PointOnPiece, 7> divide(const Place &from, const Place &to) const;
+  std::array<PointOnSpan, 7> divide(const Place &from, const Place &to) const;
 
-  // Returns a part of one piece. If `after` is true, the part begins at this share of the length and ends with the piece.
-  // Otherwise it begins with the piece and ends at this share.
-  Bezier piece_beside(double share, bool after) const;
+  // Returns a part of one span. If `after` is true, the part begins at this share of the length and ends with the span.
+  // Otherwise it begins with the span and ends at this share.
+  Bezier span_beside(double share, bool after) const;
 
   // Returns the part from share0 to share1, share0 < share1.
-  Curve between(double share0, double share1) const {
-    return Curve(pieces_between(on_piece(share0), on_piece(share1)));
-  }
-  // Returns the pieces of the part from one point to a later point.
-  Vector<Bezier> pieces_between(const PointOnPiece &from, const PointOnPiece &to) const;
+  Curve between(double share0, double share1) const { return Curve(spans_between(on_span(share0), on_span(share1))); }
+  // Returns the spans of the part from one point to a later point.
+  Vector<Bezier> spans_between(const PointOnSpan &from, const PointOnSpan &to) const;
 
   Curve reversed() const;
 
@@ -71,12 +69,12 @@ class Curve {
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
-  Vector<Bezier> pieces_;
-  Vector<double> ends_;  // the length from the start of the curve to the end of each piece
+  Vector<Bezier> spans_;
+  Vector<double> ends_;  // the length from the start of the curve to the end of each span
 };
 
-// Turns the direction of successive pieces.
-void reverse(Vector<Bezier> &pieces);
+// Turns the direction of successive spans.
+void reverse(Vector<Bezier> &spans);
 
 // Returns whether both curves have exactly the same control points.
 bool are_equal(const Curve &a, const Curve &b);
@@ -108,7 +106,7 @@ struct Flattened {
 };
 
 // Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
-// chord. A Bézier piece is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and its
+// chord. A Bézier span is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and its
 // chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its velocity is
 // estimated to differ from linear by more than max_bend. Parts are halved by length, whereas the paper (algorithm "Recursive de
 // Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at least a

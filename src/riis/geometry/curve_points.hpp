@@ -18,13 +18,13 @@ class CurvePoints {
 
   std::size_t size() const { return points_.size(); }
   Vec3 point(std::size_t i) const;
-  // piece() returns the piece that point i lies on, and parameter() returns the parameter on that piece.
-  std::size_t piece(std::size_t i) const { return on_piece(i).piece; }
-  double parameter(std::size_t i) const { return on_piece(i).t; }
+  // span() returns the span that point i lies on, and parameter() returns the parameter on that span.
+  std::size_t span(std::size_t i) const { return on_span(i).span; }
+  double parameter(std::size_t i) const { return on_span(i).t; }
   // Returns the unit tangent, or 0 if the curve has no direction there.
   Vec3 tangent(std::size_t i) const;
 
-  // Returns the pieces of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
+  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
   // next call.
   const Vector<Bezier> &between(std::size_t i, std::size_t j);
 
@@ -33,12 +33,12 @@ class CurvePoints {
   double chord_error(std::size_t i, std::size_t j, double enough);
 
  private:
-  const PointOnPiece &on_piece(std::size_t i) const { return points_[is_reversed_ ? points_.size() - 1 - i : i]; }
+  const PointOnSpan &on_span(std::size_t i) const { return points_[is_reversed_ ? points_.size() - 1 - i : i]; }
 
   const Curve &curve_;
   bool is_reversed_;
   const Vector<double> &shares_;
-  Vector<PointOnPiece> points_;  // in the order along the curve
+  Vector<PointOnSpan> points_;  // in the order along the curve
   Vector<Bezier> parts_;
 };
 

@@ -40,7 +40,7 @@ Polyline make_polyline(const Curve &curve, double max_error) { return polyline_o
 
 Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend) {
   if (!(curve.length() > 0)) return make_polyline(curve, max_error);
-  const VelocityBend bend(curve.pieces().front(), curve.length(), velocity);
+  const VelocityBend bend(curve.spans().front(), curve.length(), velocity);
   return polyline_of(flatten(curve, max_error, &bend, max_bend), curve);
 }
 

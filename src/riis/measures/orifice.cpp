@@ -17,12 +17,12 @@ class AlongAxis {
  public:
   // The axis of a placed valve. The projection undoes the rotation and the translation, keeps the scale, and drops z. A warped
   // disc is seen along its normal.
-  explicit AlongAxis(const ValveFrame &frame)
-      : x_axis_(frame.placement.rotation * Vec3{1, 0, 0}),
-        y_axis_(frame.placement.rotation * Vec3{0, 1, 0}),
-        axis_(frame.axis()),
-        origin_(frame.placement.translation) {
-    if (frame.disc.rim.empty()) return;
+  explicit AlongAxis(const SourceValve &source)
+      : x_axis_(source.placement.rotation * Vec3{1, 0, 0}),
+        y_axis_(source.placement.rotation * Vec3{0, 1, 0}),
+        axis_(source.axis()),
+        origin_(source.placement.translation) {
+    if (source.disc.rim.empty()) return;
     // Of the x and y axes, takes the one that is nearer to a right angle with the axis of view. It gives the better direction
     // across.
     const Vec3 across = cross(axis_, std::abs(dot(x_axis_, axis_)) < std::abs(dot(y_axis_, axis_)) ? x_axis_ : y_axis_);
@@ -58,14 +58,14 @@ struct SeenOutline {
   std::optional<Outline> outline;
 };
 
-SeenOutline outline_of(const TriangleSet &set, const ValveFrame &frame) {
-  const AlongAxis seen(frame);
-  const Valve::Disc &disc = frame.disc;
-  const double scale = frame.placement.scale;
+SeenOutline outline_of(const TriangleSet &set, const SourceValve &source) {
+  const AlongAxis seen(source);
+  const Valve::Disc &disc = source.disc;
+  const double scale = source.placement.scale;
   std::vector<std::vector<PlanePoint>> lines;
   if (!disc.rim.empty()) {
     lines.emplace_back();
-    for (const Vec3 &p : disc.rim) lines.back().push_back(seen(place(frame.placement, p)));
+    for (const Vec3 &p : disc.rim) lines.back().push_back(seen(place(source.placement, p)));
     lines.back().push_back(lines.back().front());
     return {seen, closed_outline(lines, seen.rounding())};
   }
@@ -130,10 +130,10 @@ Orifice measured(const TriangleSet &set, const SeenOutline &from, std::int32_t k
 
 }  // namespace
 
-Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits) {
-  if (!frame) return measured(set, outline_of_boundary(set), RIIS_OUTLINE_BOUNDARY, -1, limits);
-  const std::int32_t kind = frame->disc.radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT;
-  return measured(set, outline_of(set, *frame), kind, frame->skirt, limits);
+Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits) {
+  if (!source) return measured(set, outline_of_boundary(set), RIIS_OUTLINE_BOUNDARY, -1, limits);
+  const std::int32_t kind = source->disc.radius > 0 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT;
+  return measured(set, outline_of(set, *source), kind, source->skirt, limits);
 }
 
 }  // namespace riis

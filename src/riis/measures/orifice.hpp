@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures the orifice of a valve. The orifice is the part of an outline that the triangles do not cover, seen along the axis.
-// In: the triangles, and the frame of the valve if they come from one. Out: areas and a perimeter.
+// In: the triangles, and the valve if they come from one. Out: areas and a perimeter.
 #pragma once
 
 #include <riis/riis.h>
@@ -18,7 +18,7 @@ namespace riis {
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
-// The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the frame.
+// The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the valve.
 struct Orifice {
   double area, outline_area, perimeter, effective_area;
   Vec3 axis;             // of length 1, or 0 without an axis
@@ -30,7 +30,7 @@ struct OrificeLimits {
   double slit;   // how far the perimeter's edge is moved inwards
 };
 
-// Measures the orifice. The frame is null for triangles from arrays, whose longest boundary is the outline.
-Orifice measure_orifice(const TriangleSet &set, const ValveFrame *frame, const OrificeLimits &limits);
+// Measures the orifice. `source` is null for triangles from arrays, whose longest boundary is the outline.
+Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
 
 }  // namespace riis

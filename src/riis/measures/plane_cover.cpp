@@ -13,13 +13,13 @@
 namespace riis {
 namespace {
 
-// One end of a span on a line. An edge passes through this end, and `along` is the edge's length between two lines with spacing
-// 1. The length is 0 if lines in the other direction measure the edge.
+// One end of an interval on a line. An edge passes through this end, and `along` is the edge's length between two lines with
+// spacing 1. The length is 0 if lines in the other direction measure the edge.
 struct End {
   double x, along;
 };
 
-struct Span {
+struct Interval {
   End begin, end;
 };
 
@@ -64,52 +64,51 @@ double length_along(double dx, double dy, bool counts_equal) {
 // Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The x does not depend on the
 // order of a and b, so two triangles with a common edge leave no gap.
 template <class Visit>
-void for_each_crossing(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
+void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
   const std::int64_t end = lines.first_from(b[1]);
   for (std::int64_t i = lines.first_from(a[1]); i < end; ++i) visit(i, x_at(a, b, lines.y(i)));
 }
 
-using SpansOfLines = std::vector<std::vector<Span>>;
+using IntervalsOfLines = std::vector<std::vector<Interval>>;
 
-SpansOfLines circle_spans(const Outline &circle, const ScanLines &lines) {
-  SpansOfLines spans(static_cast<std::size_t>(lines.n()));
+IntervalsOfLines circle_spans(const Outline &circle, const ScanLines &lines) {
+  IntervalsOfLines intervals(static_cast<std::size_t>(lines.n()));
   for (std::int64_t i = 0; i < lines.n(); ++i) {
     const double y = lines.y(i) - circle.centre[1];
     const double half = std::sqrt(std::max(0.0, (circle.radius - y) * (circle.radius + y)));
-    view(spans)[i].push_back({{circle.centre[0] - half, 0}, {circle.centre[0] + half, 0}});
+    view(intervals)[i].push_back({{circle.centre[0] - half, 0}, {circle.centre[0] + half, 0}});
   }
-  return spans;
+  return intervals;
 }
 
-SpansOfLines inside(const Outline &outline, const ScanLines &lines) {
+IntervalsOfLines inside(const Outline &outline, const ScanLines &lines) {
   if (outline.radius > 0) return circle_spans(outline, lines);
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(lines.n()));
+  std::vector<std::vector<double>> cuts(static_cast<std::size_t>(lines.n()));
   for (const auto &[a, b] : outline.edges)
-    for_each_crossing(lines, a, b, [&](std::int64_t i, double x) { view(crossings)[i].push_back(x); });
-  SpansOfLines spans(crossings.size());
-  for (std::size_t i = 0; i < crossings.size(); ++i) {
-    std::sort(crossings[i].begin(), crossings[i].end());
-    for (std::size_t k = 1; k < crossings[i].size(); k += 2)
-      spans[i].push_back({{crossings[i][k - 1], 0}, {crossings[i][k], 0}});
+    for_each_cut(lines, a, b, [&](std::int64_t i, double x) { view(cuts)[i].push_back(x); });
+  IntervalsOfLines intervals(cuts.size());
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    std::sort(cuts[i].begin(), cuts[i].end());
+    for (std::size_t k = 1; k < cuts[i].size(); k += 2) intervals[i].push_back({{cuts[i][k - 1], 0}, {cuts[i][k], 0}});
   }
-  return spans;
+  return intervals;
 }
 
-// Collects the spans of convex shapes on the lines. A convex shape meets a line in at most one span.
+// Collects the intervals of convex shapes on the lines. A convex shape meets a line in at most one interval.
 class Covered {
  public:
   Covered(const ScanLines &lines, bool counts_equal)
-      : spans(static_cast<std::size_t>(lines.n())),
+      : intervals(static_cast<std::size_t>(lines.n())),
         lines_(lines),
         counts_equal_(counts_equal),
-        of_shape_(spans.size(), -1) {}
+        of_shape_(intervals.size(), -1) {}
 
   void begin_shape() { ++shape_; }
 
   void add_edge(const PlanePoint &a, const PlanePoint &b) {
     const double along = length_along(b[0] - a[0], b[1] - a[1], counts_equal_);
-    for_each_crossing(lines_, a, b, [&](std::int64_t i, double x) { widen(i, {x, along}); });
+    for_each_cut(lines_, a, b, [&](std::int64_t i, double x) { widen(i, {x, along}); });
   }
 
   void add_disc(const PlanePoint &centre, double radius) {
@@ -124,18 +123,18 @@ class Covered {
     }
   }
 
-  SpansOfLines spans;
+  IntervalsOfLines intervals;
 
  private:
   void widen(std::int64_t i, const End &at) {
     if (view(of_shape_)[i] != shape_) {
       view(of_shape_)[i] = shape_;
-      view(spans)[i].push_back({at, at});
+      view(intervals)[i].push_back({at, at});
       return;
     }
-    Span &span = view(spans)[i].back();
-    if (at.x < span.begin.x) span.begin = at;
-    if (at.x > span.end.x) span.end = at;
+    Interval &interval = view(intervals)[i].back();
+    if (at.x < interval.begin.x) interval.begin = at;
+    if (at.x > interval.end.x) interval.end = at;
   }
 
   const ScanLines &lines_;
@@ -144,15 +143,14 @@ class Covered {
   std::int64_t shape_ = -1;
 };
 
-// Returns the spans within `reach` of the triangles. These spans have the points that lie in a triangle or within `reach` of the
-// rim.
-SpansOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
+// Returns the intervals within `reach` of the triangles. Their points lie in a triangle or within `reach` of the rim.
+IntervalsOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
   Covered made(lines, counts_equal);
   for (const PlaneTriangle &corner : cover.triangles) {
     made.begin_shape();
     for (std::size_t k = 0; k < 3; ++k) made.add_edge(corner[k], corner[(k + 1) % 3]);
   }
-  if (!(reach > 0)) return std::move(made.spans);
+  if (!(reach > 0)) return std::move(made.intervals);
   for (const auto &[a, b] : cover.rim) {
     const double dx = b[0] - a[0], dy = b[1] - a[1], size = std::hypot(dx, dy);
     made.begin_shape();
@@ -164,12 +162,12 @@ SpansOfLines covered(const Cover &cover, double reach, const ScanLines &lines, b
       made.add_edge({a[0] + x, a[1] + y}, {b[0] + x, b[1] + y});
     }
   }
-  return std::move(made.spans);
+  return std::move(made.intervals);
 }
 
-double total(const std::vector<Span> &spans) {
+double total(const std::vector<Interval> &intervals) {
   double sum = 0;
-  for (const Span &span : spans) sum += span.end.x - span.begin.x;
+  for (const Interval &interval : intervals) sum += interval.end.x - interval.begin.x;
   return sum;
 }
 
@@ -177,22 +175,22 @@ struct Uncovered {
   double length = 0, edge = 0;
 };
 
-// Measures the part of disjoint spans that no cover contains. Also measures the edges of the covers at the ends of this part.
-Uncovered without(const std::vector<Span> &spans, std::vector<Span> covers) {
-  std::sort(covers.begin(), covers.end(), [](const Span &a, const Span &b) { return a.begin.x < b.begin.x; });
+// Measures the part of disjoint intervals that no cover contains. Also measures the edges of the covers at the ends of this part.
+Uncovered without(const std::vector<Interval> &intervals, std::vector<Interval> covers) {
+  std::sort(covers.begin(), covers.end(), [](const Interval &a, const Interval &b) { return a.begin.x < b.begin.x; });
   Uncovered made;
-  for (const Span &span : spans) {
-    End at{span.begin.x, 0};
-    for (const Span &cover : covers) {
-      if (cover.begin.x >= span.end.x) break;
+  for (const Interval &interval : intervals) {
+    End at{interval.begin.x, 0};
+    for (const Interval &cover : covers) {
+      if (cover.begin.x >= interval.end.x) break;
       if (cover.begin.x > at.x) {
         made.length += cover.begin.x - at.x;
         made.edge += at.along + cover.begin.along;
       }
       if (cover.end.x > at.x) at = cover.end;
     }
-    if (at.x < span.end.x) {
-      made.length += span.end.x - at.x;
+    if (at.x < interval.end.x) {
+      made.length += interval.end.x - at.x;
       made.edge += at.along;
     }
   }
@@ -201,8 +199,8 @@ Uncovered without(const std::vector<Span> &spans, std::vector<Span> covers) {
 
 Uncovered uncovered(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines, bool counts_equal) {
   const ScanLines lines(outline, n_lines);
-  const SpansOfLines insides = inside(outline, lines);
-  SpansOfLines covers = covered(cover, reach, lines, counts_equal);
+  const IntervalsOfLines insides = inside(outline, lines);
+  IntervalsOfLines covers = covered(cover, reach, lines, counts_equal);
   Uncovered sum;
   for (std::size_t i = 0; i < insides.size(); ++i) {
     const Uncovered of_line = without(insides[i], std::move(covers[i]));
@@ -296,7 +294,7 @@ Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::i
 double area_of(const Outline &outline, std::int64_t n_lines) {
   const ScanLines lines(outline, n_lines);
   double length = 0;
-  for (const auto &spans : inside(outline, lines)) length += total(spans);
+  for (const auto &intervals : inside(outline, lines)) length += total(intervals);
   return length * lines.spacing();
 }
 

@@ -36,8 +36,8 @@ class PointsOfSide {
   double share(std::size_t k) const { return is_reversed_ ? 1 - points_.share[at(k)] : points_.share[at(k)]; }
   // Returns the unit tangent, or 0 if there is none.
   Vec3 tangent(std::size_t k) const {
-    const PointOnPiece &where = points_.on_curve[at(k)];
-    const Vec3 along = derivative(curve_.pieces()[where.piece], where.t);
+    const PointOnSpan &where = points_.on_curve[at(k)];
+    const Vec3 along = derivative(curve_.spans()[where.span], where.t);
     const double speed = length(along);
     return speed > 0 ? ((is_reversed_ ? -1 : 1) / speed) * along : Vec3{0, 0, 0};
   }
@@ -401,7 +401,7 @@ Vector<Vec3> offset_displacements(const MovedPatch &moved, const PatchMaterial &
 
 }  // namespace
 
-PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
+PatchDisplacement::PatchDisplacement(const MovedPatch &moved, const LevelledGrid &levelled)
     : column_levels_(levelled.grid.u.size() - 1, 0), row_levels_(levelled.grid.v.size() - 1, 0), levelled_(levelled) {
   auto level = levelled.levels.begin();
   for_each_quad(levelled.grid, [&](std::size_t i, std::size_t j) {
@@ -431,7 +431,7 @@ PatchMotion::PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled)
   u_ = u_lines.middle(), v_ = v_lines.middle();
 }
 
-Vec3 PatchMotion::without_jumps(std::size_t i, std::size_t j, int column, int row) const {
+Vec3 PatchDisplacement::without_jumps(std::size_t i, std::size_t j, int column, int row) const {
   const std::size_t n_columns = column_levels_.size(), n_rows = row_levels_.size();
   const int level = levelled_.levels[j * n_columns + i], n = 1 << level;
   const auto level_beside = [&](bool is_inside, std::size_t column_beside, std::size_t row_beside) {
@@ -455,7 +455,7 @@ Vec3 PatchMotion::without_jumps(std::size_t i, std::size_t j, int column, int ro
   return in_quad(i, j, level, column, row);
 }
 
-Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
+Vec3 PatchDisplacement::at(std::size_t i, std::size_t j) const {
   const double u = u_[i], v = v_[j];
   if (has_arcs_) return mix(sides_.v0[i], sides_.v1[i], v) + (2 * v * (1 - v)) * offsets_[i];
   if (j == 0) return sides_.v0[i];
@@ -468,20 +468,20 @@ Vec3 PatchMotion::at(std::size_t i, std::size_t j) const {
   return rest_.is_warped() ? of_sides + rest_.at(u, v) : of_sides;
 }
 
-ImageMotion::AffineMap ImageMotion::map_of(const PatchImage &image, const Placement &placement) {
+ImageVelocity::AffineMap ImageVelocity::map_of(const PatchImage &image, const Placement &placement) {
   const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
   const auto column = [&](Vec3 unit) { return placement.scale * (placement.rotation * place(turn, unit)); };
   const Vec3 x = column({1, 0, 0}), y = column({0, 1, 0}), z = column({0, 0, 1});
   return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}, place(placement, image.translation)};
 }
 
-ImageMotion::ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
-                         const Motion &motion)
+ImageVelocity::ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
+                             const EarlierState &earlier)
     : now_(map_of(now, placement_now)),
       difference_(now_),
-      seconds_(motion.seconds),
-      scale_before_(motion.placement_before.scale) {
-  const AffineMap then = map_of(before, motion.placement_before);
+      seconds_(earlier.seconds),
+      scale_before_(earlier.placement_before.scale) {
+  const AffineMap then = map_of(before, earlier.placement_before);
   difference_.linear.row_x = now_.linear.row_x - then.linear.row_x;
   difference_.linear.row_y = now_.linear.row_y - then.linear.row_y;
   difference_.linear.row_z = now_.linear.row_z - then.linear.row_z;

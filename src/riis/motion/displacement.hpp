@@ -17,7 +17,7 @@
 namespace riis {
 
 // The earlier state of the valve, and the time from it to the triangulated state.
-struct Motion {
+struct EarlierState {
   const PatchSet &patches_before;
   Placement placement_before;
   double seconds;  // not 0; negative if the valve moves backwards in time
@@ -127,14 +127,14 @@ class RestInside {
 // evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
 // a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped side. The
 // result is exactly 0 if neither the sides nor the bulge changed.
-class PatchMotion {
+class PatchDisplacement {
  public:
-  // Computes the motion at the grid's vertices. The grid must have been made with its lines kept.
-  PatchMotion(const MovedPatch &moved, const LevelledGrid &levelled);
+  // Computes the displacements at the grid's vertices. The grid must have been made with its lines kept.
+  PatchDisplacement(const MovedPatch &moved, const LevelledGrid &levelled);
 
-  // Returns the displacement at the crossing of two lines of the grid.
+  // Returns the displacement where two lines of the grid meet.
   Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
-  // Returns the displacement inside the quad after this crossing. The sides of the quad are halved `level` times.
+  // Returns the displacement inside the quad after this point. The sides of the quad are halved `level` times.
   Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
@@ -163,10 +163,11 @@ class PatchMotion {
   RestInside rest_;  // of a patch that has no arcs
 };
 
-// The motion of one image of a patch in space. It combines the motions of the patch, the image and the placement.
-class ImageMotion {
+// The velocity of one image of a patch in space. It combines the displacements of the patch, the image and the placement.
+class ImageVelocity {
  public:
-  ImageMotion(const PatchImage &now, const PatchImage &before, const Placement &placement_now, const Motion &motion);
+  ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
+                const EarlierState &earlier);
 
   // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p now
   // and was at p - displacement. If image and placement are at rest, no cancellation occurs.

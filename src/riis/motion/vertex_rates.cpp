@@ -150,7 +150,7 @@ Vector<Vec3> grid_points(const PatchStates &states, const PatchSet &state, const
   return made;
 }
 
-// Returns the points of a grid in a state, and then those of its subdivided quads (vertices_of in triangulate/pieces.cpp).
+// Returns the points of a grid in a state, and then those of its subdivided quads (vertices_of in triangulate/tiles.cpp).
 Vector<Vec3> points_in(const PatchStates &states, const PatchSet &state, const LevelledGrid &levelled) {
   const QuadGrid &grid = levelled.grid;
   const QuadGrid moved{grid.u, grid.v, grid_points(states, state, grid), {}};
@@ -173,11 +173,11 @@ void write_rates(const PatchStates &states, const LevelledGrid &levelled, const 
   const bool is_one_state = &states.after == &states.before;
   const Vector<Vec3> after = points_in(states, states.after, levelled);
   const Vector<Vec3> before = is_one_state ? Vector<Vec3>{} : points_in(states, states.before, levelled);
-  const Motion motion{states.before, direction.placement_before, direction.step};
+  const EarlierState earlier{states.before, direction.placement_before, direction.step};
   const std::size_t n_images = states.at.patches[states.patch].images.size();
   for (std::size_t image = 0; image < n_images; ++image) {
-    const ImageMotion moved(states.after.patches[states.patch].images[image],
-                            states.before.patches[states.patch].images[image], direction.placement_after, motion);
+    const ImageVelocity moved(states.after.patches[states.patch].images[image],
+                              states.before.patches[states.patch].images[image], direction.placement_after, earlier);
     for (std::size_t i = 0; i < after.size(); ++i) {
       const Vec3 displacement = is_one_state ? Vec3{0, 0, 0} : after[i] - before[i];
       put_vector(rates, static_cast<std::int64_t>(image * after.size() + i), moved.velocity(after[i], displacement));

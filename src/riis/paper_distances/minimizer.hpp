@@ -22,7 +22,7 @@ class Minimizer final : public PatchDistance {
   const char *name() const override { return "minimization"; }
 
  private:
-  struct Measures {
+  struct PatchExtent {
     Bounds box;
     double width, height;  // bounds of |S_u| and |S_v|
   };
@@ -32,9 +32,9 @@ class Minimizer final : public PatchDistance {
   double lower_bound(const Bounds &box, Vec3 p) const;
 
   double enough_;
-  double rounding_ = 0;             // how far a computed point S(u,v) may lie outside of its patch's box
-  std::vector<Measures> measures_;  // one for each patch
-  Bounds box_;                      // the box of all patches together
+  double rounding_ = 0;               // how far a computed point S(u,v) may lie outside of its patch's box
+  std::vector<PatchExtent> extents_;  // one for each patch
+  Bounds box_;                        // the box of all patches together
 };
 
 }  // namespace riis

@@ -39,7 +39,7 @@ SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
 
 }  // namespace
 
-SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
+SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface) {
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
@@ -48,14 +48,14 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   PatchSet patches = valve.make_patches();
   // Turns the earlier state into curves and patches. Corresponding points of both states have the same u and v.
   std::optional<PatchSet> patches_before;
-  std::optional<Motion> motion;
+  std::optional<EarlierState> earlier;
   if (moved) {
     patches_before = valve.make_patches_before(moved->before, moved->patches_before);
-    motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
+    earlier.emplace(EarlierState{*patches_before, moved->placement_before, moved->seconds});
   }
   // Turns curves into polylines, patches into quads, and quads into triangles.
   const Triangulation how{accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
-                          motion ? &*motion : nullptr};
+                          earlier ? &*earlier : nullptr};
   TriangleSet triangles = fixed ? triangulate_fixed(patches, how, fixed->plan(), surface.take_triangles())
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
@@ -68,7 +68,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   surface.is_of_valve(
       {placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(), valve.is_warped()});
-  if (motion)
+  if (earlier)
     surface.moved_between(
         {std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
   else
@@ -91,10 +91,10 @@ SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &a
 }
 
 void add_direction(const ValveDirection &direction, int n_threads, Surface &surface) {
-  const ValveFrame &frame = *surface.frame();
+  const SourceValve &source = *surface.source();
   const auto patches_of = [&](const Valve &state, const char *name) {
     const StateNames names{name, "the surface's valve"};
-    state.check_is_state_of(*frame.kind, frame.is_warped, names);
+    state.check_is_state_of(*source.kind, source.is_warped, names);
     PatchSet made = state.make_patches_unsearched(name);
     check_same_build(*surface.patches(), made, names);
     return made;

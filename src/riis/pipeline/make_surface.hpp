@@ -33,7 +33,7 @@ struct ValveAccuracy {
 };
 
 // An earlier state of a valve, from which the surface gets its velocity.
-struct ValveMotion {
+struct EarlierValve {
   const Valve &before;
   Placement placement_before;
   double seconds;                            // the time from that state to the present one, not 0
@@ -53,9 +53,9 @@ struct SurfaceSeconds {
 
 // Both functions replace the content of `surface` and reuse its memory. After a failure the only use of `surface` is to make it
 // again. The first function fails as the stages of the pipeline do. It also fails with RIIS_INVALID_PARAMETER if the valve has
-// no area or if the two states come from valves of different builds. Without a motion the vertices have no velocity. `fixed` is
-// null unless accuracy.is_fixed.
-SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
+// no area or if the two states come from valves of different builds. Without an earlier state the vertices have no velocity.
+// `fixed` is null unless accuracy.is_fixed.
+SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);

@@ -35,7 +35,7 @@ void UpdatableSurface::replace(const Make &make) {
   if (before_->triangles().n_triangles() > max_triangles_kept) before_.reset();
 }
 
-void UpdatableSurface::update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
+void UpdatableSurface::update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                                          const ValveAccuracy &accuracy) {
   const SurfaceRequest whole = with_threads(request);
   std::unique_ptr<const FixedTriangulation> newly_fixed;
@@ -44,8 +44,8 @@ void UpdatableSurface::update_from_valve(const Valve &valve, const ValveMotion *
         std::make_unique<FixedTriangulation>(valve, accuracy.triangle_error / request.placement.scale, whole.n_threads);
   const FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : fixed_.get();
   // In a time loop, the earlier state is often the state of the last update. Its patches are then known.
-  std::optional<ValveMotion> moved;
-  if (motion) moved.emplace(*motion);
+  std::optional<EarlierValve> moved;
+  if (earlier) moved.emplace(*earlier);
   if (moved && moved->before.revision() == revision_) moved->patches_before = surface_->patches();
   replace([&](Surface &made) {
     return make_surface(valve, moved ? &*moved : nullptr, whole, accuracy, accuracy.is_fixed ? fixed : nullptr, made);

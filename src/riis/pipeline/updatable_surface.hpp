@@ -25,7 +25,7 @@ class UpdatableSurface {
   // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
   // number of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
   // triangulation. An update without it ends the fixed triangulation.
-  void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
+  void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
   // Updates the surface from arrays. If they contain no faces, they are new vertices for the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);

@@ -46,7 +46,7 @@ void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
 
 }  // namespace
 
-Vec3 ValveFrame::axis() const {
+Vec3 SourceValve::axis() const {
   if (disc.rim.empty()) return placement.rotation * Vec3{0, 0, 1};
   Vec3 area{0, 0, 0};
   for (std::size_t i = 0; i < disc.rim.size(); ++i)

@@ -24,7 +24,7 @@
 namespace riis {
 
 // The placement, the disc, the housing, the skirt and the kind of the valve that a surface was made from.
-struct ValveFrame {
+struct SourceValve {
   Placement placement;
   Valve::Disc disc;      // before placement
   std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
@@ -45,9 +45,9 @@ class Surface {
   // Sets another method to measure distances. Before this call, distances are to the triangles.
   void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
 
-  // Takes the frame of the valve that the triangles come from. A surface from arrays has none.
-  void is_of_valve(const ValveFrame &frame) { frame_.emplace(frame); }
-  const std::optional<ValveFrame> &frame() const { return frame_; }
+  // Takes the valve that the triangles come from. A surface from arrays has none.
+  void is_of_valve(const SourceValve &source) { source_valve_.emplace(source); }
+  const std::optional<SourceValve> &source() const { return source_valve_; }
 
   // Takes the two states that the velocities were computed from.
   void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
@@ -105,9 +105,9 @@ class Surface {
   std::vector<std::int32_t> leaflet_ids_;
   // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
-  std::optional<ValveFrame> frame_;
+  std::optional<SourceValve> source_valve_;
   std::optional<TwoStates> states_;
-  std::optional<PatchSet> patches_;         // without a motion; otherwise states_ has them
+  std::optional<PatchSet> patches_;         // without an earlier state; otherwise states_ has them
   std::vector<std::vector<double>> rates_;  // of the directions; later entries only keep their memory
   std::int64_t n_directions_ = 0;
   mutable std::atomic<double> velocity_error_bound_{not_known};

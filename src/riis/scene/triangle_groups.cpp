@@ -10,7 +10,7 @@
 
 namespace riis {
 
-Frame::Frame(const Bounds &bounds) {
+SurfaceFrame::Frame(const Bounds &bounds) {
   centre = bounds.middle();
   const Vec3 extent = bounds.upper - bounds.lower;
   int exponent = 0;
@@ -41,7 +41,7 @@ void TriangleGroups::take_corners(const TriangleSet &set, int n_threads) {
   for (const Bounds &block : blocks) of_all.add(block);
 }
 
-void TriangleGroups::make(const TriangleSet &set, const Frame &surface_frame, int n_threads) {
+void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_frame, int n_threads) {
   constexpr double much = 2;
   frame = surface_frame;
   const bool is_by_place = set.grouping.end.empty(), was_by_place = is_by_place_;

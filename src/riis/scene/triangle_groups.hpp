@@ -17,12 +17,12 @@ namespace riis {
 
 // Takes a coordinate x to (x - centre) * scale. The scale is a power of two that makes the surface's half extent from 1/2 to 1.
 // The errors of both operations are only the rounding of their results.
-struct Frame {
+struct SurfaceFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
 
-  Frame() = default;
-  explicit Frame(const Bounds &bounds);
+  SurfaceFrame() = default;
+  explicit SurfaceFrame(const Bounds &bounds);
   Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
 };
 
@@ -44,7 +44,7 @@ inline float filter_tolerance(double error, double reach) { return static_cast<f
 struct TriangleGroups {
   static constexpr std::int64_t groups_per_pack = 16;
 
-  Frame frame;
+  SurfaceFrame frame;
   std::vector<double> corners;  // (3, 3, n_triangles), in the set's own coordinates
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
@@ -60,7 +60,7 @@ struct TriangleGroups {
   // Copies the corners of a set's triangles, and computes their bounds.
   void take_corners(const TriangleSet &set, int n_threads);
   // Replaces the groups by groups of the triangles whose corners were taken last. Reuses the groups' memory.
-  void make(const TriangleSet &set, const Frame &surface_frame, int n_threads);
+  void make(const TriangleSet &set, const SurfaceFrame &surface_frame, int n_threads);
 
   Range groups_of(std::int64_t pack) const {
     return {pack * groups_per_pack, std::min((pack + 1) * groups_per_pack, view(groups).size())};

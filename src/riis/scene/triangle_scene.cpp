@@ -245,7 +245,7 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
   in.groups.take_corners(set, n_threads);
   bounds_ = in.groups.of_all;
   rounding_ = rounding_of_distances(bounds_);
-  const Frame frame(bounds_);
+  const SurfaceFrame frame(bounds_);
   in.groups.make(set, frame, n_threads);
   in.rounding = rounding_ * frame.scale;
 
@@ -273,7 +273,7 @@ ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet inst
 template <bool keeps_ties>
 ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const {
   const Implementation &in = *implementation_;
-  const Frame &frame = in.groups.frame;
+  const SurfaceFrame &frame = in.groups.frame;
   const Vec3 q = frame(p);
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};

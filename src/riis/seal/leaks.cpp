@@ -8,7 +8,7 @@
 
 #include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
-#include "seal/crossing.hpp"
+#include "seal/segment_triangle.hpp"
 #include "search/distances.hpp"
 
 namespace riis {
@@ -23,7 +23,7 @@ struct Edge {
 };
 
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface, its nearer node is at most
-// half the length from the crossing, so the node is within the half thickness and marked. The margins are several times the
+// half the length from that point, so the node is within the half thickness and marked. The margins are several times the
 // rounding, so this also holds for computed distances. Returns -1 if marks may be missing or do not follow the distances to the
 // triangles. Then no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {

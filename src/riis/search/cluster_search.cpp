@@ -27,7 +27,7 @@ struct Placing {
   Vec3 shift;
   double largest_shift;
 
-  Placing(const NodeFrame &nodes, const Frame &frame)
+  Placing(const NodeFrame &nodes, const SurfaceFrame &frame)
       : ratio(frame.scale / nodes.scale),
         shift(frame.scale * (nodes.centre - frame.centre)),
         largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
@@ -292,7 +292,7 @@ class ClusterSearch {
     const GroupBounds &bounds = view(groups_.bounds)[group];
     const auto nearest = std::min_element(distance_sq, distance_sq + bounds.n) - distance_sq;
     const double *c = groups_.corners.data() + 9 * std::int64_t{bounds.triangle[nearest]};
-    const Frame &frame = groups_.frame;
+    const SurfaceFrame &frame = groups_.frame;
     return frame(closest_point_on_triangle(frame.centre + (1 / frame.scale) * to, {c[0], c[1], c[2]},
                                            {c[3], c[4], c[5]}, {c[6], c[7], c[8]})
                      .point);

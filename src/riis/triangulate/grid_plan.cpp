@@ -356,8 +356,8 @@ class Planner {
     for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
       const Curve &here = states_[i].curves[curve];
       double bend = 0;
-      for (const Bezier &piece : here.pieces()) bend = std::max(bend, flatness(piece));
-      const double of_state = static_cast<double>(here.pieces().size()) * std::sqrt(bend / allowed(curve));
+      for (const Bezier &span : here.spans()) bend = std::max(bend, flatness(span));
+      const double of_state = static_cast<double>(here.spans().size()) * std::sqrt(bend / allowed(curve));
       most = std::max(most, of_state < 1e6 ? of_state : 1e6);
     }
     return static_cast<std::size_t>(std::ceil(most));
@@ -639,7 +639,7 @@ PatchSet CurveNumbering::renumbered(const PatchSet &set) const {
       made.patches[i].*side = to;
       if (set.material.empty() || !set.material[from.curve]) continue;
       const MaterialPoints &points = *set.material[from.curve];
-      made.material[to.curve] = is_turned ? points.reversed(curve.pieces().size()) : points;
+      made.material[to.curve] = is_turned ? points.reversed(curve.spans().size()) : points;
     }
   return made;
 }

@@ -187,9 +187,9 @@ void check_precision(const PatchSet &set, double max_error) {
   double largest = 0, longest = 0;
   for (const Curve &curve : set.curves) {
     longest = std::max(longest, curve.length());
-    for (const Bezier &piece : curve.pieces())
-      for (int k = 0; k <= piece.degree; ++k) {
-        const Vec3 q = view(piece.control)[k];
+    for (const Bezier &span : curve.spans())
+      for (int k = 0; k <= span.degree; ++k) {
+        const Vec3 q = view(span.control)[k];
         largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
       }
   }

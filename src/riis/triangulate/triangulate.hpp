@@ -62,7 +62,7 @@ struct Triangulation {
   const Placement &placement;
   bool flip_normals;
   int n_threads;
-  const Motion *motion = nullptr;  // null: no velocities; it never changes the triangles' bits
+  const EarlierState *earlier = nullptr;  // null without velocities; it never changes the triangles' bits
 };
 
 // Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory is reused. Fails with

@@ -7,13 +7,13 @@
 #include "kernels/kernels.hpp"
 #include "parallel/range.hpp"
 #include "triangulate/grids.hpp"
-#include "triangulate/pieces.hpp"
+#include "triangulate/tiles.hpp"
 #include "triangulate/triangulate.hpp"
 
 namespace riis {
 namespace {
 
-// Groups the triangles of a piece by the piece's quads. Writes the triangles to `order`, group by group. Each triangle is in one
+// Groups the triangles of a tile by the tile's quads. Writes the triangles to `order`, group by group. Each triangle is in one
 // group.
 class QuadGroups {
  public:
@@ -100,18 +100,18 @@ class QuadGroups {
   Vector<std::int32_t> ends_;
 };
 
-// Joins the groups of all pieces, after the pieces' triangles were moved together. `ends` has the ends of each piece's groups.
-void join(const Vector<Piece> &pieces, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
+// Joins the groups of all tiles, after the tiles' triangles were moved together. `ends` has the ends of each tile's groups.
+void join(const Vector<Tile> &tiles, const Vector<Vector<std::int32_t>> &ends, Grouping &joined) {
   std::int32_t n = 0;
   joined.end.clear();
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto moved_by = static_cast<std::int32_t>(pieces[i].first_triangle - n);
-    const auto from = joined.order.begin() + pieces[i].first_triangle;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const auto moved_by = static_cast<std::int32_t>(tiles[i].first_triangle - n);
+    const auto from = joined.order.begin() + tiles[i].first_triangle;
     if (moved_by != 0)
-      std::transform(from, from + pieces[i].n_triangles, joined.order.begin() + n,
+      std::transform(from, from + tiles[i].n_triangles, joined.order.begin() + n,
                      [moved_by](std::int32_t triangle) { return triangle - moved_by; });
     for (const std::int32_t end : ends[i]) joined.end.push_back(n + end);
-    n += static_cast<std::int32_t>(pieces[i].n_triangles);
+    n += static_cast<std::int32_t>(tiles[i].n_triangles);
   }
   joined.order.resize(static_cast<std::size_t>(n));
 }
@@ -119,21 +119,21 @@ void join(const Vector<Piece> &pieces, const Vector<Vector<std::int32_t>> &ends,
 // Makes the triangles of these grids. Returns the patches that miss triangles.
 Vector<std::size_t> make_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                                    TriangleSet &triangles) {
-  Pieces pieces(set, how, grids, triangles);
-  Vector<Vector<std::int32_t>> ends(pieces.all().size());
-  resize(triangles.grouping.order, pieces.room());
-  Vector<std::size_t> vanished = pieces.make_triangles([&](std::int64_t i, const Vector<std::int32_t> &first_of_quad) {
-    const Piece &piece = view(pieces.all())[i];
-    view(ends)[i] = QuadGroups(grids[piece.patch].grid, first_of_quad, triangles,
-                               triangles.grouping.order.data() + piece.first_triangle)
+  Tiles tiles(set, how, grids, triangles);
+  Vector<Vector<std::int32_t>> ends(tiles.all().size());
+  resize(triangles.grouping.order, tiles.room());
+  Vector<std::size_t> vanished = tiles.make_triangles([&](std::int64_t i, const Vector<std::int32_t> &first_of_quad) {
+    const Tile &tile = view(tiles.all())[i];
+    view(ends)[i] = QuadGroups(grids[tile.patch].grid, first_of_quad, triangles,
+                               triangles.grouping.order.data() + tile.first_triangle)
                         .make();
-    const auto id = triangles.triangle_id.begin() + piece.first_triangle;
-    std::iota(id, id + piece.n_triangles, piece.first_triangle);
+    const auto id = triangles.triangle_id.begin() + tile.first_triangle;
+    std::iota(id, id + tile.n_triangles, tile.first_triangle);
   });
   if (!vanished.empty()) return vanished;
-  join(pieces.all(), ends, triangles.grouping);
+  join(tiles.all(), ends, triangles.grouping);
   // Triangles were moved down to close gaps, but kept their ids.
-  if (triangles.n_triangles() < pieces.room())
+  if (triangles.n_triangles() < tiles.room())
     std::iota(triangles.triangle_id.begin(), triangles.triangle_id.end(), std::int64_t{0});
   return vanished;
 }

@@ -11,7 +11,7 @@
 #include "kernels/kernels.hpp"
 #include "parallel/parallel_for.hpp"
 #include "triangulate/grids.hpp"
-#include "triangulate/pieces.hpp"
+#include "triangulate/tiles.hpp"
 #include "triangulate/triangulate.hpp"
 
 namespace riis {
@@ -61,8 +61,8 @@ Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, const Triangulatio
   return levelled;
 }
 
-Vector<std::size_t> make_triangles(Pieces &pieces) {
-  return pieces.make_triangles([](std::int64_t, const Vector<std::int32_t> &) {});
+Vector<std::size_t> make_triangles(Tiles &tiles) {
+  return tiles.make_triangles([](std::int64_t, const Vector<std::int32_t> &) {});
 }
 
 // Gives a set the triangles of a plan, unless it already has them.
@@ -86,16 +86,16 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
 // not in the plan, or the other way round, or if some triangles are missed.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
-  Pieces pieces(set, how, grids, triangles);
+  Tiles tiles(set, how, grids, triangles);
   // The images of a patch are congruent. So it is enough to check the areas of one image, with a margin for rounding, if the
   // others have the same triangles. An image with a seam is checked itself, because it takes points of another image.
   std::atomic<bool> all_have_area{true};
-  pieces.place_vertices([&](std::int64_t i) {
-    const Piece &piece = view(pieces.all())[i];
-    if (view(planned.images)[i].is_as_before && !piece.seam) return;
-    const Range of_piece{i == 0 ? 0 : view(planned.images)[i - 1].end, view(planned.images)[i].end};
-    const double rounding = rounding_of_corners(grids[piece.patch].grid, set.patches[piece.patch], how.placement);
-    if (!have_area(triangles.xyz.data(), planned.vertex_id, of_piece, 16 * rounding))
+  tiles.place_vertices([&](std::int64_t i) {
+    const Tile &tile = view(tiles.all())[i];
+    if (view(planned.images)[i].is_as_before && !tile.seam) return;
+    const Range of_tile{i == 0 ? 0 : view(planned.images)[i - 1].end, view(planned.images)[i].end};
+    const double rounding = rounding_of_corners(grids[tile.patch].grid, set.patches[tile.patch], how.placement);
+    if (!have_area(triangles.xyz.data(), planned.vertex_id, of_tile, 16 * rounding))
       all_have_area.store(false, std::memory_order_relaxed);
   });
   take_connectivity(planned, how.flip_normals, triangles);
@@ -104,7 +104,7 @@ bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const
         is_missed(triangles, triangle))
       return false;
   if (!all_have_area.load(std::memory_order_relaxed) && !have_area(triangles)) return false;
-  triangles.error_bound = pieces.error_bound();
+  triangles.error_bound = tiles.error_bound();
   return true;
 }
 
@@ -126,8 +126,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
     // At this opening, other triangles have an area than in the plan. So the plan's groups do not fit, and new groups are made.
-    Pieces pieces(patches, how, grids, memory);
-    const Vector<std::size_t> vanished = make_triangles(pieces);
+    Tiles tiles(patches, how, grids, memory);
+    const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
     group_all_by_place(memory, memory.grouping);
   }
@@ -188,8 +188,8 @@ Vector<std::size_t> vanished_anywhere(const Vector<PatchSet> &states, const Tria
                                       const TriangulationPlan &plan, TriangleSet &triangles) {
   for (const PatchSet &state : states) {
     const Vector<LevelledGrid> grids = make_levelled_grids(state, how, plan);
-    Pieces pieces(state, how, grids, triangles);
-    Vector<std::size_t> vanished = make_triangles(pieces);
+    Tiles tiles(state, how, grids, triangles);
+    Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) return vanished;
   }
   return {};
@@ -201,8 +201,8 @@ std::uint64_t next_number() {
   return last.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
-// Returns whether two pieces are images of one patch and leave out the same triangles.
-bool have_same_triangles(const Piece &a, const Piece &b) {
+// Returns whether two tiles are images of one patch and leave out the same triangles.
+bool have_same_triangles(const Tile &a, const Tile &b) {
   const std::int64_t between = b.first_vertex - a.first_vertex;
   return a.patch == b.patch && std::equal(a.left_out.begin(), a.left_out.end(), b.left_out.begin(), b.left_out.end(),
                                           [&](const LeftOut &p, const LeftOut &q) {
@@ -214,14 +214,14 @@ bool have_same_triangles(const Piece &a, const Piece &b) {
 Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, const TriangulationPlan &plan,
                                TriangleSet triangles) {
   const Vector<LevelledGrid> grids = make_levelled_grids(state, how, plan);
-  Pieces pieces(state, how, grids, triangles);
-  make_triangles(pieces);
+  Tiles tiles(state, how, grids, triangles);
+  make_triangles(tiles);
   Connectivity made;
-  for (const Piece &piece : pieces.all()) {
-    made.left_out.insert(made.left_out.end(), piece.left_out.begin(), piece.left_out.end());
+  for (const Tile &tile : tiles.all()) {
+    made.left_out.insert(made.left_out.end(), tile.left_out.begin(), tile.left_out.end());
     const bool is_first = made.images.empty();
-    made.images.push_back({(is_first ? 0 : made.images.back().end) + piece.n_triangles,
-                           !is_first && have_same_triangles(*(&piece - 1), piece)});
+    made.images.push_back({(is_first ? 0 : made.images.back().end) + tile.n_triangles,
+                           !is_first && have_same_triangles(*(&tile - 1), tile)});
   }
   group_all_by_place(triangles, made.grouping);
   made.vertex_id = std::move(triangles.vertex_id);

@@ -11,16 +11,16 @@ namespace riis {
 PatchArrays arrays_of(const PatchSet &set) {
   const PatchSet whole = without_images(set);
   PatchArrays made;
-  made.first_piece.push_back(0);
+  made.first_span.push_back(0);
   for (const Curve &curve : whole.curves) {
-    for (const Bezier &piece : curve.pieces()) {
-      made.degree.push_back(piece.degree);
-      for (int i = 0; i <= piece.degree; ++i) {
-        const Vec3 q = view(piece.control)[i];
+    for (const Bezier &span : curve.spans()) {
+      made.degree.push_back(span.degree);
+      for (int i = 0; i <= span.degree; ++i) {
+        const Vec3 q = view(span.control)[i];
         made.control.insert(made.control.end(), {q.x, q.y, q.z});
       }
     }
-    made.first_piece.push_back(view(made.degree).size());
+    made.first_span.push_back(view(made.degree).size());
   }
   for (const Patch &patch : whole.patches) {
     const PatchImage &image = patch.images.front();
@@ -47,9 +47,9 @@ PatchArrays arrays_of(const PatchSet &set) {
 
 riis_valve_patches view_of(const PatchArrays &arrays) {
   const auto n_patches = view(arrays.leaflet_id).size();
-  return {view(arrays.first_piece).size() - 1,
+  return {view(arrays.first_span).size() - 1,
           view(arrays.degree).size(),
-          arrays.first_piece.data(),
+          arrays.first_span.data(),
           arrays.degree.data(),
           arrays.control.data(),
           n_patches,

@@ -13,7 +13,7 @@
 namespace riis {
 
 struct PatchArrays {
-  std::vector<std::int64_t> first_piece;
+  std::vector<std::int64_t> first_span;
   std::vector<std::int32_t> degree, curve_id, reversed, leaflet_id, patch_id, attached;
   std::vector<double> control, bulge;
 };

@@ -25,9 +25,9 @@ int attached_side(const Patch &patch) {
 // Returns whether both images put the curve at the same position. The images do so if the placed control points are equal to the
 // last bit.
 bool coincide(const Curve &curve, const PatchImage &a, const PatchImage &b) {
-  for (const Bezier &piece : curve.pieces())
-    for (int i = 0; i <= piece.degree; ++i) {
-      const Vec3 q = view(piece.control)[i];
+  for (const Bezier &span : curve.spans())
+    for (int i = 0; i <= span.degree; ++i) {
+      const Vec3 q = view(span.control)[i];
       if (!(place(a, q) == place(b, q))) return false;
     }
   return true;

@@ -117,7 +117,7 @@ class PatchReader {
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   PatchSet set{{}, closed.patches.patches};
   for (std::size_t i = 0; i < closed.patches.curves.size(); ++i) {
-    const Bezier &from = closed.patches.curves[i].pieces().front(), &to = open.patches.curves[i].pieces().front();
+    const Bezier &from = closed.patches.curves[i].spans().front(), &to = open.patches.curves[i].spans().front();
     set.curves.push_back(blend(from, to, opening));
     set.rates.push_back(rate(from, to));
   }
@@ -132,7 +132,7 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
   for (std::size_t i = 0; i < from.curves.size(); ++i) {
     // The degree of a straight line counts as 2, because lines are stored as quadratics. So a line may become a quadratic in the
     // other state.
-    const int degree = from.curves[i].pieces().front().degree, other_degree = to.curves[i].pieces().front().degree;
+    const int degree = from.curves[i].spans().front().degree, other_degree = to.curves[i].spans().front().degree;
     if (degree != other_degree)
       fail(RIIS_INVALID_PARAMETER, "curve ", i, " is cubic in ", other_degree == 3 ? name : "the valve",
            " only: the degree must be the same");

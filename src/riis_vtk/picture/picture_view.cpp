@@ -66,7 +66,7 @@ std::vector<Side> cut_sides(const Sight &sight) {
 }
 
 // Returns the parts of the side's line that lie inside the boundary. They are sorted and disjoint.
-std::vector<Extent> crossings(const View &view, const Side &side, vtkPolyData *boundary) {
+std::vector<Extent> cuts(const View &view, const Side &side, vtkPolyData *boundary) {
   std::vector<Extent> all;
   const Vector &across = view.axes[side.axis], &along = view.axes[1 - side.axis];
   vtkNew<vtkIdList> corners;
@@ -258,7 +258,7 @@ std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Si
 vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary) {
   Dashes dashes(view, sight);
   for (const Side &side : cut_sides(sight)) {
-    for (const Extent &crossed : crossings(view, side, boundary)) dashes.add(side, crossed);
+    for (const Extent &crossed : cuts(view, side, boundary)) dashes.add(side, crossed);
   }
   return dashes.lines();
 }

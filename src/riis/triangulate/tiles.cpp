@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "triangulate/pieces.hpp"
+#include "triangulate/tiles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,15 +21,16 @@ const Seam *seam_of(const PatchSet &set, std::size_t patch, std::size_t image) {
   return nullptr;
 }
 
-PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const LevelledGrid &levelled, const Motion *moved) {
+PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const LevelledGrid &levelled,
+                          const EarlierState *moved) {
   const QuadGrid &grid = levelled.grid;
   const auto n = static_cast<std::size_t>(levelled.n_vertices);
-  std::optional<PatchMotion> motion;
-  if (moved) motion.emplace(MovedPatch{set, moved->patches_before, patch}, levelled);
+  std::optional<PatchDisplacement> moves;
+  if (moved) moves.emplace(MovedPatch{set, moved->patches_before, patch}, levelled);
   PatchVertices made;
   made.points.reserve(n);
   made.uv.reserve(2 * n);
-  made.displacements.reserve(motion ? n : 0);
+  made.displacements.reserve(moves ? n : 0);
   const auto add_uv = [&](double u, double v) {
     made.uv.push_back(u);
     made.uv.push_back(v);
@@ -38,7 +39,7 @@ PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const Levelled
   for (std::size_t j = 0; j < grid.v.size(); ++j)
     for (std::size_t i = 0; i < grid.u.size(); ++i) {
       add_uv(grid.u[i], grid.v[j]);
-      if (motion) made.displacements.push_back(motion->at_lines(i, j));
+      if (moves) made.displacements.push_back(moves->at_lines(i, j));
     }
   auto level_of_next = levelled.levels.begin();
   for_each_quad(grid, [&](std::size_t i, std::size_t j) {
@@ -54,7 +55,7 @@ PatchVertices vertices_of(const PatchSet &set, std::size_t patch, const Levelled
       for (int column = 0; column <= n_parts; ++column) {
         const double s = column * step, t = row * step;
         made.points.push_back(quad.at(s, t));
-        if (motion) made.displacements.push_back(motion->without_jumps(i, j, column, row));
+        if (moves) made.displacements.push_back(moves->without_jumps(i, j, column, row));
         add_uv((1 - s) * u0 + s * u1, (1 - t) * v0 + t * v1);
       }
   });
@@ -85,18 +86,18 @@ AxisLine placed(const AxisLine &axis, const PatchImage &image, const Placement &
   return {place(placement, place(image, axis.centre)), placement.rotation * place(turn, axis.direction)};
 }
 
-// Makes the triangles of a piece whose vertices are placed.
-class PieceTriangles {
+// Makes the triangles of a tile whose vertices are placed.
+class TileTriangles {
  public:
-  PieceTriangles(Piece &piece, const LevelledGrid &levelled, bool flip_normals, TriangleSet &set)
-      : piece_(piece), levelled_(levelled), flip_normals_(flip_normals), set_(set) {}
+  TileTriangles(Tile &tile, const LevelledGrid &levelled, bool flip_normals, TriangleSet &set)
+      : tile_(tile), levelled_(levelled), flip_normals_(flip_normals), set_(set) {}
 
   // Returns the position of each quad's first triangle. The last entry is the end of the last quad's triangles.
   Vector<std::int32_t> add() {
     const QuadGrid &grid = levelled_.grid;
     auto level_of_next = levelled_.levels.begin();
     const auto n_u = static_cast<std::int64_t>(grid.u.size()), n_v = static_cast<std::int64_t>(grid.v.size());
-    std::int64_t next_subdivided = piece_.first_vertex + n_u * n_v;
+    std::int64_t next_subdivided = tile_.first_vertex + n_u * n_v;
     Vector<std::int32_t> first_of_quad;
     first_of_quad.reserve(levelled_.levels.size() + 1);
     for_each_quad(grid, [&](std::size_t i, std::size_t j) {
@@ -104,7 +105,7 @@ class PieceTriangles {
       const int level = *level_of_next++;
       if (level == 0) {
         const std::int64_t first =
-            piece_.first_vertex + static_cast<std::int64_t>(j) * n_u + static_cast<std::int64_t>(i);
+            tile_.first_vertex + static_cast<std::int64_t>(j) * n_u + static_cast<std::int64_t>(i);
         add_quad({first, first + 1, first + n_u + 1, first + n_u});
       } else {
         add_quads(next_subdivided, level);
@@ -117,7 +118,7 @@ class PieceTriangles {
   }
 
  private:
-  std::int64_t next_triangle() const { return piece_.first_triangle + piece_.n_triangles; }
+  std::int64_t next_triangle() const { return tile_.first_triangle + tile_.n_triangles; }
 
   // Adds the quads into which a quad is subdivided at a level. Their vertices begin with `first`.
   void add_quads(std::int64_t first, int level) {
@@ -136,40 +137,40 @@ class PieceTriangles {
   }
 
   void leave_out(const LeftOut &triangle) {
-    if (is_missed(set_, triangle)) piece_.is_whole = false;
-    piece_.left_out.push_back(triangle);
+    if (is_missed(set_, triangle)) tile_.is_whole = false;
+    tile_.left_out.push_back(triangle);
   }
 
   bool add_triangle(std::int64_t a, std::int64_t b, std::int64_t c) {
     const std::int64_t id_here = next_id_++;
     if (has_zero_area(set_.vertex(a), set_.vertex(b), set_.vertex(c))) return false;
-    if (points_upstream(*piece_.image) != flip_normals_) std::swap(b, c);
+    if (points_upstream(*tile_.image) != flip_normals_) std::swap(b, c);
     const std::int64_t at = next_triangle();
     std::int64_t *id = set_.vertex_id.data() + 3 * at;
     id[0] = a, id[1] = b, id[2] = c;
-    view(set_.leaflet_id)[at] = piece_.image->leaflet_id;
-    view(set_.patch_id)[at] = piece_.image->patch_id;
+    view(set_.leaflet_id)[at] = tile_.image->leaflet_id;
+    view(set_.patch_id)[at] = tile_.image->patch_id;
     view(set_.triangle_id)[at] = id_here;
-    ++piece_.n_triangles;
+    ++tile_.n_triangles;
     return true;
   }
 
-  Piece &piece_;
+  Tile &tile_;
   const LevelledGrid &levelled_;
   bool flip_normals_;
   TriangleSet &set_;
-  std::int64_t next_id_ = piece_.first_id;
+  std::int64_t next_id_ = tile_.first_id;
 };
 
 // Returns the patches that miss triangles (is_missed).
-Vector<std::size_t> vanished_patches(const Vector<Piece> &pieces) {
+Vector<std::size_t> vanished_patches(const Vector<Tile> &tiles) {
   Vector<std::size_t> vanished;
-  for (const Piece &piece : pieces)
-    if (!piece.is_whole && (vanished.empty() || vanished.back() != piece.patch)) vanished.push_back(piece.patch);
+  for (const Tile &tile : tiles)
+    if (!tile.is_whole && (vanished.empty() || vanished.back() != tile.patch)) vanished.push_back(tile.patch);
   return vanished;
 }
 
-// Makes room for n triangles. Old contents may stay in the arrays, because the pieces overwrite everything.
+// Makes room for n triangles. Old contents may stay in the arrays, because the tiles overwrite everything.
 void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.vertex_id, 3 * n);
   resize(triangles.leaflet_id, n);
@@ -177,21 +178,21 @@ void resize_triangles(std::int64_t n, TriangleSet &triangles) {
   resize(triangles.triangle_id, n);
 }
 
-// Moves the triangles of all pieces together, because pieces may have fewer triangles than the room reserved for them.
-void close_gaps(const Vector<Piece> &pieces, TriangleSet &triangles) {
+// Moves the triangles of all tiles together, because tiles may have fewer triangles than the room reserved for them.
+void close_gaps(const Vector<Tile> &tiles, TriangleSet &triangles) {
   std::int64_t n = 0;
-  for (const Piece &piece : pieces) {
+  for (const Tile &tile : tiles) {
     const auto move_down = [&](auto &numbers, std::int64_t per_triangle) {
-      if (n == piece.first_triangle) return;
-      const auto from = numbers.begin() + per_triangle * piece.first_triangle;
-      std::copy(from, from + per_triangle * piece.n_triangles, numbers.begin() + per_triangle * n);
+      if (n == tile.first_triangle) return;
+      const auto from = numbers.begin() + per_triangle * tile.first_triangle;
+      std::copy(from, from + per_triangle * tile.n_triangles, numbers.begin() + per_triangle * n);
     };
     move_down(triangles.vertex_id, 3);
     move_down(triangles.leaflet_id, 1);
     move_down(triangles.patch_id, 1);
     move_down(triangles.triangle_id, 1);
-    triangles.n_zero_area += view(piece.left_out).size();
-    n += piece.n_triangles;
+    triangles.n_zero_area += view(tile.left_out).size();
+    n += tile.n_triangles;
   }
   resize_triangles(n, triangles);
 }
@@ -207,7 +208,7 @@ bool is_missed(const TriangleSet &set, const LeftOut &triangle) {
   return !is_on_diagonal && std::max(diagonal, other) > min_edge;
 }
 
-Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles)
+Tiles::Tiles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles)
     : set_(set), how_(how), grids_(grids), triangles_(triangles) {
   std::int64_t n_ids = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
@@ -215,7 +216,7 @@ Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<Level
     for (std::size_t k = 0; k < images.size(); ++k) {
       const Seam *seam = seam_of(set, i, k);
       const PatchImage *twin = seam ? &set.patches[seam->patch_of_twin()].images[seam->twin] : nullptr;
-      pieces_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
+      tiles_.push_back({i, &images[k], twin, seam, n_vertices_, room_, n_ids});
       // At a seam, one of two equal vertices may be placed with another image. Then they differ by rounding, and their triangle
       // may need room.
       room_ += grids[i].n_triangles - (seam ? 0 : grids[i].n_collapsed);
@@ -226,63 +227,63 @@ Pieces::Pieces(const PatchSet &set, const Triangulation &how, const Vector<Level
   }
 }
 
-double Pieces::error_bound() const {
+double Tiles::error_bound() const {
   double bound = 0;
   for (const LevelledGrid &grid : grids_) bound = std::max(bound, grid.error_bound);
   return (bound + set_.deviation) * how_.placement.scale;
 }
 
-void Pieces::make_patch_vertices() {
+void Tiles::make_patch_vertices() {
   resize(triangles_.xyz, 3 * n_vertices_);
   resize(triangles_.uv, 2 * n_vertices_);
-  resize(triangles_.velocity, how_.motion ? 3 * n_vertices_ : 0);
+  resize(triangles_.velocity, how_.earlier ? 3 * n_vertices_ : 0);
   triangles_.patches.clear();
-  for (const Piece &piece : pieces_) {
-    const Patch &patch = set_.patches[piece.patch];
-    triangles_.patches.push_back({piece.image->patch_id, piece.image->leaflet_id, piece.first_vertex, patch.attached,
-                                  placed(patch.axis, *piece.image, how_.placement)});
+  for (const Tile &tile : tiles_) {
+    const Patch &patch = set_.patches[tile.patch];
+    triangles_.patches.push_back({tile.image->patch_id, tile.image->leaflet_id, tile.first_vertex, patch.attached,
+                                  placed(patch.axis, *tile.image, how_.placement)});
   }
   of_patches_.resize(grids_.size());
   parallel_for(view(grids_).size(), how_.n_threads, [&](std::int64_t i, int) {
-    view(of_patches_)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.motion);
+    view(of_patches_)[i] = vertices_of(set_, static_cast<std::size_t>(i), view(grids_)[i], how_.earlier);
   });
 }
 
-void Pieces::place_vertices_of(const Piece &piece) {
-  const PatchVertices &of_patch = of_patches_[piece.patch];
+void Tiles::place_vertices_of(const Tile &tile) {
+  const PatchVertices &of_patch = of_patches_[tile.patch];
   const auto points = view(of_patch.points);
   const auto uv = view(of_patch.uv);
-  double *const xyz = triangles_.xyz.data() + 3 * piece.first_vertex;
+  double *const xyz = triangles_.xyz.data() + 3 * tile.first_vertex;
   kernels(best_instruction_set())
-      .place_points(placed_by(*piece.image, how_.placement), &of_patch.points.front().x, points.size(), xyz);
-  std::copy(of_patch.uv.begin(), of_patch.uv.end(), triangles_.uv.begin() + 2 * piece.first_vertex);
-  if (piece.seam)
+      .place_points(placed_by(*tile.image, how_.placement), &of_patch.points.front().x, points.size(), xyz);
+  std::copy(of_patch.uv.begin(), of_patch.uv.end(), triangles_.uv.begin() + 2 * tile.first_vertex);
+  if (tile.seam)
     for (std::int64_t i = 0; i < points.size(); ++i)
-      if (piece.seam->has(uv[2 * i], uv[2 * i + 1]))
-        put_vector(xyz, i, place(how_.placement, place(*piece.twin, points[i])));
-  if (!how_.motion) return;
-  const std::ptrdiff_t image = piece.image - set_.patches[piece.patch].images.data();
-  const PatchImage &before = how_.motion->patches_before.patches[piece.patch].images[static_cast<std::size_t>(image)];
-  const ImageMotion motion(*piece.image, before, how_.placement, *how_.motion);
+      if (tile.seam->has(uv[2 * i], uv[2 * i + 1]))
+        put_vector(xyz, i, place(how_.placement, place(*tile.twin, points[i])));
+  if (!how_.earlier) return;
+  const std::ptrdiff_t image = tile.image - set_.patches[tile.patch].images.data();
+  const PatchImage &before = how_.earlier->patches_before.patches[tile.patch].images[static_cast<std::size_t>(image)];
+  const ImageVelocity image(*tile.image, before, how_.placement, *how_.earlier);
   for (std::int64_t i = 0; i < points.size(); ++i)
-    put_vector(triangles_.velocity.data() + 3 * piece.first_vertex, i,
-               motion.velocity(points[i], view(of_patch.displacements)[i]));
+    put_vector(triangles_.velocity.data() + 3 * tile.first_vertex, i,
+               image.velocity(points[i], view(of_patch.displacements)[i]));
 }
 
-void Pieces::make_room_for_triangles() {
+void Tiles::make_room_for_triangles() {
   triangles_.connectivity = 0;
   triangles_.n_zero_area = 0;
   resize_triangles(room_, triangles_);
 }
 
-Vector<std::int32_t> Pieces::add_triangles_of(Piece &piece) {
-  return PieceTriangles(piece, grids_[piece.patch], how_.flip_normals, triangles_).add();
+Vector<std::int32_t> Tiles::add_triangles_of(Tile &tile) {
+  return TileTriangles(tile, grids_[tile.patch], how_.flip_normals, triangles_).add();
 }
 
-Vector<std::size_t> Pieces::complete_triangles() {
-  Vector<std::size_t> vanished = vanished_patches(pieces_);
+Vector<std::size_t> Tiles::complete_triangles() {
+  Vector<std::size_t> vanished = vanished_patches(tiles_);
   if (!vanished.empty()) return vanished;
-  close_gaps(pieces_, triangles_);
+  close_gaps(tiles_, triangles_);
   triangles_.error_bound = error_bound();
   return vanished;
 }
@@ -290,7 +291,7 @@ Vector<std::size_t> Pieces::complete_triangles() {
 Triangulation checked(const PatchSet &set, const Triangulation &asked) {
   Triangulation how = asked;
   how.max_error = error_left(set, asked.max_error);
-  if (how.motion) check_same_build(set, how.motion->patches_before);
+  if (how.earlier) check_same_build(set, how.earlier->patches_before);
   return how;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "seal/crossing.hpp"
+#include "seal/segment_triangle.hpp"
 
 #include <algorithm>
 #include <cmath>

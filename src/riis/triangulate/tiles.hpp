@@ -13,9 +13,9 @@
 
 namespace riis {
 
-// An image of a patch, which has its own range of vertices and triangles in a set. The thread that builds the image writes to no
-// other range.
-struct Piece {
+// The triangles of one image of a patch. A tile has its own range of vertices and triangles in a set. The thread that builds the
+// tile writes to no other range.
+struct Tile {
   std::size_t patch;
   const PatchImage *image;
   const PatchImage *twin;  // the image at the other side of the seam; null without a seam
@@ -34,49 +34,49 @@ struct PatchVertices {
   Vector<Vec3> displacements;  // displacements since an earlier state; empty without one
 };
 
-class Pieces {
+class Tiles {
  public:
   // Borrows its arguments. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
-  Pieces(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
+  Tiles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
 
-  const Vector<Piece> &all() const { return pieces_; }
-  // The number of triangles that all pieces have room for.
+  const Vector<Tile> &all() const { return tiles_; }
+  // The number of triangles that all tiles have room for.
   std::int64_t room() const { return room_; }
   // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
 
-  // Places the vertices of every piece, and then calls work(i) for piece i. Several threads call work at once.
+  // Places the vertices of every tile, and then calls work(i) for tile i. Several threads call work at once.
   template <class Work>
   void place_vertices(const Work &work) {
     make_patch_vertices();
-    parallel_for(view(pieces_).size(), how_.n_threads, [&](std::int64_t i, int) {
-      place_vertices_of(view(pieces_)[i]);
+    parallel_for(view(tiles_).size(), how_.n_threads, [&](std::int64_t i, int) {
+      place_vertices_of(view(tiles_)[i]);
       work(i);
     });
   }
 
-  // Makes vertices and triangles, and then calls work(i, first_of_quad) for piece i, as place_vertices does. first_of_quad has
+  // Makes vertices and triangles, and then calls work(i, first_of_quad) for tile i, as place_vertices does. first_of_quad has
   // the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
   // without area. Returns the patches that miss triangles. If there are none, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();
-    place_vertices([&](std::int64_t i) { work(i, add_triangles_of(view(pieces_)[i])); });
+    place_vertices([&](std::int64_t i) { work(i, add_triangles_of(view(tiles_)[i])); });
     return complete_triangles();
   }
 
  private:
   void make_patch_vertices();
-  void place_vertices_of(const Piece &piece);
+  void place_vertices_of(const Tile &tile);
   void make_room_for_triangles();
-  Vector<std::int32_t> add_triangles_of(Piece &piece);
+  Vector<std::int32_t> add_triangles_of(Tile &tile);
   Vector<std::size_t> complete_triangles();
 
   const PatchSet &set_;
   const Triangulation &how_;
   const Vector<LevelledGrid> &grids_;
   TriangleSet &triangles_;
-  Vector<Piece> pieces_;
+  Vector<Tile> tiles_;
   Vector<PatchVertices> of_patches_;
   std::int64_t n_vertices_ = 0, room_ = 0;
 };
