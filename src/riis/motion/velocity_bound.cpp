@@ -517,7 +517,7 @@ struct PatchErrors {
 PatchErrors errors_of(const TwoStates &states, std::size_t patch, const LevelledGrid &levelled) {
   const QuadGrid &grid = levelled.grid;
   const MovedPatch moved{states.now, states.before, patch};
-  const PatchDisplacement moves(moved, levelled);
+  const PatchDisplacement displacement(moved, levelled);
   const bool has_arcs = states.now.patches[patch].bulge != 0 || states.before.patches[patch].bulge != 0;
   const TwoCurves v0 = curves_of(states, patch, &Patch::v0), v1 = curves_of(states, patch, &Patch::v1);
   const Vector<double> at_v0 = off_linear(v0, {moved, &Patch::v0}, grid.lines.u, &GridLine::t0),
@@ -525,7 +525,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   Vector<double> at_u0(grid.v.size() - 1, 0), at_u1 = at_u0, offset(grid.u.size() - 1, 0), rows = offset;
   if (has_arcs) {
     offset = offset_off_linear(states, patch, v0, v1, grid.lines.u);
-    const Vector<Vec3> moves = moves.offset_moves();
+    const Vector<Vec3> moves = displacement.offset_moves();
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) rows[i] = larger_of(moves[i], moves[i + 1]);
   } else {
     at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
@@ -546,7 +546,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;
-      const auto at = [&](int du, int dv) { return moves.in_quad(i, j, level, column + du, at_row + dv); };
+      const auto at = [&](int du, int dv) { return displacement.in_quad(i, j, level, column + du, at_row + dv); };
       twist = larger(twist, quad_flatness({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}));
     }
     // If a neighbour is subdivided less, vertices on the common side are interpolated linearly between the neighbour's vertices.

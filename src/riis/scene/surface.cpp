@@ -64,7 +64,7 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   pseudonormals_.store(nullptr, std::memory_order_relaxed);
   pseudonormals_owner_.reset();
   other_distance_.reset();
-  frame_.reset();
+  source_valve_.reset();
   states_.reset();
   patches_.reset();
   n_directions_ = 0;

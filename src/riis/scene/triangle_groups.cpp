@@ -10,7 +10,7 @@
 
 namespace riis {
 
-SurfaceFrame::Frame(const Bounds &bounds) {
+SurfaceFrame::SurfaceFrame(const Bounds &bounds) {
   centre = bounds.middle();
   const Vec3 extent = bounds.upper - bounds.lower;
   int exponent = 0;
