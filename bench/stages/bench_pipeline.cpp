@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
-#include "geometry/polyline.hpp"
+#include "geometry/curve.hpp"
 #include "scene/triangle_scene.hpp"
 #include "shared/handles.hpp"
 #include "triangulate/grids.hpp"

@@ -63,7 +63,7 @@ def colours_in(folder, path, pattern):
 
 def main(folder):
     palette = colours_in(folder, "src/riis_vtk/picture/drawing.hpp", r"distinct_colours\[\]\[3\] = (\{.*?\});")
-    with open(os.path.join(folder, "src/riis_vtk/picture/picture_panels.hpp"), encoding="utf-8") as file:
+    with open(os.path.join(folder, "src/riis_vtk/picture/picture_scene.hpp"), encoding="utf-8") as file:
         red = re.search(r"leak_colour = \{([0-9., ]+)\}", file.read())[1]
     leak = tuple(round(255 * float(part)) for part in red.split(","))
     plots = colours_in(folder, "bench/report/report_text.py", r"\nCOLOURS = (\(.*?\))\n")

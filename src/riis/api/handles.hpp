@@ -18,7 +18,7 @@
 #include "pipeline/updatable_surface.hpp"
 #include "scene/surface.hpp"
 #include "seal/leaks.hpp"
-#include "valve/patch_arrays.hpp"
+#include "valve/user_patches.hpp"
 #include "valve/valve.hpp"
 #include "valve/warp.hpp"
 

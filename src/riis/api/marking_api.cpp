@@ -11,7 +11,6 @@
 #include "obstacle/resistance.hpp"
 #include "pipeline/mark_nodes.hpp"
 #include "seal/leaks.hpp"
-#include "seal/open_regions.hpp"
 #include "seal/passage.hpp"
 
 using riis::guarded;

@@ -8,6 +8,7 @@
 
 #include "base/recycled.hpp"
 #include "geometry/bezier.hpp"
+#include "geometry/vec3.hpp"
 
 namespace riis {
 
@@ -113,5 +114,67 @@ struct Flattened {
 // part, and no slivers arise between them. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more than
 // 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
+
+// Points of a curve at many shares of its length, found in one pass.
+// In: a curve, ascending shares. Out: points, tangents, and bounds for the parts between them.
+class CurvePoints {
+ public:
+  // Finds the points at these shares, which ascend from 0 to 1. If is_reversed, the shares count from the curve's last point.
+  // The curve and the shares must outlive this object. On a curve without length, all points coincide.
+  CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares);
+
+  std::size_t size() const { return points_.size(); }
+  Vec3 point(std::size_t i) const;
+  // span() returns the span that point i lies on, and parameter() returns the parameter on that span.
+  std::size_t span(std::size_t i) const { return on_span(i).span; }
+  double parameter(std::size_t i) const { return on_span(i).t; }
+  // Returns the unit tangent, or 0 if the curve has no direction there.
+  Vec3 tangent(std::size_t i) const;
+
+  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
+  // next call.
+  const Vector<Bezier> &between(std::size_t i, std::size_t j);
+
+  // Bounds the distance between the chord from share i to share j and the curve, at equal shares of their lengths
+  // (docs/theory.md, "Chord error"). The bound is not refined further once it is at most `enough`.
+  double chord_error(std::size_t i, std::size_t j, double enough);
+
+ private:
+  const PointOnSpan &on_span(std::size_t i) const { return points_[is_reversed_ ? points_.size() - 1 - i : i]; }
+
+  const Curve &curve_;
+  bool is_reversed_;
+  const Vector<double> &shares_;
+  Vector<PointOnSpan> points_;  // in the order along the curve
+  Vector<Bezier> parts_;
+};
+
+// Polylines parametrised by length (paper, 3.2.2 "Polyline").
+// In: points or a curve. Out: C(t) for t in [0,1], where t is the share of the length.
+struct Polyline {
+  Vector<Vec3> points;    // at least 1
+  Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0
+  Vector<double> errors;  // for every segment, a bound on its distance at equal t from the curve that it replaces
+  double length;          // the length of that curve
+};
+
+// Returns the polyline through the points, parametrised by its own length. It replaces no curve, so its errors are 0. Drops
+// repeated points, so that t ascends strictly. Needs at least one point.
+Polyline make_polyline(const Vector<Vec3> &points);
+
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. A vertex's t is its share of
+// the curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any
+// tolerance.
+Polyline make_polyline(const Curve &curve, double max_error);
+// Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
+// each segment.
+Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
+
+// Returns the same polyline in the opposite direction.
+Polyline reversed(const Polyline &polyline);
+
+// Returns C(t) by linear interpolation, t in [0,1]. At the t of a vertex the result is exactly the vertex, and C(1) is the last
+// point. (The paper uses the smallest t_i > t, which does not exist at t = 1.)
+Vec3 evaluate(const Polyline &polyline, double t);
 
 }  // namespace riis

@@ -9,7 +9,7 @@
 #include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "geometry/curve.hpp"
-#include "landmarks/models.hpp"
+#include "landmarks/fit.hpp"
 #include "valve/mitral_annulus.hpp"
 
 namespace riis {

@@ -9,7 +9,7 @@
 
 #include "base/constants.hpp"
 #include "base/errors.hpp"
-#include "landmarks/models.hpp"
+#include "landmarks/fit.hpp"
 
 namespace riis {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/unfilled.hpp"
+#include "base/recycled.hpp"
 #include "kernels/kernels.hpp"
 #include "marks/node_list.hpp"
 #include "search/found_nodes.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/unfilled.hpp"
+#include "base/recycled.hpp"
 #include "marks/fields.hpp"
 #include "marks/node_list.hpp"
 #include "marks/put_in_order.hpp"

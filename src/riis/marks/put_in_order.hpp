@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/unfilled.hpp"
+#include "base/recycled.hpp"
 #include "marks/node_list.hpp"
 #include "scene/surface.hpp"
 #include "search/found_nodes.hpp"

@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "common/array_view.hpp"
-#include "geometry/bounds.hpp"
+#include "geometry/vec3.hpp"
 #include "parallel/parallel_for.hpp"
 #include "scene/triangle_scene.hpp"
 

@@ -9,7 +9,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "geometry/coons.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 #include "motion/displacement.hpp"
 #include "parallel/parallel_for.hpp"
 

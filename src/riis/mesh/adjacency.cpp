@@ -2,16 +2,237 @@
 #include "mesh/adjacency.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <memory>
+#include <new>
+#include <vector>
 
 #include "base/errors.hpp"
+#include "base/recycled.hpp"
 #include "common/array_view.hpp"
 #include "mesh/cells.hpp"
-#include "mesh/incidence.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {
 namespace {
+
+// Makes an adjacency from items, which are cells or faces. First it lists the items that each node is in.
+// In: lists of items. Out: sorted rows without repeats, which do not depend on the number of threads.
+
+// Memory from malloc, which realloc can shrink in place. The content must be plain data.
+class PlainMemory {
+ public:
+  // Keeps as much of the content as fits in both the old and the new size.
+  void resize(std::int64_t n_bytes) {
+    if (n_bytes == 0) return memory_.reset();
+    void *const moved = std::realloc(memory_.get(), static_cast<std::size_t>(n_bytes));
+    if (!moved) throw std::bad_alloc();
+    static_cast<void>(memory_.release());
+    memory_.reset(moved);
+  }
+  template <class T>
+  T *as() const {
+    return static_cast<T *>(memory_.get());
+  }
+
+ private:
+  struct Free {
+    void operator()(void *memory) const { std::free(memory); }
+  };
+  std::unique_ptr<void, Free> memory_;
+};
+
+// Makes the rows. An entry tells that a node is in an item. Entries are stored in blocks of nodes, and within a block node by
+// node. Later the rows overwrite them.
+// Lists is a type with
+//   n_nodes, n_items
+//   most_neighbors                         the most different nodes that for_each_neighbor visits
+//   for_each_entry(range, visit)           calls visit(node, entry) for every node of every item in a range
+//   for_each_neighbor(entry, node, visit)  calls visit(other) for the neighbours that an entry gives its node, in any order
+//   prefetch(entry)                        requests the memory that for_each_neighbor reads
+// The type Entry can hold the number of all entries, and Column the number of nodes.
+template <class Entry, class Column, class Lists>
+class RowMaker {
+ public:
+  RowMaker(const Lists &lists, int n_threads)
+      : lists_(lists),
+        n_threads_(n_threads),
+        n_parts_(std::min<std::int64_t>(n_threads, most_parts)),
+        n_blocks_((lists.n_nodes + nodes_per_block - 1) / nodes_per_block) {}
+
+  void make(UnfilledVector<std::int64_t> &offsets, UnfilledVector<Column> &columns) {
+    count();
+    fill();
+    make_rows(offsets);
+    next_ = UnfilledVector<Entry>();
+    join(offsets, columns);
+  }
+
+ private:
+  static constexpr std::int64_t nodes_per_block = 4096;
+  // Each part of the items has its own count for each node. More parts would cost more memory than the time saved is worth.
+  static constexpr std::int64_t most_parts = 8;
+  static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
+  static constexpr std::int64_t most_inserted =
+      64;  // a row of more entries is sorted as a whole, because insertion would be too slow
+
+  Range items_of(std::int64_t part) const {
+    return {lists_.n_items / n_parts_ * part + std::min(lists_.n_items % n_parts_, part),
+            lists_.n_items / n_parts_ * (part + 1) + std::min(lists_.n_items % n_parts_, part + 1)};
+  }
+  Entry *next_of(std::int64_t part) { return next_.data() + part * lists_.n_nodes; }
+  Range nodes_of(std::int64_t block) const {
+    return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
+  }
+
+  // Counts the entries of each part at each node. Then replaces each count by the position in the block at which its entries will
+  // begin.
+  void count() {
+    resize(next_, n_parts_ * lists_.n_nodes);
+    parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
+      Entry *const counts = next_of(part);
+      std::fill(counts, counts + lists_.n_nodes, Entry{0});
+      lists_.for_each_entry(items_of(part), [counts](std::int64_t node, std::int64_t) { ++counts[node]; });
+    });
+    resize(blocks_, n_blocks_);
+    parallel_for(n_blocks_, n_threads_, [&](std::int64_t block, int) {
+      Entry sum = 0;
+      const Range nodes = nodes_of(block);
+      for (std::int64_t node = nodes.begin; node < nodes.end; ++node)
+        for (std::int64_t part = 0; part < n_parts_; ++part) {
+          Entry &next = next_of(part)[node];
+          const Entry n = next;
+          next = sum;
+          sum += n;
+        }
+      view(blocks_)[block].resize(static_cast<std::int64_t>(sum * sizeof(Entry)));
+    });
+  }
+
+  // Writes the entries. Afterwards each position in next_ is the end of its entries.
+  void fill() {
+    parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
+      Entry *const next = next_of(part);
+      const PlainMemory *const blocks = blocks_.data();
+      const auto place_of = [&](std::int64_t node) {
+        return blocks[node / nodes_per_block].template as<Entry>() + next[node];
+      };
+      const Range items = items_of(part);
+      for (std::int64_t begin = items.begin; begin < items.end; begin += items_ahead) {
+        const Range few{begin, std::min(begin + items_ahead, items.end)};
+        lists_.for_each_entry(few, [&](std::int64_t node, std::int64_t) { __builtin_prefetch(place_of(node), 1); });
+        lists_.for_each_entry(few, [&](std::int64_t node, std::int64_t entry) {
+          *place_of(node) = static_cast<Entry>(entry);
+          ++next[node];
+        });
+      }
+    });
+  }
+
+  // The memory of one thread while it makes rows.
+  struct Scratch {
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has the node
+    UnfilledVector<Column> columns;     // columns of one block
+  };
+
+  // Makes the rows of each block in the memory of its entries. Writes the rows' lengths where the offsets will be.
+  void make_rows(UnfilledVector<std::int64_t> &offsets) {
+    resize(offsets, lists_.n_nodes + 1);
+    view(offsets)[0] = 0;
+    std::vector<Scratch> by_thread;
+    resize(by_thread, n_threads_);
+    parallel_for(n_blocks_, n_threads_, [&](std::int64_t number, int thread) {
+      PlainMemory &block = view(blocks_)[number];
+      Scratch &scratch = view(by_thread)[thread];
+      resize(scratch.is_seen, lists_.n_nodes);
+      const Range nodes = nodes_of(number);
+      const Entry *const ends = next_of(n_parts_ - 1);
+      const ArrayView<const Entry> entries(block.as<Entry>(), static_cast<std::int64_t>(ends[nodes.end - 1]));
+      const Lists lists = lists_;  // a copy, so that the compiler knows that stores to is_seen do not change the lists
+      std::int64_t begin = 0, n_columns = 0;
+      for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
+        const auto end = static_cast<std::int64_t>(ends[node]);
+        const std::int64_t room = n_columns + std::min((end - begin) * Lists::most_neighbors, lists_.n_nodes);
+        if (view(scratch.columns).size() < room)
+          resize(scratch.columns, std::max(room, 2 * view(scratch.columns).size()));
+        const std::int64_t n =
+            make_row(lists, node, entries, {begin, end}, scratch.is_seen.data(), scratch.columns.data() + n_columns);
+        view(offsets)[node + 1] = n;
+        n_columns += n;
+        begin = end;
+      }
+      const auto n_bytes = static_cast<std::int64_t>(sizeof(Column)) * n_columns;
+      block.resize(n_bytes);
+      if (n_bytes > 0) std::memcpy(block.as<Column>(), scratch.columns.data(), static_cast<std::size_t>(n_bytes));
+    });
+  }
+
+  // Writes the row of a node and returns its length. is_seen is all 0 before and after.
+  static std::int64_t make_row(const Lists &lists, std::int64_t node, const ArrayView<const Entry> &entries,
+                               const Range &of_node, std::uint8_t *is_seen, Column *row) {
+    const bool inserts = of_node.end - of_node.begin <= most_inserted;
+    std::int64_t n = 0;
+    is_seen[node] = 1;  // a node that is listed twice in an item is no neighbour of itself
+    for (std::int64_t k = of_node.begin; k < of_node.end; ++k) {
+      lists.prefetch(static_cast<std::int64_t>(entries[std::min(k + entries_ahead, entries.size() - 1)]));
+      lists.for_each_neighbor(static_cast<std::int64_t>(entries[k]), node, [&](std::int64_t other) {
+        if (is_seen[other]) return;
+        is_seen[other] = 1;
+        const auto column = static_cast<Column>(other);
+        std::int64_t at = n++;
+        if (inserts)
+          for (; at > 0 && row[at - 1] > column; --at) row[at] = row[at - 1];
+        row[at] = column;
+      });
+    }
+    is_seen[node] = 0;
+    for (std::int64_t k = 0; k < n; ++k) is_seen[row[k]] = 0;
+    if (!inserts) std::sort(row, row + n);
+    return n;
+  }
+
+  // Turns lengths into offsets, and copies the rows of one block after another.
+  void join(UnfilledVector<std::int64_t> &offsets, UnfilledVector<Column> &columns) {
+    for (std::int64_t node = 0; node < lists_.n_nodes; ++node) view(offsets)[node + 1] += view(offsets)[node];
+    resize(columns, view(offsets)[lists_.n_nodes]);
+    parallel_for(n_blocks_, n_threads_, [&](std::int64_t number, int) {
+      const Range nodes = nodes_of(number);
+      const std::int64_t begin = view(offsets)[nodes.begin], n = view(offsets)[nodes.end] - begin;
+      std::copy_n(view(blocks_)[number].template as<Column>(), n, columns.data() + begin);
+      view(blocks_)[number].resize(0);
+    });
+  }
+
+  const Lists &lists_;
+  int n_threads_;
+  std::int64_t n_parts_, n_blocks_;
+  UnfilledVector<Entry> next_;       // (n_nodes, n_parts)
+  std::vector<PlainMemory> blocks_;  // hold entries first and columns later
+};
+
+// For lists within NarrowLimits.
+template <class Lists>
+OwnAdjacency narrow_adjacency_of_lists(const Lists &lists, int n_threads) {
+  OwnAdjacency made;
+  RowMaker<std::uint32_t, std::int32_t, Lists>(lists, n_threads).make(made.offsets, made.columns_32);
+  return made;
+}
+
+// Makes the adjacency of the lists, which must have at most n_entries entries.
+template <class Lists>
+OwnAdjacency adjacency_of_lists(const Lists &lists, std::int64_t n_entries, int n_threads, const NarrowLimits &limits) {
+  OwnAdjacency made;
+  if (lists.n_nodes > limits.n_nodes)
+    RowMaker<std::uint64_t, std::int64_t, Lists>(lists, n_threads).make(made.offsets, made.columns_64);
+  else if (n_entries > limits.n_entries)
+    RowMaker<std::uint64_t, std::int32_t, Lists>(lists, n_threads).make(made.offsets, made.columns_32);
+  else
+    made = narrow_adjacency_of_lists(lists, n_threads);
+  return made;
+}
 
 constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max() / 64;
 

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/integer_array.hpp"
-#include "base/unfilled.hpp"
+#include "base/recycled.hpp"
 
 namespace riis {
 

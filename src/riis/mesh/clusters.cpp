@@ -8,7 +8,6 @@
 #include <cstdint>
 
 #include "common/array_view.hpp"
-#include "mesh/fill_clusters.hpp"
 
 namespace riis {
 namespace {

@@ -3,6 +3,7 @@
 // the nodes: balls, clusters and blocks of edges. Each is made when it is first needed.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -10,14 +11,37 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
+#include "geometry/vec3.hpp"
 #include "mesh/adjacency.hpp"
 #include "mesh/clusters.hpp"
-#include "mesh/node_balls.hpp"
-#include "mesh/proportions.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
+
+// The mesh's nodes in balls. A ball holds 32 nodes near each other, and a large ball holds 16 balls. The neighbour search can
+// dismiss all nodes of a ball at once. The order of the nodes is made once for a mesh. When nodes move, the order stays, and the
+// balls are made again.
+struct Ball {
+  Vec3 centre;
+  double radius;  // at least the distance from the centre to each of its nodes
+};
+
+struct NodeBalls {
+  static constexpr std::int64_t nodes_per_ball = 32, balls_per_large_ball = 16;
+
+  std::vector<std::int64_t> order;  // all nodes, ball by ball
+  std::vector<Ball> balls, large_balls;
+
+  Range nodes_of(std::int64_t ball) const;  // positions in order
+  Range balls_of(std::int64_t large_ball) const;
+};
+
+// Makes the order. This function and the next fail with RIIS_INVALID_MESH for an unusable coordinate.
+void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls);
+
+// Makes the balls and the large balls from the order.
+void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
 // The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
 // surface can pass over most blocks as a whole.
@@ -31,6 +55,32 @@ struct EdgeBlocks {
   std::vector<Block> blocks;
   double longest = 0;  // the length of the mesh's longest edge
 };
+
+// Checks whether a mesh, a surface and its half thickness can be in the same unit.
+// In: boxes that are known already. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
+
+// The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
+class WarnedSurfaces {
+ public:
+  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, also returns false for new
+  // numbers.
+  bool is_first(std::uint64_t surface_number);
+  bool has(std::uint64_t surface_number) const;
+
+ private:
+  static constexpr std::size_t capacity = 8;
+  std::array<std::atomic<std::uint64_t>, capacity> numbers_{};
+};
+
+struct Sizes {
+  std::int64_t n_nodes;
+  Bounds mesh, surface;
+  double half_thickness;
+};
+
+// Takes a few comparisons for a mesh of any size. Compares sizes and not positions, because one process's part of a mesh may lie
+// far from the surface.
+void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
 
 class Mesh {
  public:

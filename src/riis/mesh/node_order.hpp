@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/unfilled.hpp"
+#include "base/recycled.hpp"
 #include "common/array_view.hpp"
-#include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
+#include "geometry/vec3.hpp"
 #include "kernels/kernels.hpp"
 #include "parallel/parallel_for.hpp"
 

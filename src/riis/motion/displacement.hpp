@@ -9,7 +9,7 @@
 
 #include "base/recycled.hpp"
 #include "geometry/coons.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/quads.hpp"
 #include "valve/patches.hpp"

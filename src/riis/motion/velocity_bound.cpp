@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 #include "motion/displacement.hpp"
 
 namespace riis {

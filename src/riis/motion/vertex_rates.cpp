@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "common/array_view.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 #include "motion/displacement.hpp"
 #include "parallel/parallel_for.hpp"
 

@@ -6,6 +6,11 @@
 
 namespace riis {
 
+// The positions i of a list with begin <= i < end.
+struct Range {
+  std::int64_t begin, end;
+};
+
 // The number of threads of a call. It also records whether the caller or the library chose the number.
 class Threads {
  public:

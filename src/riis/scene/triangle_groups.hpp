@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/array_view.hpp"
-#include "geometry/bounds.hpp"
+#include "geometry/vec3.hpp"
 #include "kernels/kernels.hpp"
-#include "parallel/range.hpp"
+#include "parallel/threads.hpp"
 #include "triangulate/triangle_set.hpp"
 
 namespace riis {

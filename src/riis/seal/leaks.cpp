@@ -9,7 +9,7 @@
 #include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
 #include "seal/segment_triangle.hpp"
-#include "search/distances.hpp"
+#include "search/search.hpp"
 
 namespace riis {
 namespace {

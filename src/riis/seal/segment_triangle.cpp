@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/array_view.hpp"
-#include "geometry/bounds.hpp"
+#include "geometry/vec3.hpp"
 
 namespace riis {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/array_view.hpp"
 #include "geometry/point_triangle.hpp"
-#include "mesh/fill_clusters.hpp"
+#include "mesh/clusters.hpp"
 #include "mesh/node_order.hpp"
 #include "parallel/parallel_for.hpp"
 #include "search/cluster_search.hpp"

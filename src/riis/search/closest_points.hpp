@@ -7,8 +7,8 @@
 
 #include <cstdint>
 
-#include "geometry/bounds.hpp"
 #include "geometry/strided.hpp"
+#include "geometry/vec3.hpp"
 #include "parallel/threads.hpp"
 #include "scene/surface.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "base/errors.hpp"
 #include "parallel/parallel_for.hpp"
-#include "search/distances.hpp"
 
 namespace riis {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/unfilled.hpp"
+#include "base/recycled.hpp"
 #include "common/array_view.hpp"
 #include "scene/ties.hpp"
 #include "triangulate/triangle_set.hpp"

@@ -10,7 +10,7 @@
 #include "common/array_view.hpp"
 #include "parallel/concurrent_walk.hpp"
 #include "parallel/parallel_for.hpp"
-#include "search/distances.hpp"
+#include "search/search.hpp"
 
 namespace riis {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
-#include "parallel/range.hpp"
+#include "parallel/threads.hpp"
 #include "search/found_nodes.hpp"
 #include "search/search.hpp"
 

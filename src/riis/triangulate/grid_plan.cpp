@@ -10,7 +10,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 #include "motion/displacement.hpp"
 #include "parallel/parallel_for.hpp"
 #include "triangulate/grids.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "kernels/kernels.hpp"
-#include "parallel/range.hpp"
+#include "parallel/threads.hpp"
 #include "triangulate/grids.hpp"
 #include "triangulate/tiles.hpp"
 #include "triangulate/triangulate.hpp"

@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "geometry/coons.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 
 namespace riis {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/picture/picture_panels.hpp"
+#include "riis_vtk/picture/picture_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

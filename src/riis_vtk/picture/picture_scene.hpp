@@ -5,18 +5,150 @@
 
 #include <riis/riis_vtk.h>
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <vtkNew.h>
-
-#include "riis_vtk/picture/picture_panels.hpp"
+#include <vtkPlane.h>
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 class vtkCamera;
 class vtkImageData;
 class vtkRenderWindow;
+class vtkActor;
+class vtkUnstructuredGrid;
+class vtkPointSet;
+class vtkPolyData;
 
 namespace riis::vtk {
+
+// The view.
+// In: the direction of view, and the extents of the surface and the mesh. Out: the visible space, for the camera, the cut and the
+// scale bar. If the mesh extends beyond the panel, planes cut it, and dashed lines show the cuts.
+
+using Vector = std::array<double, 3>;
+
+struct Extent {
+  double lower, upper;
+  double middle() const { return 0.5 * lower + 0.5 * upper; }
+  double half() const { return 0.5 * upper - 0.5 * lower; }
+  bool meets(const Extent &other) const { return lower <= other.upper && other.lower <= upper; }
+};
+
+// Extents along the axes of a view: to the right, upwards, and away from the eye.
+using Extents = std::array<Extent, 3>;
+// Extents along x, y and z.
+using Bounds = std::array<Extent, 3>;
+
+// The unit vectors along a valve's own x, y and z, after its placement.
+using Axes = std::array<Vector, 3>;
+
+// Returns the mesh's axes, turned about an axis of any length other than 0.
+Axes axes_turned(const double axis[3], double degrees);
+
+// A view without perspective, so that lengths can be compared. right, up and away are perpendicular unit vectors.
+struct View {
+  std::array<Vector, 3> axes;
+
+  // `view` is RIIS_VTK_VIEW_*, but not one of three views. `valve` is used by the views that look by the valve's axes.
+  View(std::int32_t view, const Axes &valve);
+  const Vector &right() const { return axes[0]; }
+  const Vector &up() const { return axes[1]; }
+  const Vector &away() const { return axes[2]; }
+  Extents extents_of(vtkPointSet *data) const;
+  // Returns the extents of the whole box.
+  Extents extents_of(const Bounds &bounds) const;
+};
+
+// The part of space that a panel shows, in terms of the axes of its view.
+struct Sight {
+  Extents shown;                  // x and y up to the panel's edges; z is the depth of surface and mesh
+  std::array<Extent, 2> uncut;    // x and y at which a mesh that extends further is cut
+  std::array<bool, 2> cut_below;  // whether the mesh is cut on the left, and below
+  std::array<bool, 2> cut_above;  // whether the mesh is cut on the right, and above
+  bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
+};
+
+// Returns a sight that contains the surface. Along an axis on which the mesh is not much larger, the sight also contains the
+// mesh. So pictures of a valve that moves in one mesh can be compared. Along other axes, the sight contains the surface's
+// neighbourhood.
+//   mesh    NULL if there is none
+//   aspect  the panel's width divided by its height
+//   least   the least half height of the panel, so that several views can have one scale
+Sight sight_of(const Extents &surface, const Extents *mesh, double aspect, double least = 0);
+
+void aim_camera(vtkCamera *camera, const View &view, const Sight &sight);
+
+// Returns planes for the mapper of the mesh. There are none if the whole mesh is in sight.
+std::vector<vtkSmartPointer<vtkPlane>> cutting_planes(const View &view, const Sight &sight);
+
+// Returns dashed lines where the planes cut the boundary. The lines are nearer to the eye than everything else.
+vtkSmartPointer<vtkPolyData> dashes_where_cut(const View &view, const Sight &sight, vtkPolyData *boundary);
+
+// Red, green and blue, each from 0 to 1.
+using Colour = std::array<double, 3>;
+
+Colour colour_of_leaflet(vtkIdType leaflet);
+// A dark red, which no colour vision confuses with the leaflets' vermilion.
+constexpr Colour leak_colour = {0.55, 0.0, 0.0};
+constexpr Colour grey = {0.2, 0.2, 0.2};
+
+// The panel with the surface, in which each leaflet has its own colour. The rims are drawn as lines, because faces that are seen
+// edge-on cover no pixels.
+class SurfacePanel {
+ public:
+  // `pixels` is the width of a line.
+  explicit SurfacePanel(double pixels);
+  // Replaces the surface that was shown before.
+  void show(vtkPolyData *surface);
+  // Turns to a view. The lines are drawn slightly behind the faces, so that nearer faces hide the lines.
+  void look(const View &view, const Sight &sight);
+  vtkRenderer *renderer() const { return renderer_; }
+  const std::set<vtkIdType> &leaflets() const { return leaflets_; }
+
+ private:
+  vtkSmartPointer<vtkRenderer> renderer_;
+  double pixels_;
+  vtkSmartPointer<vtkActor> rims_;
+  std::set<vtkIdType> leaflets_;
+};
+
+struct MarkCounts {
+  vtkIdType n_nodes = 0, n_marked_nodes = 0;
+  vtkIdType n_whole_cells = 0;   // cells with all nodes marked
+  vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
+};
+
+// The panel with marked cells inside the faint boundary of the mesh. A cell has the colour of its closest node's leaflet, and a
+// partly marked cell is paler. Leaking edges are red. Cells below the grid's largest dimension are left out.
+class MarksPanel {
+ public:
+  // `pixels` is the width of a line.
+  MarksPanel(vtkUnstructuredGrid *grid, double pixels);
+  // Replaces the marks that were shown before by those in the grid's point arrays. leaking_edges(2, n_leaking_edges) must hold
+  // valid node ids.
+  void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
+  vtkRenderer *renderer() const { return renderer_; }
+  const MarkCounts &counts() const { return counts_; }
+  // Turns to a view. Cuts a mesh that extends beyond the panel, and moves leaking edges in front of everything else.
+  void look(const View &view, const Sight &sight);
+
+ private:
+  void add_marks(vtkUnstructuredGrid *grid);
+  void add_leaks(vtkUnstructuredGrid *grid, std::int64_t n, const std::int64_t *edges);
+  void add_outline(vtkUnstructuredGrid *grid);
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  MarkCounts counts_;
+  double pixels_;
+  double partly_length_ = 0;                                                 // mean edge length of partly marked cells
+  vtkSmartPointer<vtkActor> partly_, whole_, leaks_, skin_, outline_, cut_;  // leaks_ is NULL without leaking edges
+};
 
 // The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
 // texts. The panels are side by side or, in a column of three views, above each other. Texts belong to a column of panels.

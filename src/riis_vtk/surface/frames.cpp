@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/surface/frames.hpp"
+#include "riis_vtk/surface/surfaces.hpp"
 
 #include <algorithm>
 #include <array>

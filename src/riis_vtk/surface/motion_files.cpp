@@ -15,7 +15,7 @@
 
 #include "common/array_view.hpp"
 #include "riis_vtk/read/grid_files.hpp"
-#include "riis_vtk/surface/frames.hpp"
+#include "riis_vtk/surface/surfaces.hpp"
 
 struct riis_vtk_motion {
   riis::vtk::Frames frames;
