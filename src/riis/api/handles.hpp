@@ -14,7 +14,7 @@
 #include "marks/marks.hpp"
 #include "measures/crossings.hpp"
 #include "mesh/mesh.hpp"
-#include "parallel/keeps_arenas.hpp"
+#include "parallel/threads.hpp"
 #include "pipeline/updatable_surface.hpp"
 #include "scene/surface.hpp"
 #include "seal/leaks.hpp"
