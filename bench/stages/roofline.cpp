@@ -21,7 +21,7 @@
 #include "api/handles.hpp"
 #include "kernels/count.hpp"
 #include "kernels/table.hpp"
-#include "marks/put_in_order.hpp"
+#include "marks/marks.hpp"
 #include "peak.hpp"
 #include "search/cluster_search.hpp"
 #include "shared/cylinder.hpp"

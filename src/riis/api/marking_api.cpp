@@ -10,8 +10,7 @@
 #include "common/array_view.hpp"
 #include "obstacle/resistance.hpp"
 #include "pipeline/mark_nodes.hpp"
-#include "seal/leaks.hpp"
-#include "seal/passage.hpp"
+#include "seal/seal.hpp"
 
 using riis::guarded;
 using riis::require;

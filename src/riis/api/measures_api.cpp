@@ -13,11 +13,7 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
-#include "measures/cells_across.hpp"
-#include "measures/coaptation.hpp"
-#include "measures/orifice.hpp"
-#include "measures/swept_volume.hpp"
-#include "measures/wall.hpp"
+#include "measures/measures.hpp"
 
 using riis::check_range;
 using riis::guarded;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "marks/fields.hpp"
+#include "marks/marks.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "marks/put_in_order.hpp"
+#include "marks/marks.hpp"
 
 #include <algorithm>
 #include <cstddef>

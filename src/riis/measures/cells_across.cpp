@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measures/cells_across.hpp"
+#include "measures/measures.hpp"
 
 #include <algorithm>
 #include <limits>

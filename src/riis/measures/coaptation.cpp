@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measures/coaptation.hpp"
+#include "measures/measures.hpp"
 
 #include <riis/riis.h>
 

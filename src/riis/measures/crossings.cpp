@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measures/crossings.hpp"
+#include "measures/measures.hpp"
 
 #include <algorithm>
 #include <array>

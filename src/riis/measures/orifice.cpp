@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measures/orifice.hpp"
+#include "measures/measures.hpp"
 
 #include <cmath>
 #include <optional>

@@ -12,7 +12,6 @@
 #include "base/log.hpp"
 #include "common/array_view.hpp"
 #include "paper_distances/powell.hpp"
-#include "paper_distances/sample_set.hpp"
 #include "triangulate/grids.hpp"
 
 namespace riis {

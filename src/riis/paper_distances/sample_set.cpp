@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "paper_distances/sample_set.hpp"
+#include "paper_distances/patch_distance.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "base/log.hpp"
 #include "common/array_view.hpp"
-#include "measures/crossings.hpp"
+#include "measures/measures.hpp"
 #include "parallel/parallel_for.hpp"
 
 namespace riis {

@@ -9,7 +9,6 @@
 
 #include "geometry/point_triangle.hpp"
 #include "kernels/kernels.hpp"
-#include "search/found_nodes.hpp"
 #include "search/search.hpp"
 
 namespace riis {

@@ -9,7 +9,6 @@
 
 #include "common/array_view.hpp"
 #include "parallel/threads.hpp"
-#include "search/found_nodes.hpp"
 #include "search/search.hpp"
 
 namespace riis {

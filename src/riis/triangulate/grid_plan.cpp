@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "triangulate/grid_plan.hpp"
+#include "triangulate/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "valve/warped_patches.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 namespace {

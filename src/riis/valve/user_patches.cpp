@@ -9,7 +9,7 @@
 
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
-#include "valve/warped_patches.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 namespace {

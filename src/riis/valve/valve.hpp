@@ -14,7 +14,6 @@
 #include "valve/patches.hpp"
 #include "valve/skirt.hpp"
 #include "valve/warp.hpp"
-#include "valve/warped_patches.hpp"
 
 namespace riis {
 

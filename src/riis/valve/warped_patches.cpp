@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/warped_patches.hpp"
+#include "valve/warp.hpp"
 
 #include <algorithm>
 #include <array>

@@ -23,7 +23,6 @@
 #include "common/array_view.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 #include "riis_vtk/read/other_files.hpp"
-#include "riis_vtk/read/small_xml.hpp"
 
 namespace riis::vtk {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/read/hdf5_file.hpp"
+#include "riis_vtk/read/other_files.hpp"
 
 #ifdef RIIS_VTK_HDF5
 #include <vtk_hdf5.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/read/small_xml.hpp"
+#include "riis_vtk/read/other_files.hpp"
 
 #include <algorithm>
 

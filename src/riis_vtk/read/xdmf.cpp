@@ -18,9 +18,7 @@
 
 #include "common/array_view.hpp"
 #include "common/xml_text.hpp"
-#include "riis_vtk/read/hdf5_file.hpp"
 #include "riis_vtk/read/other_files.hpp"
-#include "riis_vtk/read/small_xml.hpp"
 
 namespace riis::vtk {
 namespace {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Open regions, and the widest passage: the path from one set of nodes to another that stays farthest from the surface.
-// In: a surface, a mesh with an adjacency, closed nodes or two sets of nodes. Out: for each node the lowest node of its region, or
-// the path's node nearest to the surface and its distance.
+// Whether marks seal a valve: leaks, open regions, and the widest passage.
 #pragma once
 
 #include <riis/riis.h>
@@ -10,12 +8,33 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "geometry/vec3.hpp"
+#include "marks/marks.hpp"
 #include "mesh/adjacency.hpp"
 #include "search/search.hpp"
 
 namespace riis {
 
-// The nodes whose connected components are open regions: those neither closed nor masked out.
+// Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave these paths open.
+// In: a surface, a mesh with an adjacency, the marks. Out: the leaking edges in ascending order.
+
+// Edges between two unmarked nodes that cross the surface, in ascending order. riis_leak_list documents the members.
+struct Leaks {
+  std::vector<std::int64_t> node_id;  // (2, n)
+  std::vector<double> length, distance;
+  double half_thickness = 0;
+  std::int64_t longest_node_id[2] = {-1, -1};
+  double longest_length = 0;
+  Vec3 longest_middle{0, 0, 0};
+  double seconds = 0;
+};
+
+// Finds the leaks. Fails with RIIS_INVALID_MESH for an unusable coordinate. Does not use the request's distance limit.
+Leaks find_leaks(const SearchRequest &request, const Marks &marks);
+
+// Open regions: the connected components of the nodes that are neither closed nor masked out.
+// In: an adjacency, the closed nodes. Out: for each node, the lowest node of its region.
+
 struct OpenNodes {
   const Adjacency &adjacency;
   const std::uint8_t *node_mask;               // or null
@@ -77,6 +96,9 @@ class OpenSets {
 
   ArrayView<std::int64_t> parent_;
 };
+
+// The widest passage: the path from one set of nodes to another that stays farthest from the surface.
+// In: a surface, a mesh with an adjacency, the two sets. Out: the path's node nearest to the surface, and its distance.
 
 // The two sets of nodes. Each has at least one node, and none is masked out.
 struct PassageEnds {
