@@ -10,7 +10,7 @@
 #include "accuracy/methods.hpp"
 #include "accuracy/smooth_surface.hpp"
 #include "geometry/placement.hpp"
-#include "surface/triangulate.hpp"
+#include "triangulate/triangulate.hpp"
 
 namespace riis::accuracy {
 namespace {

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "api/handles.hpp"
-#include "distance/sample_set.hpp"
+#include "paper_distances/patch_distance.hpp"
 
 namespace riis::accuracy {
 namespace {

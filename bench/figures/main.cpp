@@ -16,8 +16,8 @@
 #include "figures/shapes.hpp"
 #include "figures/state_figures.hpp"
 #include "figures/text.hpp"
-#include "riis_vtk/drawing.hpp"
-#include "riis_vtk/vtk_errors.hpp"
+#include "riis_vtk/base/vtk_errors.hpp"
+#include "riis_vtk/picture/drawing.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <vtkSmartPointer.h>
 
 #include "geometry/vec3.hpp"
-#include "riis_vtk/drawing.hpp"
+#include "riis_vtk/picture/drawing.hpp"
 
 class vtkPolyData;
 class vtkRenderer;

@@ -127,7 +127,7 @@ TriangleEdges triangle_edges_of(const Model &model, std::int32_t leaflet) {
 
 Pieces placed(const PatchSet &set, const Side &side, const PatchImage &image) {
   Pieces pieces;
-  for (const Bezier &piece : set.curve_of(side).pieces()) pieces.push_back(placed(piece, image));
+  for (const Bezier &piece : set.curve_of(side).spans()) pieces.push_back(placed(piece, image));
   return side.reversed ? reversed(pieces) : pieces;
 }
 

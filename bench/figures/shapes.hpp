@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "figures/picture.hpp"
-#include "surface/grids.hpp"
-#include "surface/triangulate.hpp"
+#include "triangulate/grids.hpp"
+#include "triangulate/triangulate.hpp"
 #include "valve/valve.hpp"
 
 namespace riis::figures {

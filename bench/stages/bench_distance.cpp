@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "api/handles.hpp"
-#include "distance/sample_set.hpp"
+#include "paper_distances/patch_distance.hpp"
 #include "shared/handles.hpp"
 
 namespace {

@@ -5,11 +5,11 @@
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
-#include "geometry/polyline.hpp"
+#include "geometry/curve.hpp"
+#include "scene/triangle_scene.hpp"
 #include "shared/handles.hpp"
-#include "surface/grids.hpp"
-#include "surface/triangle_scene.hpp"
-#include "surface/triangulate.hpp"
+#include "triangulate/grids.hpp"
+#include "triangulate/triangulate.hpp"
 
 namespace {
 

@@ -21,9 +21,9 @@
 #include "api/handles.hpp"
 #include "kernels/count.hpp"
 #include "kernels/table.hpp"
-#include "marking/cluster_search.hpp"
-#include "marking/put_in_order.hpp"
+#include "marks/marks.hpp"
 #include "peak.hpp"
+#include "search/cluster_search.hpp"
 #include "shared/cylinder.hpp"
 #include "shared/time_steps.hpp"
 

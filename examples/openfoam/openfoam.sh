@@ -6,6 +6,7 @@
 openfoam_packages=(openfoam mpi-default-bin openmpi-bin gcc g++ cmake make ninja-build libembree-dev libtbb-dev gmsh
   bzip2 xz-utils python3-numpy python3-matplotlib)
 openfoam_here=examples/openfoam
+openfoam_plugin=src/openfoam
 # shellcheck source=examples/openfoam/follow.sh
 . "$openfoam_here/follow.sh"
 
@@ -77,7 +78,7 @@ run_openfoam() {
 # openfoam_headers FOLDER: compiles the plug-in against the headers of another OpenFOAM, whose sources lie in FOLDER. Nothing is
 # linked or run. The Foundation's OpenFOAM has fvModels, and gets the plug-in in the folder foundation.
 openfoam_headers() {
-  local source=$1/src plugin=$openfoam_here/plugin part file switches=()
+  local source=$1/src plugin=$openfoam_plugin part file switches=()
   [[ -d $source/finiteVolume && -d $source/meshTools ]] || {
     echo "./run openfoam: '$1' lacks src/finiteVolume or src/meshTools, so it has no sources of OpenFOAM" >&2
     exit 2
@@ -93,7 +94,7 @@ openfoam_headers() {
   done
   while read -r file; do
     "${CXX:-g++}" -std=c++17 -c -o /dev/null -fPIC -Wall -Wextra -Werror -DWM_DP -DWM_LABEL_SIZE=32 -DNoRepository \
-      -ftemplate-depth-100 "${switches[@]}" -I include -I "$openfoam_here/plugin" "$plugin/$file" || exit
+      -ftemplate-depth-100 "${switches[@]}" -I include -I "$openfoam_plugin" "$plugin/$file" || exit
     say "compiled, and neither linked nor run: $plugin/$file"
   done < <(grep '\.C$' "$plugin/Make/files")
 }
@@ -170,7 +171,7 @@ openfoam_build() {
   cmake --preset library -B "$of_work/library" -D CMAKE_INSTALL_PREFIX="$of_work/riis" &&
     cmake --build "$of_work/library" --parallel "$n_jobs" &&
     cmake --install "$of_work/library" &&
-    cmake -S "$openfoam_here/plugin" -B "$of_work/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release \
+    cmake -S "$openfoam_plugin" -B "$of_work/plugin" -G Ninja -D CMAKE_BUILD_TYPE=Release \
       -D CMAKE_PREFIX_PATH="$of_work/riis" -D OPENFOAM_SOURCE="$of_source/src" &&
     cmake --build "$of_work/plugin"
 }
@@ -185,7 +186,7 @@ openfoam_environment() {
   export PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe PRTE_MCA_hwloc_default_binding_policy=none
 }
 
-# Checks whether function objects work, because Debian 13's OpenFOAM stops at the first one (plugin/dictionaryDigest.C). Sets
+# Checks whether function objects work, because Debian 13's OpenFOAM stops at the first one (dictionaryDigest.C). Sets
 # $of_with to the words that must stand before OpenFOAM's programs.
 openfoam_digests() {
   local digest=$of_work/plugin/libfoamDigest.so log=$of_work/function_object.log

@@ -20,7 +20,7 @@ from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 FOLDER = os.path.abspath(sys.argv[1])
 HERE = os.path.dirname(os.path.abspath(__file__))
-PLUGIN = os.path.join(HERE, "riis_paraview.py")
+PLUGIN = os.path.join(HERE, "..", "..", "src", "paraview", "riis_paraview.py")
 KINDS = ("aortic", "trileaflet", "coapting", "mitral", "bileaflet")
 UNITS = {"cm": 1.0, "mm": 10.0, "m": 0.01}
 TETRA, VOXEL, HEXAHEDRON, LINE, QUADRATIC_TETRA = 10, 11, 12, 3, 24

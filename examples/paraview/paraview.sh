@@ -13,10 +13,10 @@ paraview_install() {
   "$python_folder/tools/bin/pip" install --no-deps --target build-python/paraview "$(echo "$python_folder"/repaired/riis-*.whl)"
 }
 
-# paraview_display COMMAND...: runs the command under a virtual display, where ParaView's Python finds riis. examples/paraview is
+# paraview_display COMMAND...: runs the command under a virtual display, where ParaView's Python finds riis. src/paraview is
 # in its path for usercustomize.py.
 paraview_display() {
-  PYTHONPATH=$PWD/build-python/paraview:$PWD/examples/paraview xvfb-run -a -s '-screen 0 1400x1000x24 -noreset' "$@"
+  PYTHONPATH=$PWD/build-python/paraview:$PWD/src/paraview xvfb-run -a -s '-screen 0 1400x1000x24 -noreset' "$@"
 }
 
 # paraview_check: checks the plug-in in pvpython, and leaves pictures in out/paraview.
@@ -34,7 +34,7 @@ paraview_window() {
   version=$(dpkg-query -W -f '${Version}' paraview)
   mkdir -p "$home/.config/ParaView"
   printf '[General]\nGeneralSettings.ShowWelcomeDialog=false\n' >"$home/.config/ParaView/ParaView${version%%+*}.ini"
-  export HOME=$home RIIS_PARAVIEW_OUT=$PWD/out/paraview RIIS_PARAVIEW_PLUGIN=$PWD/examples/paraview/riis_paraview.py
+  export HOME=$home RIIS_PARAVIEW_OUT=$PWD/out/paraview RIIS_PARAVIEW_PLUGIN=$PWD/src/paraview/riis_paraview.py
   # shellcheck disable=SC2016
   paraview_display bash -c '
     paraview --script=examples/paraview/gui.py &

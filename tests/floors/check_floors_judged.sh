@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_floors_judged.sh SOURCE_FOLDER SCRATCH_FOLDER
 # check_floors.sh must accept the library. It must refuse an include of a later floor, a folder that is neither floor nor product,
-# and an include of the library's internals by riis_vtk or the program.
+# and an include of the library's internals by another product.
 set -euo pipefail
 check=$(dirname "$0")/check_floors.sh
 sources=$1 scratch=$2
@@ -36,18 +36,24 @@ copy
 mkdir "$scratch/cellar"
 refuses "src/cellar is no product"
 copy
-echo '#include "marking/mesh.hpp"' >>"$scratch/program/report.hpp"
-refuses 'includes "marking", but src/program has only common program and the public headers'
+echo '#include "mesh/mesh.hpp"' >>"$scratch/program/report.hpp"
+refuses 'includes "mesh", but src/program has only common program and the public headers'
 copy
-echo '#include "../riis/marking/mesh.hpp"' >>"$scratch/program/report.hpp"
+echo '#include "../riis/mesh/mesh.hpp"' >>"$scratch/program/report.hpp"
 refuses 'includes "..", but src/program has only common program'
 copy
 echo '#include "program/report.hpp"' >>"$scratch/riis_vtk/files.hpp"
 refuses 'includes "program", but src/riis_vtk has only common riis_vtk and the public headers'
 copy
-echo '#include "riis_vtk/files.hpp"' >>"$scratch/riis/api/handles.hpp"
+echo '#include "riis_vtk/base/files.hpp"' >>"$scratch/riis/api/handles.hpp"
 refuses "src/riis/riis_vtk is no floor"
 copy
 echo '#include "base/errors.hpp"' >>"$scratch/common/message.hpp"
 refuses 'includes "base", but src/common has only common'
+copy
+echo '#include "riis_vtk/picture/drawing.hpp"' >>"$scratch/riis_vtk/read/gmsh.cpp"
+refuses "includes src/riis_vtk/picture, a floor above src/riis_vtk/read"
+copy
+echo '#include "mesh/mesh.hpp"' >>"$scratch/openfoam/riisValve.H"
+refuses 'includes "mesh", but src/openfoam has only its own and the public headers'
 rm -rf "$scratch"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "expect.hpp"
+#include "input.hpp"
 #include "program/command_line.hpp"
 #include "program/handles.hpp"
 #include "program/parameters.hpp"

@@ -4,10 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "expect.hpp"
+#include "input.hpp"
 #include "program/opening_law.hpp"
 #include "program/refusal.hpp"
-#include "scratch_file.hpp"
 
 namespace {
 

@@ -8,9 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "expect.hpp"
+#include "input.hpp"
 #include "read_mesh.hpp"
-#include "scratch_file.hpp"
 
 namespace {
 

@@ -21,7 +21,7 @@
 #include <string_view>
 #include <vector>
 
-#include "expect.hpp"
+#include "input.hpp"
 #include "read_mesh.hpp"
 
 namespace {

@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <functional>
 
-#include "expect.hpp"
+#include "input.hpp"
 #include "program/case_file.hpp"
 #include "program/json.hpp"
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_file.hpp"
-#include "scratch_file.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "expect.hpp"
+#include "input.hpp"
 
 namespace fuzz {
 

@@ -8,7 +8,7 @@
 #include "test_support.h"
 
 #include "cell_edges.h"
-#include "edge_set.h"
+#include "internals.h"
 #include "handles.h"
 
 static random_source rng;

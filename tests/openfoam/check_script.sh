@@ -47,13 +47,13 @@ mkdir -p "$work"/{com,foundation}/src/{OpenFOAM,OSspecific/POSIX,finiteVolume,me
 mkdir -p "$work/foundation/src/finiteVolume/cfdTools/general/fvModels"
 echo api=2312 >"$work/com/META-INFO/api-info"
 CXX=fake_cxx refused_file=none
-ends 0 "compiled, and neither linked nor run: examples/openfoam/plugin/riisWindkessel.C" run_openfoam --headers "$work/com"
-(($(grep -c -- '-D OPENFOAM=2312 .*openfoam/plugin/riis[A-Za-z]*\.C$' "$work/compiled") == 7)) ||
+ends 0 "compiled, and neither linked nor run: src/openfoam/riisWindkessel.C" run_openfoam --headers "$work/com"
+(($(grep -c -- '-D OPENFOAM=2312 .*src/openfoam/riis[A-Za-z]*\.C$' "$work/compiled") == 7)) ||
   problem "--headers compiled other files: $(<"$work/compiled")"
 rm "$work/compiled"
-ends 0 "compiled, and neither linked nor run: examples/openfoam/plugin/foundation/riisModel.C" \
+ends 0 "compiled, and neither linked nor run: src/openfoam/foundation/riisModel.C" \
   run_openfoam --headers "$work/foundation"
-[[ $(<"$work/compiled") == *plugin/foundation/riisModel.C && $(<"$work/compiled") != *OPENFOAM=* ]] ||
+[[ $(<"$work/compiled") == *openfoam/foundation/riisModel.C && $(<"$work/compiled") != *OPENFOAM=* ]] ||
   problem "--headers compiled other files for the Foundation: $(<"$work/compiled")"
 refused_file=riisLaw.C
 ends 1 "riisValve.C" run_openfoam --headers "$work/com"

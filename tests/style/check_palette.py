@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """check_palette.py FOLDER: all pictures take their colours from one palette, and every kind of colour vision tells them apart.
 
-The palette is distinct_colours of src/riis_vtk/drawing.hpp. How protanopes, deuteranopes and tritanopes see a colour follows from
-the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours are told apart if their difference in CIELAB
-is at least LEAST. The palette of matplotlib and its Set2 must fail.
+The palette is distinct_colours of src/riis_vtk/picture/drawing.hpp. How protanopes, deuteranopes and tritanopes see a colour
+follows from the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours are told apart if their
+difference in CIELAB is at least LEAST. The palette of matplotlib and its Set2 must fail.
 """
 
 import itertools
@@ -62,8 +62,8 @@ def colours_in(folder, path, pattern):
 
 
 def main(folder):
-    palette = colours_in(folder, "src/riis_vtk/drawing.hpp", r"distinct_colours\[\]\[3\] = (\{.*?\});")
-    with open(os.path.join(folder, "src/riis_vtk/picture_panels.hpp"), encoding="utf-8") as file:
+    palette = colours_in(folder, "src/riis_vtk/picture/drawing.hpp", r"distinct_colours\[\]\[3\] = (\{.*?\});")
+    with open(os.path.join(folder, "src/riis_vtk/picture/picture_scene.hpp"), encoding="utf-8") as file:
         red = re.search(r"leak_colour = \{([0-9., ]+)\}", file.read())[1]
     leak = tuple(round(255 * float(part)) for part in red.split(","))
     plots = colours_in(folder, "bench/report/report_text.py", r"\nCOLOURS = (\(.*?\))\n")

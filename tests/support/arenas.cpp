@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "parallel/concurrent_walk.hpp"
-#include "parallel/keeps_arenas.hpp"
+#include "parallel/threads.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "geometry/point_triangle.hpp"
-#include "surface/triangle_set.hpp"
+#include "triangulate/triangle_set.hpp"
 
 namespace riis {
 

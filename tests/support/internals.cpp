@@ -5,26 +5,32 @@
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <new>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "api/handles.hpp"
 #include "base/errors.hpp"
+#include "base/integer_array.hpp"
 #include "brute_force.hpp"
-#include "distance/powell.hpp"
-#include "distance/sample_set.hpp"
 #include "geometry/bulge.hpp"
 #include "geometry/coons.hpp"
-#include "geometry/crossing.hpp"
 #include "geometry/curve.hpp"
-#include "marking/put_in_order.hpp"
+#include "marks/marks.hpp"
+#include "mesh/adjacency.hpp"
+#include "paper_distances/patch_distance.hpp"
+#include "paper_distances/powell.hpp"
 #include "parallel/parallel_for.hpp"
-#include "surface/grids.hpp"
-#include "surface/triangle_scene.hpp"
-#include "surface/triangulate.hpp"
+#include "scene/triangle_scene.hpp"
+#include "seal/segment_triangle.hpp"
+#include "triangulate/grids.hpp"
+#include "triangulate/triangulate.hpp"
 #include "valve/patches.hpp"
 #include "valve/valve.hpp"
 
@@ -58,10 +64,10 @@ T *room(std::size_t n) {
 }
 
 // Makes a curve of n cubics, 12 numbers each.
-Curve chain(std::int64_t n_pieces, const double *control) {
-  Vector<Bezier> pieces;
-  for (std::int64_t i = 0; i < n_pieces; ++i) pieces.push_back(curve(3, control + 12 * i));
-  return Curve(std::move(pieces));
+Curve chain(std::int64_t n_spans, const double *control) {
+  Vector<Bezier> spans;
+  for (std::int64_t i = 0; i < n_spans; ++i) spans.push_back(curve(3, control + 12 * i));
+  return Curve(std::move(spans));
 }
 
 void give(const Flattened &made, int64_t *n_points, double **points, double **t, double **errors) {
@@ -111,26 +117,26 @@ riis_status bezier_flatten(int degree, const double *control, double max_error, 
   return guarded([&] { give(flatten(curve(degree, control), max_error), n_points, points, t, errors); });
 }
 
-riis_status chain_flatten(int64_t n_pieces, const double *control, double max_error, int64_t *n_points, double **points,
+riis_status chain_flatten(int64_t n_spans, const double *control, double max_error, int64_t *n_points, double **points,
                           double **t, double **errors) {
-  return guarded([&] { give(flatten(chain(n_pieces, control), max_error), n_points, points, t, errors); });
+  return guarded([&] { give(flatten(chain(n_spans, control), max_error), n_points, points, t, errors); });
 }
 
-double chain_length(int64_t n_pieces, const double *control) { return chain(n_pieces, control).length(); }
+double chain_length(int64_t n_spans, const double *control) { return chain(n_spans, control).length(); }
 
-void chain_at(int64_t n_pieces, const double *control, double share, double *point, double *tangent) {
-  const Curve::Frame frame = chain(n_pieces, control).frame(share);
-  put(frame.point, point);
-  put(frame.tangent, tangent);
+void chain_at(int64_t n_spans, const double *control, double share, double *point, double *tangent) {
+  const Curve::PointAndTangent there = chain(n_spans, control).with_tangent(share);
+  put(there.point, point);
+  put(there.tangent, tangent);
 }
 
-int64_t chain_between(int64_t n_pieces, const double *control, double share0, double share1, int reversed,
+int64_t chain_between(int64_t n_spans, const double *control, double share0, double share1, int reversed,
                       double *part) {
-  const Curve whole = chain(n_pieces, control), between = whole.between(share0, share1);
+  const Curve whole = chain(n_spans, control), between = whole.between(share0, share1);
   const Curve made = reversed ? between.reversed() : between;
-  for (std::size_t i = 0; i < made.pieces().size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) put(made.pieces()[i].control[k], part + 12 * i + 3 * k);
-  return static_cast<int64_t>(made.pieces().size());
+  for (std::size_t i = 0; i < made.spans().size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) put(made.spans()[i].control[k], part + 12 * i + 3 * k);
+  return static_cast<int64_t>(made.spans().size());
 }
 
 void bulge_at(int64_t n_base, const double *base, int64_t n_edge, const double *edge, double factor, double u,
@@ -221,7 +227,7 @@ riis_status aortic_patches(const char *name, double value, patch_set *set) {
             room<int64_t>(n_images),        room<int32_t>(n_images),         room<int32_t>(n_images),
             room<int32_t>(n_images),        room<double>(12 * n_images)};
     for (std::size_t i = 0; i < n_curves; ++i) {
-      const Bezier &only = made.curves[i].pieces().front();
+      const Bezier &only = made.curves[i].spans().front();
       set->degree[i] = only.degree;
       for (std::size_t k = 0; k < 4; ++k) put(only.control[k], set->control + 12 * i + 3 * k);
     }
@@ -378,4 +384,71 @@ riis_status wall_meets(const char *exception) {
     }
   });
 }
+}
+
+struct edge_set {
+  std::set<std::pair<std::int64_t, std::int64_t>> directed;
+};
+
+namespace {
+
+wide_rows new_rows(std::int64_t n_rows, std::int64_t n_columns) {
+  wide_rows rows{n_rows, static_cast<std::int64_t *>(std::calloc(static_cast<std::size_t>(n_rows + 1), 8)),
+                 static_cast<std::int64_t *>(std::calloc(static_cast<std::size_t>(n_columns + 1), 8)), 64};
+  if (!rows.offsets || !rows.columns) throw std::bad_alloc();
+  return rows;
+}
+
+}  // namespace
+
+void wide_rows_free(wide_rows *rows) {
+  std::free(rows->offsets);
+  std::free(rows->columns);
+  *rows = {};
+}
+
+int wide_rows_same(const wide_rows *a, const wide_rows *b) {
+  if (a->n_rows != b->n_rows) return 0;
+  const auto n = static_cast<std::size_t>(a->n_rows);
+  return std::memcmp(a->offsets, b->offsets, (n + 1) * 8) == 0 &&
+         std::memcmp(a->columns, b->columns, static_cast<std::size_t>(a->offsets[n]) * 8) == 0;
+}
+
+edge_set *edge_set_make(void) { return new edge_set; }
+void edge_set_free(edge_set **set) {
+  delete *set;
+  *set = nullptr;
+}
+
+void edge_set_add(edge_set *set, std::int64_t a, std::int64_t b) {
+  if (a == b) return;
+  set->directed.emplace(a, b);
+  set->directed.emplace(b, a);
+}
+
+wide_rows edge_set_rows(const edge_set *set, std::int64_t n_nodes) {
+  wide_rows rows = new_rows(n_nodes, static_cast<std::int64_t>(set->directed.size()));
+  std::int64_t n = 0;
+  for (const auto &edge : set->directed) {
+    rows.columns[n++] = edge.second;
+    ++rows.offsets[edge.first + 1];
+  }
+  for (std::int64_t i = 0; i < n_nodes; ++i) rows.offsets[i + 1] += rows.offsets[i];
+  return rows;
+}
+
+riis_status rows_with_limits(const riis_mesh_cells *cells, int n_threads, std::int64_t n_entries, std::int64_t n_nodes,
+                             wide_rows *rows) {
+  return riis::guarded([&] {
+    riis::NarrowLimits limits;
+    if (n_entries >= 0) limits.n_entries = n_entries;
+    if (n_nodes >= 0) limits.n_nodes = n_nodes;
+    const riis::OwnAdjacency made = riis::adjacency_from_cells(*cells, n_threads, limits);
+    const riis_csr csr = made.csr();
+    const riis::IntegerArray offsets{csr.offsets, csr.offset_bits == 64}, columns{csr.columns, csr.column_bits == 64};
+    *rows = new_rows(csr.n_rows, offsets[csr.n_rows]);
+    rows->column_bits = csr.column_bits;
+    for (std::int64_t i = 0; i <= csr.n_rows; ++i) rows->offsets[i] = offsets[i];
+    for (std::int64_t k = 0; k < offsets[csr.n_rows]; ++k) rows->columns[k] = columns[k];
+  });
 }

@@ -9,7 +9,7 @@
 
 #include "internals.h"
 #include "kernels/table.hpp"
-#include "surface/triangle_groups.hpp"
+#include "scene/triangle_groups.hpp"
 
 using namespace riis;
 

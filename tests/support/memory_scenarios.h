@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Defines scenarios that call every public function that allocates, each at least once. Include after digests.h. */
+ * Defines scenarios that call every public function that allocates, each at least once. Include after the digests. */
 #ifndef RIIS_TEST_MEMORY_SCENARIOS_H
 #define RIIS_TEST_MEMORY_SCENARIOS_H
 

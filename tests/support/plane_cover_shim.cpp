@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plane_cover_shim.h"
 
-#include "geometry/plane_cover.hpp"
+#include "measures/plane_cover.hpp"
 
 using namespace riis;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Wraps geometry/plane_cover.hpp for C, which measures the part of an outline that triangles leave uncovered. */
+ * Wraps measures/plane_cover.hpp for C, which measures the part of an outline that triangles leave uncovered. */
 #ifndef RIIS_TESTS_PLANE_COVER_SHIM_H
 #define RIIS_TESTS_PLANE_COVER_SHIM_H
 

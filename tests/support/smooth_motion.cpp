@@ -14,32 +14,32 @@ using namespace riis;
 namespace {
 
 // A curve whose parameter is the fraction of its length. Five-point Gauss quadrature gives the length up to 64 points of each
-// piece.
+// span.
 class MeasuredCurve {
  public:
-  explicit MeasuredCurve(const Curve &curve) : pieces_(curve.pieces().begin(), curve.pieces().end()) {
-    for (const Bezier &piece : pieces_)
-      for (int k = 0; k < n_cells; ++k) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + length_of(piece, k));
+  explicit MeasuredCurve(const Curve &curve) : spans_(curve.spans().begin(), curve.spans().end()) {
+    for (const Bezier &span : spans_)
+      for (int k = 0; k < n_cells; ++k) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + length_of(span, k));
   }
 
   // Returns the point, and the unit vector along the curve.
   std::array<Vec3, 2> at(double share) const {
     const double total = ends_.back();
-    if (!(total > 0)) return {pieces_[0].control[0], Vec3{0, 0, 0}};
+    if (!(total > 0)) return {spans_[0].control[0], Vec3{0, 0, 0}};
     const double behind = share * total;
     const auto cell = std::min<std::size_t>(
         static_cast<std::size_t>(std::lower_bound(ends_.begin(), ends_.end(), behind) - ends_.begin()),
         ends_.size() - 1);
-    const Bezier &piece = pieces_[cell / n_cells];
+    const Bezier &span = spans_[cell / n_cells];
     const double t0 = static_cast<double>(cell % n_cells) / n_cells, rest = behind - (cell == 0 ? 0 : ends_[cell - 1]);
     double t = t0 + rest / (ends_[cell] - (cell == 0 ? 0 : ends_[cell - 1])) / n_cells;
     for (int i = 0; i < 20; ++i) {
-      const double off = part(piece, t0, t) - rest, speed = length(tangent(piece, t));
+      const double off = part(span, t0, t) - rest, speed = length(tangent(span, t));
       if (!(speed > 0) || std::abs(off) < 1e-15 * total) break;
       t = std::clamp(t - off / speed, t0, t0 + 1.0 / n_cells);
     }
-    const Vec3 along = tangent(piece, t);
-    return {point(piece, t), length(along) > 0 ? (1 / length(along)) * along : along};
+    const Vec3 along = tangent(span, t);
+    return {point(span, t), length(along) > 0 ? (1 / length(along)) * along : along};
   }
 
  private:
@@ -69,7 +69,7 @@ class MeasuredCurve {
     return part(b, static_cast<double>(cell) / n_cells, static_cast<double>(cell + 1) / n_cells);
   }
 
-  std::vector<Bezier> pieces_;
+  std::vector<Bezier> spans_;
   std::vector<double> ends_;
 };
 

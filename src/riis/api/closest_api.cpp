@@ -8,8 +8,8 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
-#include "marking/closest_points.hpp"
 #include "parallel/parallel_for.hpp"
+#include "search/closest_points.hpp"
 
 using riis::guarded;
 using riis::require;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of riis_find_crossings and riis_crossings_*. The search is in surface/crossings.hpp.
+// Checks the arguments of riis_find_crossings and riis_crossings_*. The search is in measures/measures.hpp.
 #include <algorithm>
 #include <chrono>
 #include <numeric>
@@ -8,8 +8,8 @@
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "measures/measures.hpp"
 #include "parallel/parallel_for.hpp"
-#include "surface/crossings.hpp"
 
 using riis::guarded;
 using riis::require;

@@ -8,17 +8,17 @@
 #include <cstdint>
 #include <utility>
 
+#include "arrays/keyframes.hpp"
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
-#include "distance/surface.hpp"
-#include "marking/leaks.hpp"
-#include "marking/marks.hpp"
-#include "marking/mesh.hpp"
-#include "parallel/keeps_arenas.hpp"
+#include "marks/marks.hpp"
+#include "measures/measures.hpp"
+#include "mesh/mesh.hpp"
+#include "parallel/threads.hpp"
 #include "pipeline/updatable_surface.hpp"
-#include "surface/crossings.hpp"
-#include "surface/keyframes.hpp"
-#include "valve/patch_arrays.hpp"
+#include "scene/surface.hpp"
+#include "seal/seal.hpp"
+#include "valve/user_patches.hpp"
 #include "valve/valve.hpp"
 #include "valve/warp.hpp"
 

@@ -8,11 +8,9 @@
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "marking/leaks.hpp"
-#include "marking/mark_nodes.hpp"
-#include "marking/open_regions.hpp"
-#include "marking/passage.hpp"
-#include "marking/resistance.hpp"
+#include "obstacle/resistance.hpp"
+#include "pipeline/mark_nodes.hpp"
+#include "seal/seal.hpp"
 
 using riis::guarded;
 using riis::require;

@@ -13,11 +13,7 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
-#include "marking/cells_across.hpp"
-#include "surface/coaptation.hpp"
-#include "surface/orifice.hpp"
-#include "surface/swept_volume.hpp"
-#include "surface/wall.hpp"
+#include "measures/measures.hpp"
 
 using riis::check_range;
 using riis::guarded;
@@ -45,12 +41,12 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
 riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &resistance) {
   const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
   const double eps = resistance.half_thickness;
-  const riis::ValveFrame *frame = surface.frame() ? &*surface.frame() : nullptr;
-  const riis::Orifice found = riis::measure_orifice(surface.triangles(), frame, {c * eps, 0.1 * eps});
+  const riis::SourceValve *source = surface.source() ? &*surface.source() : nullptr;
+  const riis::Orifice found = riis::measure_orifice(surface.triangles(), source, {c * eps, 0.1 * eps});
   double radius = 0;
   if (found.outline == RIIS_OUTLINE_DISC) {
-    const bool is_warped = !frame->disc.rim.empty();
-    radius = is_warped ? std::sqrt(found.outline_area / riis::pi) : frame->placement.scale * frame->disc.radius;
+    const bool is_warped = !source->disc.rim.empty();
+    radius = is_warped ? std::sqrt(found.outline_area / riis::pi) : source->placement.scale * source->disc.radius;
   }
   return {found.area,
           found.outline_area,
@@ -202,7 +198,7 @@ riis_status riis_surface_get_coaptation(const riis_surface *surface, double reac
       riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id,
                  ", which the surface lacks; RIIS_ALL_LEAFLETS, -1, stands for all");
     std::vector<std::int32_t> omitted;
-    if (content.frame()) omitted = {content.frame()->housing, content.frame()->skirt};
+    if (content.source()) omitted = {content.source()->housing, content.source()->skirt};
     const riis::TriangleSet &triangles = content.triangles();
     const auto contacts = riis::contacts_of(triangles, riis::free_edge_parts(triangles), whole, leaflet_id, omitted,
                                             riis::threads_for(0, triangles.n_triangles(), riis::triangles_per_thread));
@@ -238,7 +234,7 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
     check_range("", "drop", drop, -1e30, 1e30);
     require(flow, "flow");
     const double area =
-        content.frame() ? riis::area_without(content.leaflets(), content.frame()->housing) : content.area();
+        content.source() ? riis::area_without(content.leaflets(), content.source()->housing) : content.area();
     *flow = drop * (whole.half_thickness / whole.R) * area;
   });
 }

@@ -58,46 +58,46 @@ riis::SurfaceRequest request_of(const riis_surface_options &options) {
 }
 
 // The state before a moving update, and the time since then.
-struct MotionArguments {
+struct EarlierArguments {
   const riis_valve *valve_before;
   double dt;
   const riis_surface_options *options_before;
 };
 
-riis::ValveMotion motion_of(const MotionArguments &motion, const riis_surface_options &options_now) {
+riis::EarlierValve earlier_of(const EarlierArguments &given, const riis_surface_options &options_now) {
   // A dt outside of these limits is a mistake. Within the limits no velocity comes near overflow.
-  if (!(std::abs(motion.dt) >= 1e-30 && std::abs(motion.dt) <= 1e30))
-    riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", motion.dt,
+  if (!(std::abs(given.dt) >= 1e-30 && std::abs(given.dt) <= 1e30))
+    riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", given.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");
   const riis_surface_options before = riis::completed(
-      motion.options_before, "options_before", motion.options_before ? riis::default_surface_options : options_now);
+      given.options_before, "options_before", given.options_before ? riis::default_surface_options : options_now);
   riis::check_placement(before, "options_before");
-  return {motion.valve_before->valve, riis::placement_of(before), motion.dt};
+  return {given.valve_before->valve, riis::placement_of(before), given.dt};
 }
 
 void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_surface_options &options,
-                     const MotionArguments *motion = nullptr) {
+                     const EarlierArguments *earlier = nullptr) {
   riis::check_options(options);
-  std::optional<riis::ValveMotion> valve_motion;
-  if (motion) valve_motion.emplace(motion_of(*motion, options));
+  std::optional<riis::EarlierValve> valve_before;
+  if (earlier) valve_before.emplace(earlier_of(*earlier, options));
   const riis::ValveAccuracy accuracy{options.tolerance * riis::half_thickness_of(options), options.measure,
                                      distance_error_of(options), options.triangulation == RIIS_TRIANGULATION_FIXED};
   check_precision(options, "tolerance", accuracy.triangle_error);
   if (options.measure != RIIS_MEASURE_TRIANGLES) check_precision(options, "measure_tolerance", accuracy.distance_error);
-  surface.updatable.update_from_valve(valve->valve, valve_motion ? &*valve_motion : nullptr, request_of(options),
+  surface.updatable.update_from_valve(valve->valve, valve_before ? &*valve_before : nullptr, request_of(options),
                                       accuracy);
   surface.options = options;
 }
 
-// Checks all handles before it checks the options. `motion` may be NULL.
+// Checks all handles before it checks the options. `earlier` may be NULL.
 void update_from_valve(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options,
-                       const MotionArguments *motion) {
+                       const EarlierArguments *earlier) {
   require_handle(surface, "surface");
   require_handle(valve, "valve");
-  if (motion) require_handle(motion->valve_before, "valve_before");
+  if (earlier) require_handle(earlier->valve_before, "valve_before");
   fill_from_valve(*surface, valve,
                   riis::completed(options, "options", options ? riis::default_surface_options : surface->options),
-                  motion);
+                  earlier);
 }
 
 // Each direction keeps 24 bytes for each vertex.
@@ -189,8 +189,8 @@ riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *
                                        double dt, const riis_surface_options *options,
                                        const riis_surface_options *options_before) {
   return guarded([&] {
-    const MotionArguments motion{valve_before, dt, options_before};
-    update_from_valve(surface, valve, options, &motion);
+    const EarlierArguments earlier{valve_before, dt, options_before};
+    update_from_valve(surface, valve, options, &earlier);
   });
 }
 

@@ -5,7 +5,7 @@
 #include "api/surface_options.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "surface/wall.hpp"
+#include "measures/measures.hpp"
 #include "valve/user_patches.hpp"
 
 using riis::guarded;

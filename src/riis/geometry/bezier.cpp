@@ -85,7 +85,7 @@ double length_tolerance(const Bezier &curve) {
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
   // The second term of the tolerance covers rounding, which matters for a curve that is short compared with its coordinates. The
-  // third term is for a curve shorter than any triangle may be (surface/triangle_set.hpp), because its squares underflow.
+  // third term is for a curve shorter than any triangle may be (triangulate/triangle_set.hpp), because its squares underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 

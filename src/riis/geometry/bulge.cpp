@@ -11,9 +11,73 @@
 #include <utility>
 
 #include "common/array_view.hpp"
-#include "geometry/ball.hpp"
+#include "geometry/vec3.hpp"
 
 namespace riis {
+namespace {
+
+// Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it.
+// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
+
+// All numbers within `radius` of `middle`.
+struct Interval {
+  double middle, radius;
+
+  static Interval between(double low, double high) { return {0.5 * (low + high), 0.5 * (high - low)}; }
+  double magnitude() const { return std::abs(middle) + radius; }
+};
+
+inline Interval operator+(Interval a, Interval b) { return {a.middle + b.middle, a.radius + b.radius}; }
+inline Interval operator-(Interval a, Interval b) { return {a.middle - b.middle, a.radius + b.radius}; }
+inline Interval operator*(double a, Interval b) { return {a * b.middle, std::abs(a) * b.radius}; }
+inline Interval operator*(Interval a, Interval b) {
+  return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.magnitude()};
+}
+
+// All vectors within `radius` of `middle`.
+struct Ball {
+  Vec3 middle;
+  double radius;
+
+  double least_length() const { return length(middle) - radius; }
+  double largest_length() const { return length(middle) + radius; }
+};
+
+inline Ball operator+(const Ball &a, const Ball &b) { return {a.middle + b.middle, a.radius + b.radius}; }
+inline Ball operator-(const Ball &a, const Ball &b) { return {a.middle - b.middle, a.radius + b.radius}; }
+inline Ball operator*(double a, const Ball &b) { return {a * b.middle, std::abs(a) * b.radius}; }
+inline Ball operator*(Interval a, const Ball &b) {
+  return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.largest_length()};
+}
+// The radius of a product of two vectors, of either kind.
+inline double radius_of_product(const Ball &a, const Ball &b) {
+  return length(a.middle) * b.radius + a.radius * b.largest_length();
+}
+inline Interval dot(const Ball &a, const Ball &b) { return {dot(a.middle, b.middle), radius_of_product(a, b)}; }
+inline Ball cross(const Ball &a, const Ball &b) { return {cross(a.middle, b.middle), radius_of_product(a, b)}; }
+inline Interval square(const Ball &a) {
+  const double least = std::max(a.least_length(), 0.0), largest = a.largest_length();
+  return Interval::between(least * least, largest * largest);
+}
+
+// Inverts positive numbers.
+inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
+
+// Returns a's part across unit vectors. The projections across two unit vectors differ by the sine of the angle between them,
+// which is at most the distance between the unit vectors.
+inline Ball across(const Ball &a, const Ball &unit) {
+  return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
+}
+
+// Returns the unit vectors of vectors whose least length is positive. No vector of the ball turns away from the middle by an
+// angle whose sine exceeds radius / length. The distance between two unit vectors is less than the tangent of the angle between
+// them.
+inline Ball unit(const Ball &a) {
+  const double size = length(a.middle);
+  return {(1 / size) * a.middle, a.radius / std::sqrt((size - a.radius) * (size + a.radius))};
+}
+
+}  // namespace
 
 Vec3 arc_offset(Vec3 width, Vec3 along, double factor) {
   const Vec3 across = cross(width, along);
@@ -32,9 +96,9 @@ struct Along {
 };
 
 struct Derivatives {
-  explicit Derivatives(const Bezier &piece) : n(static_cast<std::size_t>(piece.degree)) {
-    const double degree = piece.degree;
-    for (std::size_t i = 0; i < n; ++i) first[i] = degree * (piece.control[i + 1] - piece.control[i]);
+  explicit Derivatives(const Bezier &span) : n(static_cast<std::size_t>(span.degree)) {
+    const double degree = span.degree;
+    for (std::size_t i = 0; i < n; ++i) first[i] = degree * (span.control[i + 1] - span.control[i]);
     for (std::size_t i = 0; i + 1 < n; ++i) second[i] = (degree - 1) * (first[i + 1] - first[i]);
     third = n == 3 ? second[1] - second[0] : Vec3{0, 0, 0};
   }
@@ -45,12 +109,12 @@ struct Derivatives {
   Vec3 third;
 };
 
-// Returns the tangent from B'' and B''', the derivatives of a Bézier piece by its own parameter t. The size of B' is between
+// Returns the tangent from B'' and B''', the derivatives of a Bézier span by its own parameter t. The size of B' is between
 // `least` and `largest`. Parts across T are marked by _. With dt/du = speed / |B'|, the derivatives of T by u are
 //   T' = speed / |B'|^2 B''_  and  T'' = speed^2 / |B'|^3 (B'''_ - 3 (T.B'') / |B'| B''_ - |B''_|^2 / |B'| T).
 Along along(const Ball &tangent, double least, double largest, const Ball &second, Vec3 third, double speed) {
-  const Span inverse_size = inverse(least, largest);
-  const Span inverse_size_sq = Span::between(1 / (largest * largest), 1 / (least * least));
+  const Interval inverse_size = inverse(least, largest);
+  const Interval inverse_size_sq = Interval::between(1 / (largest * largest), 1 / (least * least));
   const Ball bend = across(second, tangent);
   const Ball of_third = across({third, 0}, tangent) - (3 * inverse_size * dot(tangent, second)) * bend -
                         (inverse_size * square(bend)) * tangent;
@@ -58,10 +122,10 @@ Along along(const Ball &tangent, double least, double largest, const Ball &secon
           speed};
 }
 
-// Returns the tangent over a whole piece, or nothing if the piece may stand still inside. The speed is 0 if the curve is a point.
-std::optional<Along> along_piece(const Bezier &piece, double speed) {
+// Returns the tangent over a whole span, or nothing if the span may stand still inside. The speed is 0 if the curve is a point.
+std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
-  const Derivatives d(piece);
+  const Derivatives d(span);
   const bool is_cubic = d.n == 3;
   // In the middle, B' is this vector. B'' leads away from it for half of the range of t, to either side.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
@@ -80,10 +144,10 @@ std::optional<Along> along_piece(const Bezier &piece, double speed) {
   return along({direction, sideways / least}, least, largest, second, d.third, speed);
 }
 
-// Returns the tangent at the start or the end of a piece, or nothing if the piece stands still there.
-std::optional<Along> along_end(const Bezier &piece, double speed, bool at_end) {
+// Returns the tangent at the start or the end of a span, or nothing if the span stands still there.
+std::optional<Along> along_end(const Bezier &span, double speed, bool at_end) {
   if (!(speed > 0)) return Along{};
-  const Derivatives d(piece);
+  const Derivatives d(span);
   const Vec3 first = d.first[at_end ? d.n - 1 : 0];
   const double size = length(first);
   if (!(size > 0)) return std::nullopt;
@@ -106,7 +170,7 @@ class OffsetDerivatives {
     normal_ = unit(m_);
     along_ = unit(w);
     m_inverse_ = inverse(m_.least_length(), m_.largest_length());
-    w_size_ = Span::between(std::max(w.least_length(), m_.least_length()), w.largest_length());
+    w_size_ = Interval::between(std::max(w.least_length(), m_.least_length()), w.largest_length());
     size1_ = dot(along_, w1_);
     across1_ = across(m1_, normal_);
   }
@@ -123,11 +187,11 @@ class OffsetDerivatives {
     const Ball w2 = edge_.speed * edge_.first - base_.speed * base_.first;
     const Ball m2 = edge_.speed * (cross(edge_.first, base_.tangent) + 2 * cross(edge_.tangent, base_.first)) -
                     base_.speed * cross(base_.tangent, base_.first) + cross(w_, base_.second);
-    const Span w_inverse = inverse(w_size_.middle - w_size_.radius, w_size_.middle + w_size_.radius);
-    const Span size2 = w_inverse * square(across(w1_, along_)) + dot(along_, w2);
-    const Span turn = m_inverse_ * m_inverse_ * square(across1_);
-    const Span along_normal = size2 - w_size_ * turn;
-    const Span rate = size1_ - w_size_ * m_inverse_ * dot(normal_, m1_);
+    const Interval w_inverse = inverse(w_size_.middle - w_size_.radius, w_size_.middle + w_size_.radius);
+    const Interval size2 = w_inverse * square(across(w1_, along_)) + dot(along_, w2);
+    const Interval turn = m_inverse_ * m_inverse_ * square(across1_);
+    const Interval along_normal = size2 - w_size_ * turn;
+    const Interval rate = size1_ - w_size_ * m_inverse_ * dot(normal_, m1_);
     const Ball across_normal = m_inverse_ * (2 * rate * across1_ + w_size_ * across(m2, normal_));
     const double bound = std::abs(factor_) * std::hypot(along_normal.magnitude(), across_normal.largest_length());
     return bound >= 0 ? bound : infinity;  // the bound is NaN if numbers beyond the range of doubles cancelled
@@ -139,14 +203,14 @@ class OffsetDerivatives {
   double factor_;
   bool has_direction_ = false;
   Ball m_, m1_, w1_, normal_, along_, across1_;
-  Span m_inverse_, w_size_, size1_;
+  Interval m_inverse_, w_size_, size1_;
 };
 
 // Returns O at points at the same share of the length of both curves.
-Vec3 offset_at(const Curve &base, const PointOnPiece &on_base, const Curve &edge, const PointOnPiece &on_edge,
+Vec3 offset_at(const Curve &base, const PointOnSpan &on_base, const Curve &edge, const PointOnSpan &on_edge,
                double factor) {
-  const Curve::Frame frame = base.frame(on_base);
-  return arc_offset(edge.at(on_edge) - frame.point, frame.tangent, factor);
+  const Curve::PointAndTangent there = base.with_tangent(on_base);
+  return arc_offset(edge.at(on_edge) - there.point, there.tangent, factor);
 }
 
 }  // namespace
@@ -157,7 +221,7 @@ Bulge::Bulge(Curve base, Curve edge, double factor) : base_(std::move(base)), ed
 }
 
 Bulge::Place Bulge::place(double u) const {
-  const PointOnPiece on_base = base_.on_piece(u), on_edge = edge_.on_piece(u);
+  const PointOnSpan on_base = base_.on_span(u), on_edge = edge_.on_span(u);
   return {u, on_base, on_edge, offset_at(base_, on_base, edge_, on_edge, factor_)};
 }
 
@@ -171,10 +235,10 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};
 
   Vector<Along> along_base, along_edge;
-  const auto add = [](const Vector<Bezier> &pieces, double speed, Vector<Along> &to) {
-    to.reserve(pieces.size());
-    for (const Bezier &piece : pieces) {
-      const std::optional<Along> made = along_piece(piece, speed);
+  const auto add = [](const Vector<Bezier> &spans, double speed, Vector<Along> &to) {
+    to.reserve(spans.size());
+    for (const Bezier &span : spans) {
+      const std::optional<Along> made = along_span(span, speed);
       if (!made) return false;
       to.push_back(*made);
     }
@@ -183,7 +247,7 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
   if (!add(range.base, range.base_length, along_base) || !add(range.edge, range.edge_length, along_edge))
     return unknown;
 
-  // W stays near the line between its two end values. The largest bend over all pairs of pieces bounds the distance from this
+  // W stays near the line between its two end values. The largest bend over all pairs of spans bounds the distance from this
   // line.
   double bend = 0;
   for (const Along &b : along_base)
@@ -202,8 +266,8 @@ OffsetBounds bound_offset(const ArcRange &range, double factor) {
 }
 
 double Bulge::linear_error(const Place &from, const Place &to, double enough) const {
-  const Vector<Bezier> base = base_.pieces_between(from.on_base, to.on_base);
-  const Vector<Bezier> edge = edge_.length() > 0 ? edge_.pieces_between(from.on_edge, to.on_edge) : edge_.pieces();
+  const Vector<Bezier> base = base_.spans_between(from.on_base, to.on_base);
+  const Vector<Bezier> edge = edge_.length() > 0 ? edge_.spans_between(from.on_edge, to.on_edge) : edge_.spans();
   const OffsetBounds bounds = bound_offset({base, edge, base_.length(), edge_.length(), to.u - from.u}, factor_);
   // If the bound on |O''| is not enough, O is evaluated at a few points, and the bound is used only between neighbouring points.
   // With eight parts, this bound contributes 64 times less.
@@ -214,8 +278,8 @@ double Bulge::linear_error(const Place &from, const Place &to, double enough) co
 
 // Returns the largest distance of O from its linear interpolation, at the points that divide the range into eight parts.
 double Bulge::sampled_error(const Place &from, const Place &to) const {
-  const std::array<PointOnPiece, 7> on_base = base_.divide({from.u, from.on_base}, {to.u, to.on_base});
-  const std::array<PointOnPiece, 7> on_edge = edge_.divide({from.u, from.on_edge}, {to.u, to.on_edge});
+  const std::array<PointOnSpan, 7> on_base = base_.divide({from.u, from.on_base}, {to.u, to.on_base});
+  const std::array<PointOnSpan, 7> on_edge = edge_.divide({from.u, from.on_edge}, {to.u, to.on_edge});
   double off_line = 0;
   for (std::size_t k = 0; k < 7; ++k) {
     const Vec3 offset = offset_at(base_, view(on_base)[k], edge_, view(on_edge)[k], factor_);
@@ -243,8 +307,8 @@ double Bulge::jump(double u) const {
   const Ball w{edge_.at(u) - base_.at(u), 0};
   Ball first[2];
   for (const bool after : {false, true}) {
-    const std::optional<Along> base = along_end(base_.piece_beside(u, after), base_.length(), !after);
-    const std::optional<Along> edge = along_end(edge_.piece_beside(u, after), edge_.length(), !after);
+    const std::optional<Along> base = along_end(base_.span_beside(u, after), base_.length(), !after);
+    const std::optional<Along> edge = along_end(edge_.span_beside(u, after), edge_.length(), !after);
     if (!base || !edge) return infinity;
     const OffsetDerivatives offset(w, *base, *edge, factor_);
     if (!offset.has_direction()) return infinity;

@@ -43,7 +43,7 @@ class Bulge {
   // The place u on both curves, and O there.
   struct Place {
     double u;
-    PointOnPiece on_base, on_edge;
+    PointOnSpan on_base, on_edge;
     Vec3 offset;  // 0 where base and edge touch
   };
   Place place(double u) const;

@@ -7,7 +7,7 @@
 
 #include "base/recycled.hpp"
 #include "geometry/bulge.hpp"
-#include "geometry/polyline.hpp"
+#include "geometry/curve.hpp"
 
 namespace riis {
 

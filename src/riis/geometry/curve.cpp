@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -31,7 +32,7 @@ class Flattening {
     flattened_.t.push_back(0);
   }
 
-  // Adds a part of one piece. The part goes from share t0 to t1 of the whole curve.
+  // Adds a part of one span. The part goes from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
     const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
@@ -45,16 +46,16 @@ class Flattening {
     add(right, 0.5 * part_length, middle, t1, depth + 1);
   }
 
-  // Adds a part of one or several pieces. The part goes from share t0 to t1 of the whole curve.
+  // Adds a part of one or several spans. The part goes from share t0 to t1 of the whole curve.
   void add(const Curve &part, double t0, double t1, int depth) {
-    const Vector<Bezier> &pieces = part.pieces();
-    if (pieces.size() == 1) {
-      add(pieces.front(), part.length(), t0, t1, depth);
+    const Vector<Bezier> &spans = part.spans();
+    if (spans.size() == 1) {
+      add(spans.front(), part.length(), t0, t1, depth);
       return;
     }
     const auto curvature = [&] {
       double largest = 0;
-      for (const Bezier &piece : pieces) largest = std::max(largest, largest_curvature(piece));
+      for (const Bezier &span : spans) largest = std::max(largest, largest_curvature(span));
       return largest;
     };
     if (accept(part.last(), distance_to_chord(part), part.length(), curvature, t1)) return;
@@ -91,9 +92,9 @@ class Flattening {
   // A Bézier curve lies no farther from a segment than the farthest of the curve's control points.
   static double distance_to_chord(const Curve &part) {
     double largest = 0;
-    for (const Bezier &piece : part.pieces())
-      for (int i = 0; i <= piece.degree; ++i)
-        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), view(piece.control)[i], part.last())));
+    for (const Bezier &span : part.spans())
+      for (int i = 0; i <= span.degree; ++i)
+        largest = std::max(largest, flatness(Bezier::quadratic(part.first(), view(span.control)[i], part.last())));
     return largest;
   }
 
@@ -105,11 +106,11 @@ class Flattening {
 
 }  // namespace
 
-Curve::Curve(const Bezier &piece) : pieces_{piece}, ends_{arc_length(piece)} {}
+Curve::Curve(const Bezier &span) : spans_{span}, ends_{arc_length(span)} {}
 
-Curve::Curve(Vector<Bezier> pieces) : pieces_(std::move(pieces)) {
+Curve::Curve(Vector<Bezier> spans) : spans_(std::move(spans)) {
   double end = 0;
-  for (const Bezier &piece : pieces_) ends_.push_back(end += arc_length(piece));
+  for (const Bezier &span : spans_) ends_.push_back(end += arc_length(span));
 }
 
 Vector<double> Curve::joints() const {
@@ -118,80 +119,80 @@ Vector<double> Curve::joints() const {
   return shares;
 }
 
-PointOnPiece Curve::on_piece(double share) const {
-  if (share >= 1 || !(length() > 0)) return {pieces_.size() - 1, 1};
+PointOnSpan Curve::on_span(double share) const {
+  if (share >= 1 || !(length() > 0)) return {spans_.size() - 1, 1};
   const double behind = std::max(share, 0.0) * length();
-  // A point at a joint belongs to the later piece, also if rounding puts it slightly before the joint.
-  std::size_t piece = 0;
-  while (piece + 1 < pieces_.size() && behind >= ends_[piece] - negligible_share * length()) ++piece;
-  const double start = piece == 0 ? 0 : ends_[piece - 1];
-  if (behind <= start + negligible_share * length()) return {piece, 0};
-  return {piece, parameter_at_length(pieces_[piece], length(piece), behind - start)};
+  // A point at a joint belongs to the later span, also if rounding puts it slightly before the joint.
+  std::size_t span = 0;
+  while (span + 1 < spans_.size() && behind >= ends_[span] - negligible_share * length()) ++span;
+  const double start = span == 0 ? 0 : ends_[span - 1];
+  if (behind <= start + negligible_share * length()) return {span, 0};
+  return {span, parameter_at_length(spans_[span], length(span), behind - start)};
 }
 
-std::array<PointOnPiece, 7> Curve::divide(const Place &from, const Place &to) const {
-  std::array<PointOnPiece, 7> points;
+std::array<PointOnSpan, 7> Curve::divide(const Place &from, const Place &to) const {
+  std::array<PointOnSpan, 7> points;
   std::array<double, 7> t;
-  const std::size_t piece = from.where.piece;
-  const double part = to.share - from.share, end = to.where.piece == piece ? to.where.t : 1;
-  const bool is_one_piece = to.where.piece == piece || (to.where.piece == piece + 1 && to.where.t == 0);
-  if (is_one_piece && divide_part(pieces_[piece], length(), from.where.t, end, part * length(), t))
-    for (std::size_t k = 0; k < 7; ++k) view(points)[k] = {piece, view(t)[k]};
+  const std::size_t span = from.where.span;
+  const double part = to.share - from.share, end = to.where.span == span ? to.where.t : 1;
+  const bool is_one_span = to.where.span == span || (to.where.span == span + 1 && to.where.t == 0);
+  if (is_one_span && divide_part(spans_[span], length(), from.where.t, end, part * length(), t))
+    for (std::size_t k = 0; k < 7; ++k) view(points)[k] = {span, view(t)[k]};
   else
     for (std::size_t k = 0; k < 7; ++k)
-      view(points)[k] = on_piece(from.share + 0.125 * static_cast<double>(k + 1) * part);
+      view(points)[k] = on_span(from.share + 0.125 * static_cast<double>(k + 1) * part);
   return points;
 }
 
-Curve::Frame Curve::frame(const PointOnPiece &where) const {
-  const Bezier &piece = pieces_[where.piece];
-  const Vec3 along = derivative(piece, where.t);
+Curve::PointAndTangent Curve::with_tangent(const PointOnSpan &where) const {
+  const Bezier &span = spans_[where.span];
+  const Vec3 along = derivative(span, where.t);
   const double speed = riis::length(along);
-  return {evaluate(piece, where.t), speed > 0 ? (1.0 / speed) * along : Vec3{0, 0, 0}};
+  return {evaluate(span, where.t), speed > 0 ? (1.0 / speed) * along : Vec3{0, 0, 0}};
 }
 
-Bezier Curve::piece_beside(double share, bool after) const {
-  const PointOnPiece where = on_piece(share);
-  const Bezier &piece = pieces_[where.piece];
-  if (after) return where.t > 0 ? split(piece, where.t).second : piece;
-  if (where.t == 0 && where.piece > 0) return pieces_[where.piece - 1];
-  return where.t < 1 ? split(piece, where.t).first : piece;
+Bezier Curve::span_beside(double share, bool after) const {
+  const PointOnSpan where = on_span(share);
+  const Bezier &span = spans_[where.span];
+  if (after) return where.t > 0 ? split(span, where.t).second : span;
+  if (where.t == 0 && where.span > 0) return spans_[where.span - 1];
+  return where.t < 1 ? split(span, where.t).first : span;
 }
 
-Vector<Bezier> Curve::pieces_between(const PointOnPiece &from, const PointOnPiece &to) const {
+Vector<Bezier> Curve::spans_between(const PointOnSpan &from, const PointOnSpan &to) const {
   Vector<Bezier> part;
-  for (std::size_t i = from.piece; i <= to.piece; ++i) {
-    if (i == to.piece && to.t == 0 && i > from.piece) break;
-    Bezier piece = pieces_[i];
-    if (i == to.piece && to.t < 1) piece = split(piece, to.t).first;
-    if (i == from.piece && from.t > 0) piece = split(piece, i == to.piece ? from.t / to.t : from.t).second;
-    part.push_back(piece);
+  for (std::size_t i = from.span; i <= to.span; ++i) {
+    if (i == to.span && to.t == 0 && i > from.span) break;
+    Bezier span = spans_[i];
+    if (i == to.span && to.t < 1) span = split(span, to.t).first;
+    if (i == from.span && from.t > 0) span = split(span, i == to.span ? from.t / to.t : from.t).second;
+    part.push_back(span);
   }
   return part;
 }
 
 Curve Curve::reversed() const {
-  Vector<Bezier> pieces = pieces_;
-  reverse(pieces);
-  return Curve(std::move(pieces));
+  Vector<Bezier> spans = spans_;
+  reverse(spans);
+  return Curve(std::move(spans));
 }
 
 Curve Curve::through(Vec3 first, Vec3 last) const {
   Curve moved = *this;
-  moved.pieces_.front().control[0] = first;
-  Bezier &last_piece = moved.pieces_.back();
-  view(last_piece.control)[last_piece.degree] = last;
+  moved.spans_.front().control[0] = first;
+  Bezier &last_span = moved.spans_.back();
+  view(last_span.control)[last_span.degree] = last;
   return moved;
 }
 
-void reverse(Vector<Bezier> &pieces) {
-  std::reverse(pieces.begin(), pieces.end());
-  for (Bezier &piece : pieces) piece = piece.reversed();
+void reverse(Vector<Bezier> &spans) {
+  std::reverse(spans.begin(), spans.end());
+  for (Bezier &span : spans) span = span.reversed();
 }
 
 bool are_equal(const Curve &a, const Curve &b) {
   return std::equal(
-      a.pieces().begin(), a.pieces().end(), b.pieces().begin(), b.pieces().end(), [](const Bezier &p, const Bezier &q) {
+      a.spans().begin(), a.spans().end(), b.spans().begin(), b.spans().end(), [](const Bezier &p, const Bezier &q) {
         const auto n = static_cast<std::ptrdiff_t>(p.degree) + 1;
         return p.degree == q.degree && std::equal(p.control.begin(), p.control.begin() + n, q.control.begin());
       });
@@ -261,6 +262,145 @@ Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend
   Flattening flattening(curve.first(), max_error, bend, max_bend);
   if (curve.length() > 0) flattening.add(curve, 0, 1, 0);
   return flattening.take();
+}
+
+namespace {
+
+// Returns the part of a span from t0 to t1.
+Bezier part_of(const Bezier &span, double t0, double t1) {
+  const Bezier left = t1 < 1 ? split(span, t1).first : span;
+  return t0 > 0 ? split(left, t0 / t1).second : left;
+}
+
+}  // namespace
+
+CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares)
+    : curve_(curve), is_reversed_(is_reversed), shares_(shares) {
+  const Vector<Bezier> &spans = curve.spans();
+  const std::size_t n = shares.size();
+  points_.reserve(n);
+  const auto behind = [&](std::size_t i) { return (is_reversed ? 1 - shares[n - 1 - i] : shares[i]) * curve.length(); };
+  Vector<double> in_span, t;
+  in_span.reserve(n);
+  t.reserve(n);
+  double start = 0;
+  for (std::size_t span = 0; span < spans.size(); ++span) {
+    const double length = curve.length(span);
+    const bool is_last = span + 1 == spans.size();
+    // A share at a joint belongs to the later span, also if rounding puts it slightly before the joint.
+    const double end = is_last ? curve.length() : start + length - negligible_share * curve.length();
+    in_span.clear();
+    for (std::size_t i = points_.size(); i < n && (is_last || behind(i) < end); ++i) {
+      const double from_start = behind(i) - start;
+      in_span.push_back(from_start <= negligible_share * curve.length() ? 0 : std::min(from_start, length));
+      points_.push_back({span, 0});
+    }
+    t.assign(in_span.size(), 0);
+    parameters_at_lengths(spans[span], length, in_span, t.data());
+    const std::size_t first = points_.size() - in_span.size();
+    for (std::size_t k = 0; k < t.size(); ++k) points_[first + k].t = in_span[k] == 0 ? 0 : t[k];
+    start += length;
+  }
+  // The first and the last point are exactly the curve's end points.
+  points_.front() = {0, 0};
+  points_.back() = {spans.size() - 1, 1};
+}
+
+Vec3 CurvePoints::point(std::size_t i) const {
+  const PointOnSpan &at = on_span(i);
+  return evaluate(curve_.spans()[at.span], at.t);
+}
+
+Vec3 CurvePoints::tangent(std::size_t i) const {
+  const PointOnSpan &at = on_span(i);
+  const Vec3 along = derivative(curve_.spans()[at.span], at.t);
+  const double speed = length(along);
+  if (!(speed > 0)) return {0, 0, 0};
+  return (is_reversed_ ? -1 / speed : 1 / speed) * along;
+}
+
+const Vector<Bezier> &CurvePoints::between(std::size_t i, std::size_t j) {
+  const PointOnSpan &from = is_reversed_ ? on_span(j) : on_span(i), &to = is_reversed_ ? on_span(i) : on_span(j);
+  parts_.clear();
+  parts_.reserve(to.span - from.span + 1);
+  for (std::size_t span = from.span; span <= to.span; ++span) {
+    const double t0 = span == from.span ? from.t : 0, t1 = span == to.span ? to.t : 1;
+    // If the last point lies at the start of its span, the part contains nothing of that span.
+    if (t1 > t0) parts_.push_back(part_of(curve_.spans()[span], t0, t1));
+  }
+  if (parts_.empty()) parts_.push_back(Bezier::point(point(i)));
+  if (is_reversed_) reverse(parts_);
+  return parts_;
+}
+
+double CurvePoints::chord_error(std::size_t i, std::size_t j, double enough) {
+  const double part_length = (shares_[j] - shares_[i]) * curve_.length();
+  if (!(part_length > 0)) return 0;
+  const double eighth = 0.125 * part_length * part_length;
+  const PointOnSpan &from = is_reversed_ ? on_span(j) : on_span(i), &to = is_reversed_ ? on_span(i) : on_span(j);
+  double quick = 0, close = 0;
+  for (std::size_t span = from.span; span <= to.span; ++span) {
+    const double t0 = span == from.span ? from.t : 0, t1 = span == to.span ? to.t : 1;
+    if (t1 > t0) quick = std::max(quick, eighth * rough_curvature(curve_.spans()[span], t0, t1));
+  }
+  if (quick <= enough) return quick;
+  between(i, j);
+  for (const Bezier &part : parts_) close = std::max(close, eighth * largest_curvature(part));
+  return std::min(part_length, close);
+}
+
+Polyline make_polyline(const Vector<Vec3> &points) {
+  Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
+  for (const Vec3 &point : points) {
+    const double step = distance(polyline.points.back(), point);
+    // A step too short to change the sum is dropped, because it would give two points the same t.
+    if (!(polyline.length + step > polyline.length)) continue;
+    polyline.length += step;
+    polyline.points.push_back(point);
+    polyline.t.push_back(polyline.length);
+    polyline.errors.push_back(0.0);
+  }
+  if (polyline.length > 0) {
+    // The last point is always the given one, even if the step to it was dropped, because neighbours share it.
+    polyline.points.back() = points.back();
+    for (double &t : polyline.t) t /= polyline.length;
+  }
+  return polyline;
+}
+
+namespace {
+
+Polyline polyline_of(Flattened flattened, const Curve &curve) {
+  return {std::move(flattened.points), std::move(flattened.t), std::move(flattened.errors), curve.length()};
+}
+
+}  // namespace
+
+Polyline make_polyline(const Curve &curve, double max_error) { return polyline_of(flatten(curve, max_error), curve); }
+
+Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend) {
+  if (!(curve.length() > 0)) return make_polyline(curve, max_error);
+  const VelocityBend bend(curve.spans().front(), curve.length(), velocity);
+  return polyline_of(flatten(curve, max_error, &bend, max_bend), curve);
+}
+
+Polyline reversed(const Polyline &polyline) {
+  Polyline turned{{polyline.points.rbegin(), polyline.points.rend()},
+                  {polyline.t.rbegin(), polyline.t.rend()},
+                  {polyline.errors.rbegin(), polyline.errors.rend()},
+                  polyline.length};
+  if (polyline.length > 0)
+    for (double &t : turned.t) t = 1 - t;
+  return turned;
+}
+
+Vec3 evaluate(const Polyline &polyline, double t) {
+  const auto after = std::upper_bound(polyline.t.begin(), polyline.t.end(), t);
+  if (after == polyline.t.end()) return polyline.points.back();
+  if (after == polyline.t.begin()) return polyline.points.front();
+  const std::int64_t i = after - polyline.t.begin();
+  const double t0 = view(polyline.t)[i - 1], t1 = view(polyline.t)[i];
+  return mix(view(polyline.points)[i - 1], view(polyline.points)[i], (t - t0) / (t1 - t0));
 }
 
 }  // namespace riis

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves of one or several Bézier pieces, parametrised by the share of the length.
-// In: Bézier pieces. Out: points and parts of the curve by share, and polylines that approximate the curve.
+// Curves of one or several Bézier spans, parametrised by the share of the length.
+// In: Bézier spans. Out: points and parts of the curve by share, and polylines that approximate the curve.
 #pragma once
 
 #include <array>
@@ -8,62 +8,61 @@
 
 #include "base/recycled.hpp"
 #include "geometry/bezier.hpp"
+#include "geometry/vec3.hpp"
 
 namespace riis {
 
 // A share of a curve's length that is negligible.
 inline constexpr double negligible_share = 1e-14;
 
-// A point of a curve: the index of its piece, and the parameter on that piece.
-struct PointOnPiece {
-  std::size_t piece;
+// A point of a curve: the index of its span, and the parameter on that span.
+struct PointOnSpan {
+  std::size_t span;
   double t;
 };
 
-// Every piece but the first begins where the previous piece ends, and in the same direction. So the curve's curvature may jump
+// Every span but the first begins where the previous span ends, and in the same direction. So the curve's curvature may jump
 // there, but its direction does not. (A curve with corners is several curves, and its patch is several patches.)
 class Curve {
  public:
-  Curve(const Bezier &piece);  // NOLINT(google-explicit-constructor): a single piece is a curve
-  explicit Curve(Vector<Bezier> pieces);
+  Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve
+  explicit Curve(Vector<Bezier> spans);
 
-  const Vector<Bezier> &pieces() const { return pieces_; }
+  const Vector<Bezier> &spans() const { return spans_; }
   double length() const { return ends_.back(); }
-  double length(std::size_t piece) const { return piece == 0 ? ends_[0] : ends_[piece] - ends_[piece - 1]; }
-  Vec3 first() const { return pieces_.front().first(); }
-  Vec3 last() const { return pieces_.back().last(); }
+  double length(std::size_t span) const { return span == 0 ? ends_[0] : ends_[span] - ends_[span - 1]; }
+  Vec3 first() const { return spans_.front().first(); }
+  Vec3 last() const { return spans_.back().last(); }
 
-  // Returns the shares of the length at which one piece ends and the next begins, in ascending order.
+  // Returns the shares of the length at which one span ends and the next begins, in ascending order.
   Vector<double> joints() const;
 
   // The point at a share of the length, and the unit tangent there. The tangent is 0 if the curve has no direction.
-  struct Frame {
+  struct PointAndTangent {
     Vec3 point, tangent;
   };
-  Frame frame(double share) const { return frame(on_piece(share)); }
-  Frame frame(const PointOnPiece &where) const;
-  Vec3 at(double share) const { return at(on_piece(share)); }
-  Vec3 at(const PointOnPiece &where) const { return evaluate(pieces_[where.piece], where.t); }
+  PointAndTangent with_tangent(double share) const { return with_tangent(on_span(share)); }
+  PointAndTangent with_tangent(const PointOnSpan &where) const;
+  Vec3 at(double share) const { return at(on_span(share)); }
+  Vec3 at(const PointOnSpan &where) const { return evaluate(spans_[where.span], where.t); }
 
   // Finds the point at a share of the length, by Newton's method.
-  PointOnPiece on_piece(double share) const;
+  PointOnSpan on_span(double share) const;
   // Returns the points that divide the part between two shares, from.share < to.share, into eight parts of equal length.
   struct Place {
     double share;
-    PointOnPiece where;
+    PointOnSpan where;
   };
-  std::array<PointOnPiece, 7> divide(const Place &from, const Place &to) const;
+  std::array<PointOnSpan, 7> divide(const Place &from, const Place &to) const;
 
-  // Returns a part of one piece. If `after` is true, the part begins at this share of the length and ends with the piece.
-  // Otherwise it begins with the piece and ends at this share.
-  Bezier piece_beside(double share, bool after) const;
+  // Returns a part of one span. If `after` is true, the part begins at this share of the length and ends with the span.
+  // Otherwise it begins with the span and ends at this share.
+  Bezier span_beside(double share, bool after) const;
 
   // Returns the part from share0 to share1, share0 < share1.
-  Curve between(double share0, double share1) const {
-    return Curve(pieces_between(on_piece(share0), on_piece(share1)));
-  }
-  // Returns the pieces of the part from one point to a later point.
-  Vector<Bezier> pieces_between(const PointOnPiece &from, const PointOnPiece &to) const;
+  Curve between(double share0, double share1) const { return Curve(spans_between(on_span(share0), on_span(share1))); }
+  // Returns the spans of the part from one point to a later point.
+  Vector<Bezier> spans_between(const PointOnSpan &from, const PointOnSpan &to) const;
 
   Curve reversed() const;
 
@@ -71,12 +70,12 @@ class Curve {
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
-  Vector<Bezier> pieces_;
-  Vector<double> ends_;  // the length from the start of the curve to the end of each piece
+  Vector<Bezier> spans_;
+  Vector<double> ends_;  // the length from the start of the curve to the end of each span
 };
 
-// Turns the direction of successive pieces.
-void reverse(Vector<Bezier> &pieces);
+// Turns the direction of successive spans.
+void reverse(Vector<Bezier> &spans);
 
 // Returns whether both curves have exactly the same control points.
 bool are_equal(const Curve &a, const Curve &b);
@@ -108,12 +107,74 @@ struct Flattened {
 };
 
 // Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
-// chord. A Bézier piece is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and its
+// chord. A Bézier span is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and its
 // chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its velocity is
 // estimated to differ from linear by more than max_bend. Parts are halved by length, whereas the paper (algorithm "Recursive de
 // Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at least a
 // part, and no slivers arise between them. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more than
 // 2^20 parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
+
+// Points of a curve at many shares of its length, found in one pass.
+// In: a curve, ascending shares. Out: points, tangents, and bounds for the parts between them.
+class CurvePoints {
+ public:
+  // Finds the points at these shares, which ascend from 0 to 1. If is_reversed, the shares count from the curve's last point.
+  // The curve and the shares must outlive this object. On a curve without length, all points coincide.
+  CurvePoints(const Curve &curve, bool is_reversed, const Vector<double> &shares);
+
+  std::size_t size() const { return points_.size(); }
+  Vec3 point(std::size_t i) const;
+  // span() returns the span that point i lies on, and parameter() returns the parameter on that span.
+  std::size_t span(std::size_t i) const { return on_span(i).span; }
+  double parameter(std::size_t i) const { return on_span(i).t; }
+  // Returns the unit tangent, or 0 if the curve has no direction there.
+  Vec3 tangent(std::size_t i) const;
+
+  // Returns the spans of the curve from share i to share j, i < j, in the order of the shares. The reference is valid until the
+  // next call.
+  const Vector<Bezier> &between(std::size_t i, std::size_t j);
+
+  // Bounds the distance between the chord from share i to share j and the curve, at equal shares of their lengths
+  // (docs/theory/curves.md, "Chord error"). The bound is not refined further once it is at most `enough`.
+  double chord_error(std::size_t i, std::size_t j, double enough);
+
+ private:
+  const PointOnSpan &on_span(std::size_t i) const { return points_[is_reversed_ ? points_.size() - 1 - i : i]; }
+
+  const Curve &curve_;
+  bool is_reversed_;
+  const Vector<double> &shares_;
+  Vector<PointOnSpan> points_;  // in the order along the curve
+  Vector<Bezier> parts_;
+};
+
+// Polylines parametrised by length (paper, 3.2.2 "Polyline").
+// In: points or a curve. Out: C(t) for t in [0,1], where t is the share of the length.
+struct Polyline {
+  Vector<Vec3> points;    // at least 1
+  Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0
+  Vector<double> errors;  // for every segment, a bound on its distance at equal t from the curve that it replaces
+  double length;          // the length of that curve
+};
+
+// Returns the polyline through the points, parametrised by its own length. It replaces no curve, so its errors are 0. Drops
+// repeated points, so that t ascends strictly. Needs at least one point.
+Polyline make_polyline(const Vector<Vec3> &points);
+
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. A vertex's t is its share of
+// the curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any
+// tolerance.
+Polyline make_polyline(const Curve &curve, double max_error);
+// Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
+// each segment.
+Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
+
+// Returns the same polyline in the opposite direction.
+Polyline reversed(const Polyline &polyline);
+
+// Returns C(t) by linear interpolation, t in [0,1]. At the t of a vertex the result is exactly the vertex, and C(1) is the last
+// point. (The paper uses the smallest t_i > t, which does not exist at t = 1.)
+Vec3 evaluate(const Polyline &polyline, double t);
 
 }  // namespace riis

@@ -17,7 +17,7 @@ struct PointOnTriangle {
   std::array<double, 3> barycentric;  // >= 0; if the point is on an edge or a vertex, exactly 0 for the other corners
 };
 
-// The triangle must have an area (has_zero_area in surface/triangle_set.hpp). The result is the best of four candidates: the
+// The triangle must have an area (has_zero_area in triangulate/triangle_set.hpp). The result is the best of four candidates: the
 // clamped points of the three edges, and the foot of the perpendicular if it is inside. Each candidate lies on the triangle to
 // rounding. So a wrong answer to "inside" costs only rounding and never gives a distance that is too small.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);

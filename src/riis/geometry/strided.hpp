@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/bounds.hpp"
 #include "geometry/vec3.hpp"
 
 namespace riis {

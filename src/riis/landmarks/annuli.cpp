@@ -9,7 +9,7 @@
 #include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "geometry/curve.hpp"
-#include "landmarks/models.hpp"
+#include "landmarks/fit.hpp"
 #include "valve/mitral_annulus.hpp"
 
 namespace riis {
@@ -25,17 +25,17 @@ Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
   constexpr int n_samples = 12;
   double least = -1;
-  const Bezier *piece = nullptr;
+  const Bezier *span = nullptr;
   double t = 0;
   for (const Bezier &tried : curve)
     for (int i = 0; i <= n_samples; ++i) {
       const double at = static_cast<double>(i) / n_samples;
       const Vec3 d = evaluate(tried, at) - p;
       if (least >= 0 && dot(d, d) >= least) continue;
-      least = dot(d, d), piece = &tried, t = at;
+      least = dot(d, d), span = &tried, t = at;
     }
-  // Newton's method on the derivative of the squared distance, kept within the piece.
-  const auto index = static_cast<std::size_t>(piece - curve.data());
+  // Newton's method on the derivative of the squared distance, kept within the span.
+  const auto index = static_cast<std::size_t>(span - curve.data());
   const auto refined = [&](const Bezier &on, double from, double &squared) {
     double at = from;
     for (int i = 0; i < 30; ++i) {
@@ -53,8 +53,8 @@ Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
     return on_curve;
   };
   double squared = 0;
-  Vec3 best = refined(*piece, t, squared);
-  // The nearest sample may be the joint of two pieces, so the neighbouring pieces are also searched.
+  Vec3 best = refined(*span, t, squared);
+  // The nearest sample may be the joint of two spans, so the neighbouring spans are also searched.
   for (const std::size_t other : {index - 1, index + 1}) {
     if (other >= curve.size()) continue;
     double other_squared = 0;

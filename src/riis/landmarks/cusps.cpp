@@ -9,7 +9,7 @@
 
 #include "base/constants.hpp"
 #include "base/errors.hpp"
-#include "landmarks/models.hpp"
+#include "landmarks/fit.hpp"
 
 namespace riis {
 namespace {
@@ -160,13 +160,13 @@ Order named_order(const Landmarks &landmarks, const Order &turn, bool needs_name
   refuse_names(landmarks, turn);
 }
 
-struct Frame {
+struct CuspAxes {
   Order order;
   Vec3 axis, middle;  // the middle of the nadirs
   double height;
 };
 
-Frame frame_of(const Landmarks &landmarks, const char *kind, bool needs_names) {
+CuspAxes axes_of(const Landmarks &landmarks, const char *kind, bool needs_names) {
   check_roles(landmarks, kind,
               {RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ATTACHMENT});
   check_count(landmarks, kind, RIIS_LANDMARK_COMMISSURE, n_cusps, n_cusps);
@@ -212,8 +212,8 @@ Frame frame_of(const Landmarks &landmarks, const char *kind, bool needs_names) {
 
 class CuspModel : public LandmarkModel {
  public:
-  CuspModel(const Landmarks &landmarks, const Frame &frame, Vec3 shift)
-      : order_(frame.order), shift_(shift), coaptation_(landmarks.with_role(RIIS_LANDMARK_COAPTATION)) {}
+  CuspModel(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift)
+      : order_(axes.order), shift_(shift), coaptation_(landmarks.with_role(RIIS_LANDMARK_COAPTATION)) {}
   std::size_t n_equations() const override { return 3 * 2 * n_cusps + 2 * coaptation_.size(); }
 
  protected:
@@ -276,11 +276,11 @@ class AorticModel : public CuspModel {
 
 // ---- Sizes ----
 
-double mean_radius(const Landmarks &landmarks, const std::array<std::size_t, n_cusps> &numbers, const Frame &frame) {
+double mean_radius(const Landmarks &landmarks, const std::array<std::size_t, n_cusps> &numbers, const CuspAxes &axes) {
   double sum = 0;
   for (const std::size_t i : numbers) {
-    const Vec3 p = landmarks.at(i) - frame.middle;
-    sum += length(p - dot(p, frame.axis) * frame.axis);
+    const Vec3 p = landmarks.at(i) - axes.middle;
+    sum += length(p - dot(p, axes.axis) * axes.axis);
   }
   return sum / n_cusps;
 }
@@ -291,17 +291,16 @@ FittedSize length_size(const std::string &name, double start, double grown, doub
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }
 
-Pose start_of(const Landmarks &landmarks, const Frame &frame, Vec3 shift, const std::array<double, n_cusps> &at) {
+Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::array<double, n_cusps> &at) {
   // The mean of the nadirs' directions, after each is turned back to the direction of the right cusp.
-  const Rotation to = rotation_to(landmarks.at(frame.order.nadir[0]) - frame.middle, frame.axis), back = transposed(to);
+  const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
-    const Vec3 p =
-        rotation_about({0, 0, 1}, -at[cusp]) * (back * (landmarks.at(frame.order.nadir[cusp]) - frame.middle));
+    const Vec3 p = rotation_about({0, 0, 1}, -at[cusp]) * (back * (landmarks.at(axes.order.nadir[cusp]) - axes.middle));
     x += p.x / length(p), y += p.y / length(p);
   }
   const Rotation rotation = to * rotation_about({0, 0, 1}, std::atan2(y, x) * 180 / pi);
-  return {rotation, frame.middle - rotation * shift};
+  return {rotation, axes.middle - rotation * shift};
 }
 
 // Sets a parameter so that its ratio to a measure of the valve is that of the template, `own`.
@@ -351,15 +350,15 @@ void finish_aortic(const Valve &own, Valve &valve) {
 KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks) {
   const char *kind = valve.kind().name;
   const bool is_aortic = std::strcmp(kind, "aortic") == 0;
-  const Frame frame = frame_of(landmarks, kind, is_aortic);
-  const double R = mean_radius(landmarks, frame.order.nadir, frame),
-               Rc = mean_radius(landmarks, frame.order.commissure, frame), h = frame.height;
+  const CuspAxes axes = axes_of(landmarks, kind, is_aortic);
+  const double R = mean_radius(landmarks, axes.order.nadir, axes),
+               Rc = mean_radius(landmarks, axes.order.commissure, axes), h = axes.height;
   KindOfLandmarks made{nullptr, {}, "root_radius", nullptr};
   if (is_aortic) {
     std::array<double, 3> shift{};
     valve.get("right.translation", 3, shift.data());
     const Vec3 by{shift[0], shift[1], shift[2]};
-    auto model = std::make_unique<AorticModel>(landmarks, frame, by);
+    auto model = std::make_unique<AorticModel>(landmarks, axes, by);
     const double grown = R / value_of(valve, "root_radius");
     const auto add = [&](const std::string &name, double start) {
       model->sizes.push_back(length_size(name, start, grown * value_of(valve, name), R));
@@ -370,20 +369,20 @@ KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks) {
     for (const char *name : {"right.leaflet_angle", "left.leaflet_angle"})
       model->sizes.push_back({name, 60, Rc * (pi / 180), 25, 77.5, value_of(valve, name), 15});
     made.model = std::move(model);
-    made.starts = {start_of(landmarks, frame, by, {0, 120, 240})};
+    made.starts = {start_of(landmarks, axes, by, {0, 120, 240})};
     made.finish = finish_aortic;
   } else {
     const auto *names = std::find_if(std::begin(equal_cusps), std::end(equal_cusps),
                                      [&](const EqualCusps &cusps) { return std::strcmp(cusps.kind, kind) == 0; });
     const Vec3 by{value_of(valve, "translation", 0), value_of(valve, "translation", 1),
                   value_of(valve, "translation", 2)};
-    auto model = std::make_unique<EqualCuspModel>(landmarks, frame, by);
+    auto model = std::make_unique<EqualCuspModel>(landmarks, axes, by);
     const double grown = R / value_of(valve, names->radius);
     model->sizes = {length_size(names->radius, R, grown * value_of(valve, names->radius), R),
                     length_size(names->commissure_radius, Rc, grown * value_of(valve, names->commissure_radius), R),
                     length_size(names->height, h, grown * value_of(valve, names->height), R)};
     made.model = std::move(model);
-    made.starts = {start_of(landmarks, frame, by, {0, 120, 240})};
+    made.starts = {start_of(landmarks, axes, by, {0, 120, 240})};
     made.size_name = names->radius;
     if (std::strcmp(kind, "trileaflet") == 0) made.finish = finish_trileaflet;
   }

@@ -12,7 +12,7 @@
 
 #include "base/constants.hpp"
 #include "base/errors.hpp"
-#include "landmarks/models.hpp"
+#include "landmarks/fit.hpp"
 #include "valve/skirt.hpp"
 #include "valve/warp.hpp"
 

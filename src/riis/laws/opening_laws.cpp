@@ -138,12 +138,12 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
 namespace {
 
 // An angle in radians and its rate of change.
-struct Motion {
+struct AngleState {
   double angle, rate;
 };
 
-Motion operator+(Motion a, Motion b) { return {a.angle + b.angle, a.rate + b.rate}; }
-Motion operator*(double s, Motion a) { return {s * a.angle, s * a.rate}; }
+AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
+AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
 // The law of Korakianitis and Shi. Its drive is a pressure difference and a flow, both linear in time during a step.
 class AngleLaw {
@@ -154,7 +154,7 @@ class AngleLaw {
   AngleLaw(const riis_opening_angle &law, Drive from, Drive to) : law_(law), from_(from), to_(to) {}
 
   // Returns the time derivative of angle and rate at a share of the step.
-  Motion derivative(Motion at, double share) const {
+  AngleState derivative(AngleState at, double share) const {
     const double pressure = (1 - share) * from_.pressure_difference + share * to_.pressure_difference;
     const double flow = (1 - share) * from_.flow + share * to_.flow;
     return {at.rate, -law_.friction * at.rate +
@@ -176,15 +176,15 @@ class AngleLaw {
 };
 
 // Takes one step of the classical Runge-Kutta method. `from` and `to` are shares of the caller's step.
-Motion runge_kutta(const AngleLaw &law, Motion at, double from, double to, double seconds) {
+AngleState runge_kutta(const AngleLaw &law, AngleState at, double from, double to, double seconds) {
   const double middle = 0.5 * (from + to);
-  const Motion k1 = law.derivative(at, from), k2 = law.derivative(at + (0.5 * seconds) * k1, middle),
-               k3 = law.derivative(at + (0.5 * seconds) * k2, middle), k4 = law.derivative(at + seconds * k3, to);
+  const AngleState k1 = law.derivative(at, from), k2 = law.derivative(at + (0.5 * seconds) * k1, middle),
+                   k3 = law.derivative(at + (0.5 * seconds) * k2, middle), k4 = law.derivative(at + seconds * k3, to);
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
 // Keeps the leaflet between its stops. A leaflet at a stop has no speed towards this stop.
-Motion stopped(Motion at, double least, double most) {
+AngleState stopped(AngleState at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
   return at;
@@ -224,7 +224,7 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
          " are taken: take shorter steps, or look at the gains' units");
   const auto n = std::max<std::int64_t>(1, static_cast<std::int64_t>(n_wanted));
   const double least = law.angle_min * degree, most = law.angle_max * degree;
-  Motion at{angle * degree, before.angle_rate * degree};
+  AngleState at{angle * degree, before.angle_rate * degree};
   if (step > 0)
     for (std::int64_t i = 0; i < n; ++i) {
       const double from = static_cast<double>(i) / static_cast<double>(n),

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "base/fork_lock.hpp"
-#include "parallel/keeps_arenas.hpp"
+#include "parallel/threads.hpp"
 
 namespace riis {
 namespace {

@@ -15,7 +15,6 @@
 
 #include "common/array_view.hpp"
 #include "common/float_environment.hpp"
-#include "parallel/range.hpp"
 #include "parallel/team.hpp"
 #include "parallel/threads.hpp"
 

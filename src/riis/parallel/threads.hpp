@@ -6,6 +6,11 @@
 
 namespace riis {
 
+// The positions i of a list with begin <= i < end.
+struct Range {
+  std::int64_t begin, end;
+};
+
 // The number of threads of a call. It also records whether the caller or the library chose the number.
 class Threads {
  public:
@@ -36,5 +41,16 @@ bool begin_threads() noexcept;
 
 // Returns whether this process is a child of fork() that may not use several threads.
 bool has_lost_threads() noexcept;
+
+// The pool (arena_pool.hpp) keeps its arenas while at least one object of this type exists. Each handle that needs a walk or a
+// scene has such an object. The last object's destructor frees the arenas, because a caller may want to end TBB (tbb::finalize),
+// and TBB refuses that while there are arenas.
+class KeepsArenas {
+ public:
+  KeepsArenas() noexcept;
+  ~KeepsArenas();
+  KeepsArenas(const KeepsArenas &) = delete;
+  KeepsArenas &operator=(const KeepsArenas &) = delete;
+};
 
 }  // namespace riis

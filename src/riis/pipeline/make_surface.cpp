@@ -6,11 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "arrays/user_arrays.hpp"
 #include "base/errors.hpp"
 #include "base/log.hpp"
-#include "distance/patch_distance.hpp"
-#include "surface/triangulate.hpp"
-#include "surface/user_arrays.hpp"
+#include "base/recycled.hpp"
+#include "paper_distances/patch_distance.hpp"
+#include "triangulate/triangulate.hpp"
 
 namespace riis {
 namespace {
@@ -39,7 +40,7 @@ SurfaceSeconds logged(const Surface &surface, const SurfaceSeconds &seconds) {
 
 }  // namespace
 
-SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
+SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface) {
   const Placement &placement = request.placement;
   Stopwatch stopwatch;
@@ -48,14 +49,14 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   PatchSet patches = valve.make_patches();
   // Turns the earlier state into curves and patches. Corresponding points of both states have the same u and v.
   std::optional<PatchSet> patches_before;
-  std::optional<Motion> motion;
+  std::optional<EarlierState> earlier;
   if (moved) {
     patches_before = valve.make_patches_before(moved->before, moved->patches_before);
-    motion.emplace(Motion{*patches_before, moved->placement_before, moved->seconds});
+    earlier.emplace(EarlierState{*patches_before, moved->placement_before, moved->seconds});
   }
   // Turns curves into polylines, patches into quads, and quads into triangles.
   const Triangulation how{accuracy.triangle_error / placement.scale, placement, request.flip_normals, request.n_threads,
-                          motion ? &*motion : nullptr};
+                          earlier ? &*earlier : nullptr};
   TriangleSet triangles = fixed ? triangulate_fixed(patches, how, fixed->plan(), surface.take_triangles())
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
@@ -68,7 +69,7 @@ SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const 
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   surface.is_of_valve(
       {placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(), valve.is_warped()});
-  if (motion)
+  if (earlier)
     surface.moved_between(
         {std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
   else
@@ -91,10 +92,10 @@ SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &a
 }
 
 void add_direction(const ValveDirection &direction, int n_threads, Surface &surface) {
-  const ValveFrame &frame = *surface.frame();
+  const SourceValve &source = *surface.source();
   const auto patches_of = [&](const Valve &state, const char *name) {
     const StateNames names{name, "the surface's valve"};
-    state.check_is_state_of(*frame.kind, frame.is_warped, names);
+    state.check_is_state_of(*source.kind, source.is_warped, names);
     PatchSet made = state.make_patches_unsearched(name);
     check_same_build(*surface.patches(), made, names);
     return made;
@@ -105,6 +106,62 @@ void add_direction(const ValveDirection &direction, int n_threads, Surface &surf
   surface.add_direction(
       {after, before ? *before : after, direction.placement_after, direction.placement_before, direction.step},
       n_threads);
+}
+
+namespace {
+
+// The lines are chosen for this many openings, evenly spaced from 0 to 1.
+constexpr int n_openings = 33;
+// The chosen lines are then tested at n_between more openings between every two neighbouring openings. If the lines are too
+// coarse at some of the tested openings, all lines are chosen again, now for these openings also. The test is repeated at most
+// n_trials times.
+constexpr int n_between = 7, n_trials = 4;
+// A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
+constexpr std::size_t max_patches = 10'000;
+// A warp may change after the triangles were planned, and the error with it. So the plan of a warped valve takes only this share
+// of the allowed error.
+constexpr double warped_share = 0.6;
+
+PatchSet patches_at(Valve &valve, double opening) {
+  valve.set("opening", 1, &opening);
+  try {
+    return valve.make_patches();
+  } catch (const Error &error) {
+    fail(error.status, "at the opening ", opening, ", for a fixed triangulation: ", error.message.text());
+  }
+}
+
+TriangulationPlan plan_for(Valve valve, double max_error, int n_threads) {
+  Vector<PatchSet> states;
+  if (!valve.can_open()) {
+    states.push_back(valve.make_patches());
+    return plan_triangulation(states, max_error, n_threads);
+  }
+  const std::size_t n_patches = patches_at(valve, 0).patches.size();
+  if (n_patches > max_patches)
+    fail(RIIS_LIMIT_EXCEEDED, "the valve has ", n_patches, " patches; a fixed triangulation takes at most ",
+         max_patches);
+  constexpr int n_steps = (n_between + 1) * (n_openings - 1);
+  const auto opening = [](int i) { return static_cast<double>(i) / n_steps; };
+  for (int i = 0; i <= n_steps; i += n_between + 1) states.push_back(patches_at(valve, opening(i)));
+  TriangulationPlan plan = plan_triangulation(states, max_error, n_threads);
+  for (int trial = 0; trial < n_trials; ++trial) {
+    const std::size_t n_states = states.size();
+    for (int i = 0; i <= n_steps; ++i) {
+      PatchSet state = patches_at(valve, opening(i));
+      if (!is_within(state, plan, max_error)) states.push_back(std::move(state));
+    }
+    if (states.size() == n_states) break;
+    plan = plan_triangulation(states, max_error, n_threads);
+  }
+  return plan;
+}
+
+}  // namespace
+
+FixedTriangulation::FixedTriangulation(const Valve &valve, double max_error, int n_threads)
+    : valve_(valve), plan_(plan_for(valve, valve.is_warped() ? warped_share * max_error : max_error, n_threads)) {
+  free_kept_memory();
 }
 
 }  // namespace riis

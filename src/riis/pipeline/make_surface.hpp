@@ -8,13 +8,31 @@
 
 #include <cstdint>
 
-#include "distance/surface.hpp"
+#include "arrays/user_arrays.hpp"
 #include "geometry/placement.hpp"
-#include "pipeline/fixed_triangulation.hpp"
-#include "surface/user_arrays.hpp"
+#include "scene/surface.hpp"
+#include "triangulate/triangulate.hpp"
 #include "valve/valve.hpp"
 
 namespace riis {
+
+// A triangulation that stays the same while a valve opens and closes (docs/theory/triangles.md, "Fixed triangulation").
+// In: a valve, the allowed error. Out: a plan of the triangles that serves all openings.
+class FixedTriangulation {
+ public:
+  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Fails as the stages
+  // of the pipeline do. The message names the opening.
+  FixedTriangulation(const Valve &valve, double max_error, int n_threads);
+
+  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in more than its opening and the values of its
+  // warp.
+  void check(const Valve &valve) const { valve_.check_same_but_for_opening(valve); }
+  const TriangulationPlan &plan() const { return plan_; }
+
+ private:
+  Valve valve_;
+  TriangulationPlan plan_;
+};
 
 // The values that every surface is made with. Lengths are in mesh units.
 struct SurfaceRequest {
@@ -33,14 +51,14 @@ struct ValveAccuracy {
 };
 
 // An earlier state of a valve, from which the surface gets its velocity.
-struct ValveMotion {
+struct EarlierValve {
   const Valve &before;
   Placement placement_before;
   double seconds;                            // the time from that state to the present one, not 0
   const PatchSet *patches_before = nullptr;  // the patches of that state if they are known
 };
 
-// A direction in which a valve changes, by two near states (surface/vertex_rates.hpp).
+// A direction in which a valve changes, by two near states (motion/vertex_rates.hpp).
 struct ValveDirection {
   const Valve &after, &before;
   Placement placement_after, placement_before;
@@ -53,9 +71,9 @@ struct SurfaceSeconds {
 
 // Both functions replace the content of `surface` and reuse its memory. After a failure the only use of `surface` is to make it
 // again. The first function fails as the stages of the pipeline do. It also fails with RIIS_INVALID_PARAMETER if the valve has
-// no area or if the two states come from valves of different builds. Without a motion the vertices have no velocity. `fixed` is
-// null unless accuracy.is_fixed.
-SurfaceSeconds make_surface(const Valve &valve, const ValveMotion *moved, const SurfaceRequest &request,
+// no area or if the two states come from valves of different builds. Without an earlier state the vertices have no velocity.
+// `fixed` is null unless accuracy.is_fixed.
+SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,
                             const SurfaceRequest &request, Surface &surface);

@@ -5,16 +5,43 @@
 
 #include <riis/riis.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "pipeline/crossing_watch.hpp"
-#include "pipeline/fixed_triangulation.hpp"
+#include "arrays/keyframes.hpp"
 #include "pipeline/make_surface.hpp"
-#include "surface/keyframes.hpp"
+#include "scene/surface.hpp"
+#include "valve/valve.hpp"
 
 namespace riis {
+
+// Logs a warning if leaflets go through each other, once for each shape of the valve.
+// In: the valve and its new surface. Out: a log message or none.
+class CrossingWatch {
+ public:
+  // Examines the first surface of each shape in each range of the opening, until it has warned about the shape. Without a log
+  // function it does nothing and allocates nothing. It never fails, because the surface is good: if memory for the search is
+  // lacking, there is no warning.
+  void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
+
+ private:
+  struct Shape {
+    std::uint64_t digest = 0;
+    unsigned looked_at = 0;  // a bit for each range of the opening
+    bool is_said = false;
+  };
+  Shape &remembered(std::uint64_t digest);
+
+  // The number of shapes that are remembered. A caller that alternates between no more shapes than this gets one warning for each
+  // shape.
+  static constexpr std::size_t n_remembered = 8;
+
+  std::array<Shape, n_remembered> shapes_{};
+  std::size_t next_ = 0;
+};
 
 class UpdatableSurface {
  public:
@@ -25,7 +52,7 @@ class UpdatableSurface {
   // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
   // number of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
   // triangulation. An update without it ends the fixed triangulation.
-  void update_from_valve(const Valve &valve, const ValveMotion *motion, const SurfaceRequest &request,
+  void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
   // Updates the surface from arrays. If they contain no faces, they are new vertices for the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);

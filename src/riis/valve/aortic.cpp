@@ -157,9 +157,9 @@ CuspOpening opening_of(const ParameterValues &values) {
 
 // Checks lengths against the root radius, and heights against each other.
 void check_together(const ParameterValues &values) {
-  const Measure radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
-  const auto check = [&](std::size_t position, const Measure &measure, double least, double most) {
-    check_ratio(aortic_valve_kind().parameters[position], values[position], measure, least, most);
+  const Reference radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
+  const auto check = [&](std::size_t position, const Reference &reference, double least, double most) {
+    check_ratio(aortic_valve_kind().parameters[position], values[position], reference, least, most);
   };
   check(leaflet_height, radius, 0.05, 10);
   check(bending_height, height, 0.05, 0.95);

@@ -54,9 +54,9 @@ ValveKind make_kind() {
 // clang-format on
 
 void check_values(const ParameterValues &values) {
-  const Measure measure{"radius", values[radius][0]};
+  const Reference reference{"radius", values[radius][0]};
   const auto check = [&](Parameter parameter, double least, double most) {
-    check_ratio(bileaflet_valve_kind().parameters[parameter], values[parameter], measure, least, most);
+    check_ratio(bileaflet_valve_kind().parameters[parameter], values[parameter], reference, least, most);
   };
   check(hinge_offset, 0, 0.9);
   check(hinge_height, 0, 10);
@@ -121,13 +121,13 @@ class Turn {
   SineCosine closed_, now_;
 };
 
-// Every arc has this many pieces. A quarter of a circle is then accurate to 1e-9 of its radius.
-constexpr int n_pieces = 8;
+// Every arc has this many spans. A quarter of a circle is then accurate to 1e-9 of its radius.
+constexpr int n_spans = 8;
 
-// Bounds the distance of an arc's pieces from the circle, in radii. For a piece of the angle a, the distance is 2/27 sin^6(a/4) /
+// Bounds the distance of an arc's spans from the circle, in radii. For a span of the angle a, the distance is 2/27 sin^6(a/4) /
 // cos^2(a/4).
 double arc_deviation(double whole_angle) {
-  const double quarter = 0.25 * whole_angle / n_pieces;
+  const double quarter = 0.25 * whole_angle / n_spans;
   const double sine = std::sin(quarter), cosine = std::cos(quarter);
   constexpr double rounding = 1e-3;  // a margin for the bound's own rounding, as a share of the bound
   return (1 + rounding) * (2.0 / 27.0) * std::pow(sine, 6) / (cosine * cosine);
@@ -137,23 +137,23 @@ double arc_deviation(double whole_angle) {
 // takes points of the plane, such as control points, to space.
 template <class ToSpace>
 Curve make_arc(double circle_radius, double whole_angle, double last_x, double last_y, const ToSpace &placed) {
-  const double step = whole_angle / n_pieces, reach = 4.0 / 3.0 * std::tan(0.25 * step);
+  const double step = whole_angle / n_spans, reach = 4.0 / 3.0 * std::tan(0.25 * step);
   struct Point {
     double x, y;
   };
   const auto on_circle = [&](int i) {
     if (i == 0) return Point{circle_radius, 0};
-    if (i == n_pieces) return Point{last_x, last_y};
+    if (i == n_spans) return Point{last_x, last_y};
     return Point{circle_radius * std::cos(i * step), circle_radius * std::sin(i * step)};
   };
-  Vector<Bezier> pieces;
-  for (int i = 0; i < n_pieces; ++i) {
+  Vector<Bezier> spans;
+  for (int i = 0; i < n_spans; ++i) {
     const Point from = on_circle(i), to = on_circle(i + 1);
     // The circle's tangent is the radius turned by 90 degrees.
-    pieces.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
-                                   placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
+    spans.push_back(Bezier::cubic(placed(from.x, from.y), placed(from.x - reach * from.y, from.y + reach * from.x),
+                                  placed(to.x + reach * to.y, to.y - reach * to.x), placed(to.x, to.y)));
   }
-  return Curve(std::move(pieces));
+  return Curve(std::move(spans));
 }
 
 const Rotation &half_turn() {

@@ -113,7 +113,7 @@ ValveKind make_kind() {
 
 // The numbers that change as half a cusp opens, y >= 0. They are blended, and the curves follow from them. Shares have the range
 // 0 to 1. Control points are counted from the symmetry plane or from the root.
-struct Frame {
+struct CuspNumbers {
   double root_radius;
   Vec3 commissure;
   double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents
@@ -127,9 +127,9 @@ struct Frame {
   double band_start;  // height from the second inner control point to the coaptation line, as the same share
 };
 
-// Blends two frames. The leaflet becomes upright at the root, and flatter beside the commissure, early in the motion. Otherwise
-// it would fold beside the attachment.
-Frame blend(const Frame &a, const Frame &b, double opening) {
+// Blends the numbers of two cusps. The leaflet becomes upright at the root, and flatter beside the commissure, early in the
+// motion. Otherwise it would fold beside the attachment.
+CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening) {
   const double early = opening * (2 - opening);
   const auto mixed = [&](double from, double to) { return riis::blend(from, to, opening); };
   const auto all = [](const std::array<double, 4> &from, const std::array<double, 4> &to, double share) {
@@ -153,20 +153,20 @@ Frame blend(const Frame &a, const Frame &b, double opening) {
 }
 
 // The length of half a free edge as a function of how far its middle hangs below the commissure. It is computed by a fixed rule,
-// so that it is a smooth function of the frame.
+// so that it is a smooth function of the cusp.
 class EdgeLength {
  public:
-  explicit EdgeLength(const Frame &frame) {
+  explicit EdgeLength(const CuspNumbers &cusp) {
     const auto slope = [](const std::array<double, 4> &q, double t) {
       const double s = 1 - t;
       return 3 * (s * s * (q[1] - q[0]) + 2 * s * t * (q[2] - q[1]) + t * t * (q[3] - q[2]));
     };
     for (std::size_t i = 0; i < n_nodes; ++i) {
       const double panel = static_cast<double>(i / rule.size()), t = (panel + rule[i % rule.size()].at) / n_panels;
-      const double x = slope(frame.edge_x, t), y = slope(frame.edge_y, t), z = slope(frame.sag, t);
+      const double x = slope(cusp.edge_x, t), y = slope(cusp.edge_y, t), z = slope(cusp.sag, t);
       view(nodes_)[i] = {rule[i % rule.size()].weight / n_panels, x * x + y * y, z * z};
     }
-    chord_ = std::hypot(frame.edge_x[3] - frame.edge_x[0], frame.edge_y[3] - frame.edge_y[0]);
+    chord_ = std::hypot(cusp.edge_x[3] - cusp.edge_x[0], cusp.edge_y[3] - cusp.edge_y[0]);
   }
 
   struct Value {
@@ -208,7 +208,7 @@ class EdgeLength {
   double chord_;
 };
 
-Frame closed_frame(const ParameterValues &values) {
+CuspNumbers closed_cusp(const ParameterValues &values) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   const double R = value(root_radius), Rc = value(commissure_radius), h = value(commissure_height);
   const double h_e = value(effective_height), z_k = h_e - value(coaptation_height);
@@ -219,35 +219,35 @@ Frame closed_frame(const ParameterValues &values) {
   // two cusps.
   const double x_in = 0.5 * value(gap) / sine_60;
   const auto x = [&](double share) { return (1 - share) * x_in + share * cosine_60 * Rc; };
-  Frame frame{R,
-              {cosine_60 * Rc, sine_60 * Rc, h},
-              value(attachment_width) * R,
-              value(attachment_drop) * h,
-              {x_in, x(1.0 / 3), x(2.0 / 3), cosine_60 * Rc},
-              {0, sine_60 * Rc / 3, sine_60 * Rc * 2 / 3, sine_60 * Rc},
-              {1, 1, 1 - value(edge_rise), 0},
-              0,
-              value(coaptation_height) / h_e,
-              0,
-              R - tangent * cosine,
-              tangent * sine / z_k,
-              0.5};
-  frame.edge_length = EdgeLength(frame).at(h - h_e).length;
-  return frame;
+  CuspNumbers cusp{R,
+                   {cosine_60 * Rc, sine_60 * Rc, h},
+                   value(attachment_width) * R,
+                   value(attachment_drop) * h,
+                   {x_in, x(1.0 / 3), x(2.0 / 3), cosine_60 * Rc},
+                   {0, sine_60 * Rc / 3, sine_60 * Rc * 2 / 3, sine_60 * Rc},
+                   {1, 1, 1 - value(edge_rise), 0},
+                   0,
+                   value(coaptation_height) / h_e,
+                   0,
+                   R - tangent * cosine,
+                   tangent * sine / z_k,
+                   0.5};
+  cusp.edge_length = EdgeLength(cusp).at(h - h_e).length;
+  return cusp;
 }
 
 // Returns the lower part of the symmetry curve. It ends at `end` in the direction of `up`, which is a vector from `end` to the
 // free edge.
-Bezier symmetry_curve(const Frame &frame, Vec3 end, Vec3 up) {
-  return Bezier::cubic({frame.root_radius, 0, 0}, {frame.belly_x, 0, frame.belly_rise * end.z},
-                       end - (frame.band_start * end.z / up.z) * up, end);
+Bezier symmetry_curve(const CuspNumbers &cusp, Vec3 end, Vec3 up) {
+  return Bezier::cubic({cusp.root_radius, 0, 0}, {cusp.belly_x, 0, cusp.belly_rise * end.z},
+                       end - (cusp.band_start * end.z / up.z) * up, end);
 }
 
 // The open free edge is round, like an arc of a circle seen along the axis. The symmetry curve is straight, and the coaptation
 // zone has the same share of its length as in the closed state.
-Frame open_frame(const ParameterValues &values) {
+CuspNumbers open_cusp(const ParameterValues &values) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
-  const Frame closed = closed_frame(values);
+  const CuspNumbers closed = closed_cusp(values);
   const double R = value(root_radius), Rc = value(commissure_radius), h = value(commissure_height);
   const double h_e = value(effective_height), h_co = value(coaptation_height);
   const double x_in = value(open_radius_ratio) * Rc, reach = arc_reach * Rc;
@@ -255,16 +255,16 @@ Frame open_frame(const ParameterValues &values) {
   const double below_share = below / (below + h_co);
   const Vec3 commissure{(1 + value(commissure_expansion)) * closed.commissure.x,
                         (1 + value(commissure_expansion)) * closed.commissure.y, h};
-  Frame frame = closed;
-  frame.commissure = commissure;
-  frame.edge_x = {x_in, x_in, commissure.x + sine_60 * reach, commissure.x};
-  frame.edge_y = {0, reach, commissure.y - cosine_60 * reach, commissure.y};
-  frame.sag = {1, 1, open_sag, 0};
-  frame.band = 1 - below_share;
-  frame.band_lean = (1 - below_share) * (R - x_in);
-  frame.belly_x = R + (x_in - R) * below_share / 3;
-  frame.belly_rise = frame.band_start = 1.0 / 3;
-  return frame;
+  CuspNumbers cusp = closed;
+  cusp.commissure = commissure;
+  cusp.edge_x = {x_in, x_in, commissure.x + sine_60 * reach, commissure.x};
+  cusp.edge_y = {0, reach, commissure.y - cosine_60 * reach, commissure.y};
+  cusp.sag = {1, 1, open_sag, 0};
+  cusp.band = 1 - below_share;
+  cusp.band_lean = (1 - below_share) * (R - x_in);
+  cusp.belly_x = R + (x_in - R) * below_share / 3;
+  cusp.belly_rise = cusp.band_start = 1.0 / 3;
+  return cusp;
 }
 
 // Returns the cubic from `first` to `last` that passes through these points at 1/3 and 2/3.
@@ -366,24 +366,24 @@ Bezier smoothed(Bezier line, const Bezier &free_edge, const EndTangents &tangent
   return line;
 }
 
-HalfCusp half_cusp(const Frame &frame) {
-  const Vec3 top = frame.commissure;
-  const double depth = EdgeLength(frame).depth(frame.edge_length), low = top.z - depth;
-  if (!(low >= least_height * frame.root_radius))
+HalfCusp half_cusp(const CuspNumbers &cusp) {
+  const Vec3 top = cusp.commissure;
+  const double depth = EdgeLength(cusp).depth(cusp.edge_length), low = top.z - depth;
+  if (!(low >= least_height * cusp.root_radius))
     fail(RIIS_INVALID_PARAMETER, "as the valve opens, its free edge hangs down to the height ", low,
-         " above the root; it must stay at least ", least_height, " times root_radius, which is ", frame.root_radius,
+         " above the root; it must stay at least ", least_height, " times root_radius, which is ", cusp.root_radius,
          ", above the root: look at commissure_height, effective_height, and those of the open state");
   const auto on_edge = [&](std::size_t i) {
-    return Vec3{view(frame.edge_x)[i], view(frame.edge_y)[i], top.z - depth * view(frame.sag)[i]};
+    return Vec3{view(cusp.edge_x)[i], view(cusp.edge_y)[i], top.z - depth * view(cusp.sag)[i]};
   };
   HalfCusp half;
   half.leaflet = Bezier::cubic(on_edge(0), on_edge(1), on_edge(2), top);
-  const Vec3 middle{half.leaflet.first().x + frame.band_lean, 0, (1 - frame.band) * low};
-  half.symmetry_below = symmetry_curve(frame, middle, half.leaflet.first() - middle);
+  const Vec3 middle{half.leaflet.first().x + cusp.band_lean, 0, (1 - cusp.band) * low};
+  half.symmetry_below = symmetry_curve(cusp, middle, half.leaflet.first() - middle);
   half.symmetry_above = Bezier::line(middle, half.leaflet.first());
-  const double R = frame.root_radius;
+  const double R = cusp.root_radius;
   half.sinus_below =
-      Bezier::cubic({R, 0, 0}, {R, frame.attachment_width, 0}, top - Vec3{0, 0, frame.attachment_drop}, top);
+      Bezier::cubic({R, 0, 0}, {R, cusp.attachment_width, 0}, top - Vec3{0, 0, cusp.attachment_drop}, top);
   half.sinus_above = Bezier::point(top);
   const Vec3 up = half.leaflet.first() - middle;
   const EndTangents tangents{(arc_length(half.symmetry_below) / length(up)) * up, {0, 0, arc_length(half.sinus_below)}};
@@ -392,7 +392,7 @@ HalfCusp half_cusp(const Frame &frame) {
 }
 
 // Returns the derivatives of the control points by the opening, as a difference.
-HalfCusp rate_at(const Frame &closed, const Frame &open, double at) {
+HalfCusp rate_at(const CuspNumbers &closed, const CuspNumbers &open, double at) {
   const double from = std::max(at - rate_step, 0.0), to = std::min(at + rate_step, 1.0);
   HalfCusp made = rate(half_cusp(blend(closed, open, from)), half_cusp(blend(closed, open, to)));
   for (Bezier *curve :
@@ -425,11 +425,11 @@ double rise_at_root(const HalfCusp &half) {
 
 // Checks both states, because one set of values defines both.
 void check_values(const ParameterValues &values) {
-  const auto measure = [&](Parameter parameter) {
-    return Measure{coapting_valve_kind().parameters[parameter].name.c_str(), values[parameter][0]};
+  const auto reference = [&](Parameter parameter) {
+    return Reference{coapting_valve_kind().parameters[parameter].name.c_str(), values[parameter][0]};
   };
   const auto check = [&](Parameter parameter, Parameter unit, double least, double most) {
-    check_ratio(coapting_valve_kind().parameters[parameter], values[parameter], measure(unit), least, most);
+    check_ratio(coapting_valve_kind().parameters[parameter], values[parameter], reference(unit), least, most);
   };
   check(commissure_radius, root_radius, 0.5, 2);
   check(commissure_height, commissure_radius, 0.3, 5);
@@ -437,7 +437,7 @@ void check_values(const ParameterValues &values) {
   check(coaptation_height, effective_height, 0.02, 0.9);
   check(gap, commissure_radius, 0.002, 0.2);
   check(translation, root_radius, 0, 100);
-  const Frame closed = closed_frame(values), open = open_frame(values);
+  const CuspNumbers closed = closed_cusp(values), open = open_cusp(values);
   const double least_length = EdgeLength(open).at(0).length;
   if (!(least_length <= most_of_edge * open.edge_length))
     fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length, " long, but a closed one has ",
@@ -461,7 +461,7 @@ void check_values(const ParameterValues &values) {
 }
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
-  const Frame from = closed_frame(closed.values), to = open_frame(open.values);
+  const CuspNumbers from = closed_cusp(closed.values), to = open_cusp(open.values);
   const auto &shift_from = closed.values[translation], &shift_to = open.values[translation];
   const Vec3 shift = riis::blend(Vec3{shift_from[0], shift_from[1], shift_from[2]},
                                  Vec3{shift_to[0], shift_to[1], shift_to[2]}, opening);

@@ -93,11 +93,11 @@ class Annulus {
   explicit Annulus(const std::array<Bezier, 3> &half) : half_({half.begin(), half.end()}) {}
 
   const Curve &half() const { return half_; }
-  Curve::Frame frame(double u) const { return half_.frame(2 * u); }
+  Curve::PointAndTangent with_tangent(double u) const { return half_.with_tangent(2 * u); }
   // Returns U(u, x): the point at the distance x from the annulus, inwards and by an angle below the plane. (In the paper's
   // formula the angle multiplies N. Since N has z = 0, the angle would have no effect.)
   Vec3 below(double u, double x, SineCosine angle) const {
-    const auto [A, T] = frame(u);
+    const auto [A, T] = with_tangent(u);
     const double in_plane = std::hypot(T.x, T.y);
     const Vec3 N = in_plane > 0 ? (1 / in_plane) * Vec3{-T.y, T.x, 0} : Vec3{0, 0, 0};
     return A + x * Vec3{angle.cosine * N.x, angle.cosine * N.y, -angle.sine};
@@ -190,7 +190,7 @@ HalfValve blend(const HalfValve &closed, const HalfValve &open, double opening) 
 // Checks lengths against the depth of the annulus.
 void check_values(const ParameterValues &values) {
   const Vector<ParameterSpec> &specs = mitral_valve_kind().parameters;
-  const Measure depth{"AP_diameter", values[AP_diameter][0]};
+  const Reference depth{"AP_diameter", values[AP_diameter][0]};
   const auto check = [&](Parameter parameter, double least, double most) {
     check_ratio(specs[parameter], values[parameter], depth, least, most);
   };
@@ -229,7 +229,7 @@ class Patches {
         is_closed ? anterior_middle : add(up_to_symmetry_plane(half.middle_scallop, 0.5));
     const std::size_t commissure = add(Bezier::point(side_edge.first()));
 
-    // u runs along the annulus. The part of the annulus beside the triangle is divided between the pieces of the anterior edge
+    // u runs along the annulus. The part of the annulus beside the triangle is divided between the spans of the anterior edge
     // in proportion to their lengths.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
@@ -246,7 +246,7 @@ class Patches {
 
  private:
   struct Arc {
-    PointOnPiece where;  // on half the annulus
+    PointOnSpan where;  // on half the annulus
     Vec3 on_annulus;
     Side side;
   };
@@ -258,8 +258,8 @@ class Patches {
 
   // Returns the arc from the annulus at u to a point of the edge, as a side that is shared by the patches on both sides of it.
   Arc arc(double u, Vec3 on_edge) {
-    const PointOnPiece where = annulus_.half().on_piece(2 * u);
-    const auto [on_annulus, along] = annulus_.half().frame(where);
+    const PointOnSpan where = annulus_.half().on_span(2 * u);
+    const auto [on_annulus, along] = annulus_.half().with_tangent(where);
     Vec3 offset = arc_offset(on_edge - on_annulus, along, half_.bulge);
     if (u == 0 || u == 0.5) offset.x = 0;  // the plane of symmetry is x = 0 exactly
     return {where, on_annulus, {add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))}};
@@ -272,9 +272,9 @@ class Patches {
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
-    Vector<Bezier> pieces = annulus_.half().pieces_between(to.where, from.where);
-    reverse(pieces);
-    const Side base{add(Curve(std::move(pieces)).through(from.on_annulus, to.on_annulus))};
+    Vector<Bezier> spans = annulus_.half().spans_between(to.where, from.where);
+    reverse(spans);
+    const Side base{add(Curve(std::move(spans)).through(from.on_annulus, to.on_annulus))};
     set_.patches.push_back({base,
                             edge,
                             from.side,

@@ -14,7 +14,7 @@ struct MitralAnnulus {
       posterior_horn_height;
 };
 
-// Returns the half on the posteromedial side, x >= 0, from the posterior point to the anterior point. The joints of the pieces
+// Returns the half on the posteromedial side, x >= 0, from the posterior point to the anterior point. The joints of the spans
 // are the widest point and the trigone. The other half is the mirror image in x.
 std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus);
 

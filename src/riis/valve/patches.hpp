@@ -100,17 +100,17 @@ constexpr double material_share(std::size_t k) { return static_cast<double>(k) /
 // mapped curve at equal parameters.
 struct MaterialPoints {
   std::array<Vec3, n_material> mapped;
-  std::array<PointOnPiece, n_material> on_curve;
+  std::array<PointOnSpan, n_material> on_curve;
   std::array<Vec3, n_material> point;    // of the warped curve
   std::array<double, n_material> share;  // of the warped curve's length up to that point
 
-  // Returns the points in the order of the reversed curve, which has this many pieces.
-  MaterialPoints reversed(std::size_t n_pieces) const {
+  // Returns the points in the order of the reversed curve, which has this many spans.
+  MaterialPoints reversed(std::size_t n_spans) const {
     MaterialPoints made{};
     for (std::size_t k = 0; k < n_material; ++k) {
-      const PointOnPiece &at = view(on_curve)[n_material - 1 - k];
+      const PointOnSpan &at = view(on_curve)[n_material - 1 - k];
       view(made.mapped)[k] = view(mapped)[n_material - 1 - k];
-      view(made.on_curve)[k] = {n_pieces - 1 - at.piece, 1 - at.t};
+      view(made.on_curve)[k] = {n_spans - 1 - at.span, 1 - at.t};
       view(made.point)[k] = view(point)[n_material - 1 - k];
       view(made.share)[k] = 1 - view(share)[n_material - 1 - k];
     }
@@ -148,7 +148,7 @@ struct PatchSet {
   // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
   double deviation = 0;
   // The derivatives of control points with respect to the opening, or nothing if the valve does not blend control points. The
-  // list serves the first curves, which have one piece each. The curves of a skirt come after these and have no entry.
+  // list serves the first curves, which have one span each. The curves of a skirt come after these and have no entry.
   Vector<Bezier> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
   // equal shares stand for the same points without it.
@@ -167,8 +167,6 @@ inline Curve along(const PatchSet &set, const Side &side) {
 }
 
 // Returns the offset O (geometry/bulge.hpp) on a side that is itself an arc. So the two patches at the side get the same bits.
-inline Vec3 arc_offset(const PatchSet &set, const Side &side) {
-  return arc_offset(set.curve_of(side).pieces().front());
-}
+inline Vec3 arc_offset(const PatchSet &set, const Side &side) { return arc_offset(set.curve_of(side).spans().front()); }
 
 }  // namespace riis

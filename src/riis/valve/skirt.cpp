@@ -10,7 +10,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "valve/warped_patches.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 namespace {
@@ -46,11 +46,11 @@ struct Step {
 Vector<Step> steps_of(const Curve &curve) {
   constexpr int n = 8;
   Vector<Step> steps;
-  steps.reserve(n * curve.pieces().size());
-  for (const Bezier &piece : curve.pieces())
+  steps.reserve(n * curve.spans().size());
+  for (const Bezier &span : curve.spans())
     for (int i = 0; i < n; ++i) {
       const double t = (i + 0.5) / n;
-      steps.push_back({evaluate(piece, t), (1.0 / n) * derivative(piece, t)});
+      steps.push_back({evaluate(span, t), (1.0 / n) * derivative(span, t)});
     }
   return steps;
 }
@@ -167,7 +167,7 @@ class SkirtMaker {
       return p + lengths[i] * directions_.at(side, share, p);
     };
     const auto slope = [&](std::size_t i) {
-      const auto [p, tangent] = inner.frame(step * static_cast<double>(i));
+      const auto [p, tangent] = inner.with_tangent(step * static_cast<double>(i));
       const Vec3 d = parent.axis.direction, from_axis = p - parent.axis.centre;
       const Vec3 q = from_axis - dot(from_axis, d) * d, out = outwards(parent.axis, p);
       const Vec3 along = inner.length() * tangent, across = along - dot(along, d) * d;
@@ -181,28 +181,28 @@ class SkirtMaker {
       }
       return along + lengths[i] * turn + growth * out;
     };
-    Vector<Bezier> pieces;
+    Vector<Bezier> spans;
     Vec3 from = point(0), from_slope = slope(0);
     for (std::size_t i = 1; i <= n; ++i) {
       const Vec3 to = point(i), to_slope = slope(i);
-      pieces.push_back(Bezier::cubic(from, from + (step / 3) * from_slope, to - (step / 3) * to_slope, to));
+      spans.push_back(Bezier::cubic(from, from + (step / 3) * from_slope, to - (step / 3) * to_slope, to));
       from = to, from_slope = to_slope;
     }
-    return Curve(std::move(pieces));
+    return Curve(std::move(spans));
   }
 
   // Returns the material points of the outer side. They lie outwards from those of the inner side.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
-    const MaterialPoints points = side.reversed ? given.reversed(inner.pieces().size()) : given;
-    const auto n_parts = static_cast<double>(outer.pieces().size());
+    const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
+    const auto n_parts = static_cast<double>(outer.spans().size());
     MaterialPoints made{};
     for (std::size_t k = 0; k < n_material; ++k) {
-      const PointOnPiece &at = view(points.on_curve)[k];
+      const PointOnSpan &at = view(points.on_curve)[k];
       double share = k == n_material - 1 ? 1 : 0;
       if (k > 0 && k + 1 < n_material) {
-        for (std::size_t piece = 0; piece < at.piece; ++piece) share += inner.length(piece);
-        share = std::min(1.0, (share + arc_length(inner.pieces()[at.piece], 0, at.t)) / inner.length());
+        for (std::size_t span = 0; span < at.span; ++span) share += inner.length(span);
+        share = std::min(1.0, (share + arc_length(inner.spans()[at.span], 0, at.t)) / inner.length());
       }
       const double part = std::min(std::floor(share * n_parts), n_parts - 1);
       view(made.on_curve)[k] = {static_cast<std::size_t>(part), share * n_parts - part};
@@ -321,7 +321,8 @@ SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &si
     const auto end = [&](std::size_t side, bool is_last) {
       const Curve &curve = set.curve_of(sides[side].side);
       const bool is_last_of_curve = is_last != sides[side].side.reversed;
-      return SideEnd{is_last_of_curve ? curve.last() : curve.first(), curve.frame(is_last_of_curve ? 1 : 0).tangent};
+      return SideEnd{is_last_of_curve ? curve.last() : curve.first(),
+                     curve.with_tangent(is_last_of_curve ? 1 : 0).tangent};
     };
     const Vec3 direction =
         direction_between(axes_[before], end(before, ends.before.is_last), end(after, ends.after.is_last));

@@ -90,9 +90,9 @@ CuspShape open_shape(const ParameterValues &values) {
 
 // Checks both states, because one set of values defines both.
 void check_values(const ParameterValues &values) {
-  const Measure radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
-  const auto check = [&](Parameter parameter, const Measure &measure, double least, double most) {
-    check_ratio(trileaflet_valve_kind().parameters[parameter], values[parameter], measure, least, most);
+  const Reference radius{"root_radius", values[root_radius][0]}, height{"leaflet_height", values[leaflet_height][0]};
+  const auto check = [&](Parameter parameter, const Reference &reference, double least, double most) {
+    check_ratio(trileaflet_valve_kind().parameters[parameter], values[parameter], reference, least, most);
   };
   check(leaflet_height, radius, 0.05, 10);
   check(bending_height, height, 0.05, 0.95);

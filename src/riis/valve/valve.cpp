@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "common/nearest_name.hpp"
-#include "valve/warped_patches.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 namespace {
@@ -315,9 +315,9 @@ class Digest {
       for (const double value : state.values[i])
         if (i != kind.opening) add(value);
     for (const Curve &curve : state.patches.curves)
-      for (const Bezier &piece : curve.pieces())
-        for (int i = 0; i <= piece.degree; ++i)
-          for (const double x : {view(piece.control)[i].x, view(piece.control)[i].y, view(piece.control)[i].z}) add(x);
+      for (const Bezier &span : curve.spans())
+        for (int i = 0; i <= span.degree; ++i)
+          for (const double x : {view(span.control)[i].x, view(span.control)[i].y, view(span.control)[i].z}) add(x);
     for (const Patch &patch : state.patches.patches) {
       for (const PatchImage &image : patch.images) add(static_cast<std::uint64_t>(image.leaflet_id));
       for (const Side *side : {&patch.v0, &patch.v1, &patch.u0, &patch.u1})
@@ -437,13 +437,13 @@ ParameterSpec opening_spec(const char *description, double default_value) {
   return {"opening", "1", description, 1, {default_value}, 0, 1};
 }
 
-void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Measure &measure, double least,
-                 double most) {
+void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Reference &reference,
+                 double least, double most) {
   for (int i = 0; i < spec.n_values; ++i) {
     const double value = view(values)[i];
-    if (!(std::abs(value) >= least * measure.size && std::abs(value) <= most * measure.size))
+    if (!(std::abs(value) >= least * reference.size && std::abs(value) <= most * reference.size))
       fail(RIIS_INVALID_PARAMETER, spec.name, " is ", value, "; it must be from ", least, " to ", most, " times ",
-           measure.name, ", which is ", measure.size);
+           reference.name, ", which is ", reference.size);
   }
 }
 

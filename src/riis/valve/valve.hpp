@@ -14,7 +14,6 @@
 #include "valve/patches.hpp"
 #include "valve/skirt.hpp"
 #include "valve/warp.hpp"
-#include "valve/warped_patches.hpp"
 
 namespace riis {
 
@@ -204,11 +203,11 @@ ParameterSpec opening_spec(const char *description, double default_value);
 
 // A value that other values are checked against. The message is, for example, "leaflet_height is 30; it must be from 0.05 to 10
 // times root_radius, which is 1.29".
-struct Measure {
+struct Reference {
   const char *name;
   double size;
 };
-void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Measure &measure, double least,
-                 double most);
+void check_ratio(const ParameterSpec &spec, const std::array<double, 3> &values, const Reference &reference,
+                 double least, double most);
 
 }  // namespace riis

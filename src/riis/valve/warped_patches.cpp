@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "valve/warped_patches.hpp"
+#include "valve/warp.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "geometry/coons.hpp"
-#include "geometry/curve_points.hpp"
+#include "geometry/curve.hpp"
 
 namespace riis {
 namespace {
@@ -35,30 +35,30 @@ bool is_in_place(const PatchImage &image) {
 }
 
 template <class Move>
-Bezier moved_by(const Bezier &piece, const Move &move) {
-  Bezier made = piece;
-  for (int i = 0; i <= piece.degree; ++i) view(made.control)[i] = move(view(piece.control)[i]);
+Bezier moved_by(const Bezier &span, const Move &move) {
+  Bezier made = span;
+  for (int i = 0; i <= span.degree; ++i) view(made.control)[i] = move(view(span.control)[i]);
   return made;
 }
 
-bool is_point(const Bezier &piece) {
-  for (int i = 1; i <= piece.degree; ++i)
-    if (!(view(piece.control)[i] == piece.control[0])) return false;
+bool is_point(const Bezier &span) {
+  for (int i = 1; i <= span.degree; ++i)
+    if (!(view(span.control)[i] == span.control[0])) return false;
   return true;
 }
 
-Bezier raised_to_cubic(const Bezier &piece) {
-  if (piece.degree == 3) return piece;
-  const auto &q = piece.control;
+Bezier raised_to_cubic(const Bezier &span) {
+  if (span.degree == 3) return span;
+  const auto &q = span.control;
   return Bezier::cubic(q[0], (1.0 / 3) * (q[0] + 2 * q[1]), (1.0 / 3) * (2 * q[1] + q[2]), q[2]);
 }
 
-// A curve as one image has it: placed pieces, and the rate of its first piece if the set has rates.
+// A curve as one image has it: placed spans, and the rate of its first span if the set has rates.
 struct CurveCopy {
   std::size_t curve;
   const PatchImage *image;
   std::size_t next;  // another copy of the same curve, or no_copy
-  Vector<Bezier> pieces;
+  Vector<Bezier> spans;
   Bezier rate;
 };
 
@@ -95,8 +95,8 @@ class Unfolding {
  private:
   std::size_t add(std::size_t curve, const PatchImage *image) {
     CurveCopy copy{curve, image, first_[curve], {}, {}};
-    for (const Bezier &piece : set_.curves[curve].pieces())
-      copy.pieces.push_back(image ? moved_by(piece, [&](Vec3 p) { return place(*image, p); }) : piece);
+    for (const Bezier &span : set_.curves[curve].spans())
+      copy.spans.push_back(image ? moved_by(span, [&](Vec3 p) { return place(*image, p); }) : span);
     if (curve < set_.rates.size()) {  // a skirt's curves have no rates
       copy.rate = set_.rates[curve];
       if (image) {
@@ -110,9 +110,9 @@ class Unfolding {
 
   bool has_copy_at(const CurveCopy &copy, const PatchImage &image) const {
     std::size_t k = 0;
-    for (const Bezier &piece : set_.curves[copy.curve].pieces()) {
-      for (int i = 0; i <= piece.degree; ++i)
-        if (!(place(image, view(piece.control)[i]) == view(copy.pieces[k].control)[i])) return false;
+    for (const Bezier &span : set_.curves[copy.curve].spans()) {
+      for (int i = 0; i <= span.degree; ++i)
+        if (!(place(image, view(span.control)[i]) == view(copy.spans[k].control)[i])) return false;
       ++k;
     }
     return true;
@@ -126,10 +126,10 @@ class Unfolding {
   }
 
   Vec3 &end_of(const Side &side, bool last) {
-    Vector<Bezier> &pieces = copies_[side.curve].pieces;
-    if (last == side.reversed) return pieces.front().control[0];
-    Bezier &piece = pieces.back();
-    return view(piece.control)[piece.degree];
+    Vector<Bezier> &spans = copies_[side.curve].spans;
+    if (last == side.reversed) return spans.front().control[0];
+    Bezier &span = spans.back();
+    return view(span.control)[span.degree];
   }
 
   Patch unfolded(std::size_t number, std::size_t which) {
@@ -161,7 +161,7 @@ class Unfolding {
     end_of(patch.u1, true) = corner;
     if (place != SeamPlace::side_u1) return;
     end_of(patch.v0, true) = corner;
-    for (Bezier &piece : copies_[patch.u1.curve].pieces) piece.control.fill(corner);
+    for (Bezier &span : copies_[patch.u1.curve].spans) span.control.fill(corner);
   }
 
   const PatchSet &set_;
@@ -192,13 +192,13 @@ double within_limits(double factor, double own) {
   return own == 0 ? std::clamp(factor, 0.0, most_of_missing) : std::clamp(factor, least_factor, most_factor);
 }
 
-// The mapped points of a piece at even parameters.
-using MappedPiece = std::array<Vec3, n_curve_steps + 1>;
+// The mapped points of a span at even parameters.
+using MappedSpan = std::array<Vec3, n_curve_steps + 1>;
 
 // Returns the cubic with the warped ends and end tangents whose lengths fit the warped points best. The map is known at the ends.
 // Writes the warped points.
-Bezier warped_piece(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
-                    MappedPiece &mapped) {
+Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
+                   MappedSpan &mapped) {
   mapped.fill(first.value);
   if (is_point(given)) return Bezier::point(first.value);
   mapped.back() = last.value;
@@ -265,13 +265,13 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
-// The material points of a curve before any image is placed, and the weights that a mapped piece's points have there: those of
+// The material points of a curve before any image is placed, and the weights that a mapped span's points have there: those of
 // the polynomial through them.
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {
     const CurvePoints points(curve, false, material_shares());
     for (std::size_t k = 0; k < n_material; ++k) {
-      view(on_curve)[k] = {points.piece(k), points.parameter(k)};
+      view(on_curve)[k] = {points.span(k), points.parameter(k)};
       for (int i = 0; i <= n_curve_steps; ++i) {
         double product = 1;
         for (int j = 0; j <= n_curve_steps; ++j)
@@ -281,29 +281,29 @@ struct MaterialOfCurve {
     }
   }
 
-  MaterialPoints points_of(const Vector<MappedPiece> &pieces) const {
+  MaterialPoints points_of(const Vector<MappedSpan> &spans) const {
     MaterialPoints made{{}, on_curve, {}, {}};
     for (std::size_t k = 0; k < n_material; ++k) {
-      const MappedPiece &mapped = pieces[view(on_curve)[k].piece];
+      const MappedSpan &mapped = spans[view(on_curve)[k].span];
       Vec3 sum{0, 0, 0};
       for (int i = 0; i <= n_curve_steps; ++i) sum = sum + view(weights[k])[i] * view(mapped)[i];
       view(made.mapped)[k] = sum;
     }
-    made.mapped.front() = pieces.front().front(), made.mapped.back() = pieces.back().back();
+    made.mapped.front() = spans.front().front(), made.mapped.back() = spans.back().back();
     return made;
   }
 
-  std::array<PointOnPiece, n_material> on_curve;
+  std::array<PointOnSpan, n_material> on_curve;
   std::array<double, n_curve_steps + 1> weights[n_material];
 };
 
-// Estimates the length of a piece between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
+// Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
 // slide of 0 is exact.
-double length_near(const Bezier &piece, double from, double to) {
+double length_near(const Bezier &span, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * 0.77459666924148337704;
   return (to - from) / 18 *
-         (5 * (length(derivative(piece, middle - reach)) + length(derivative(piece, middle + reach))) +
-          8 * length(derivative(piece, middle)));
+         (5 * (length(derivative(span, middle - reach)) + length(derivative(span, middle + reach))) +
+          8 * length(derivative(span, middle)));
 }
 
 // Bends the arcs at the sides of patches of arcs between their warped ends.
@@ -316,9 +316,9 @@ void bend_arcs(PatchSet &set) {
       const Side &side = at_end ? patch.u1 : patch.u0;
       if (is_bent[side.curve]) continue;
       is_bent[side.curve] = true;
-      const Bezier &arc = set.curves[side.curve].pieces().front();
+      const Bezier &arc = set.curves[side.curve].spans().front();
       const Vec3 from = side.reversed ? arc.last() : arc.first(), to = side.reversed ? arc.first() : arc.last();
-      const Vec3 offset = arc_offset(to - from, base.frame(at_end ? 1 : 0).tangent, patch.bulge);
+      const Vec3 offset = arc_offset(to - from, base.with_tangent(at_end ? 1 : 0).tangent, patch.bulge);
       const Bezier bent = Bezier::quadratic(from, 0.5 * (from + to) + offset, to);
       set.curves[side.curve] = Curve(side.reversed ? bent.reversed() : bent);
     }
@@ -332,15 +332,15 @@ class EvenPoints {
   EvenPoints(const PatchSet &set, const At &at) : set_(set), at_(at) {}
 
   Vec3 point(const Side &side, std::size_t k) const {
-    const PointOnPiece &at = place_of(side, k);
-    return evaluate(set_.curve_of(side).pieces()[at.piece], at.t);
+    const PointOnSpan &at = place_of(side, k);
+    return evaluate(set_.curve_of(side).spans()[at.span], at.t);
   }
   // Returns the offset of the arc at share k. Neighbouring patches have the same bits at a common side.
   Vec3 offset(const Patch &patch, std::size_t k) const {
     if (k == 0 || k == last) return arc_offset(set_, k == 0 ? patch.u0 : patch.u1);
     if (patch.bulge == 0) return {0, 0, 0};
-    const PointOnPiece &at = place_of(patch.v0, k);
-    const Vec3 along = derivative(set_.curve_of(patch.v0).pieces()[at.piece], at.t);
+    const PointOnSpan &at = place_of(patch.v0, k);
+    const Vec3 along = derivative(set_.curve_of(patch.v0).spans()[at.span], at.t);
     const double speed = length(along);
     if (!(speed > 0)) return {0, 0, 0};
     return arc_offset(point(patch.v1, k) - point(patch.v0, k), ((patch.v0.reversed ? -1 : 1) / speed) * along,
@@ -350,7 +350,7 @@ class EvenPoints {
   static constexpr std::size_t last = n_material - 1;
 
  private:
-  const PointOnPiece &place_of(const Side &side, std::size_t k) const {
+  const PointOnSpan &place_of(const Side &side, std::size_t k) const {
     return view(at_(side.curve))[side.reversed ? last - k : k];
   }
 
@@ -476,7 +476,7 @@ PatchSet made_of(Unfolding &unfolding, const PatchSet &set) {
   PatchSet made{{}, std::move(unfolding.patches())};
   made.deviation = set.deviation;
   for (CurveCopy &copy : unfolding.copies()) {
-    made.curves.emplace_back(std::move(copy.pieces));
+    made.curves.emplace_back(std::move(copy.spans));
     if (!set.rates.empty()) made.rates.push_back(copy.rate);
   }
   return made;
@@ -487,13 +487,13 @@ PatchSet made_of(Unfolding &unfolding, const PatchSet &set) {
 void locate_on_curve(const Curve &curve, MaterialPoints &points) {
   std::array<double, n_material> behind{};
   for (std::size_t k = 0; k < n_material; ++k) {
-    const PointOnPiece &to = view(points.on_curve)[k];
+    const PointOnSpan &to = view(points.on_curve)[k];
     view(points.point)[k] = curve.at(to);
     if (k == 0) continue;
-    const PointOnPiece &from = view(points.on_curve)[k - 1];
+    const PointOnSpan &from = view(points.on_curve)[k - 1];
     behind[k] = behind[k - 1];
-    for (std::size_t piece = from.piece; piece <= to.piece; ++piece)
-      behind[k] += length_near(curve.pieces()[piece], piece == from.piece ? from.t : 0, piece == to.piece ? to.t : 1);
+    for (std::size_t span = from.span; span <= to.span; ++span)
+      behind[k] += length_near(curve.spans()[span], span == from.span ? from.t : 0, span == to.span ? to.t : 1);
   }
   for (std::size_t k = 0; k < n_material; ++k)
     view(points.share)[k] = curve.length() > 0 ? behind[k] / behind[n_material - 1] : material_share(k);
@@ -509,15 +509,15 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   MapAtEnds at_ends(warp);
   Vector<std::optional<MaterialPoints>> material;
   Vector<std::optional<MaterialOfCurve>> of_curves(set.curves.size());
-  Vector<MappedPiece> mapped;
+  Vector<MappedSpan> mapped;
   for (CurveCopy &copy : unfolding.copies()) {
-    MapAt first = at_ends(copy.pieces.front().first());
+    MapAt first = at_ends(copy.spans.front().first());
     mapped.clear();
-    for (Bezier &piece : copy.pieces) {
-      const MapAt last = at_ends(piece.last());
-      if (!set.rates.empty()) copy.rate = warped_rate(piece, copy.rate, first, last, warp);
+    for (Bezier &span : copy.spans) {
+      const MapAt last = at_ends(span.last());
+      if (!set.rates.empty()) copy.rate = warped_rate(span, copy.rate, first, last, warp);
       mapped.emplace_back();
-      piece = warped_piece(piece, first, last, warp, mapped.back());
+      span = warped_span(span, first, last, warp, mapped.back());
       first = last;
     }
     std::optional<MaterialOfCurve> &of_curve = of_curves[copy.curve];
@@ -530,10 +530,10 @@ PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
   made.material = std::move(material);
   // Only kinds without rates have arcs. An arc may be straight at an opening, so all their patches count.
   const bool has_arcs = set.rates.empty();
-  const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnPiece, n_material> & {
+  const auto at_rest = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return of_curves[curve]->on_curve;
   };
-  const auto at_now = [&](std::size_t curve) -> const std::array<PointOnPiece, n_material> & {
+  const auto at_now = [&](std::size_t curve) -> const std::array<PointOnSpan, n_material> & {
     return made.material[curve]->on_curve;
   };
   const EvenPoints even(set, at_rest);

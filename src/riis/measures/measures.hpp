@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// The measures of a surface and of its marks. Each part of this header has a file of its own.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "arrays/keyframes.hpp"
+#include "geometry/placement.hpp"
+#include "marks/marks.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/mesh.hpp"
+#include "scene/edges.hpp"
+#include "scene/surface.hpp"
+#include "scene/triangle_groups.hpp"
+#include "scene/triangle_scene.hpp"
+#include "triangulate/triangle_set.hpp"
+#include "valve/skirt.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+
+// The orifice of a valve: the part of an outline that the triangles do not cover, seen along the axis.
+// In: the triangles, and the valve if they come from one. Out: areas and a perimeter.
+
+// The factor c of the effective area A - c eps P. The band around a rim narrows the orifice by the distance c eps. A wall without
+// thickness blocks the flow equally if its rim reaches c eps farther into the orifice. Each number lies midway between the c of
+// two valves that docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98 (round) and
+// 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
+inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
+inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
+
+// The measured numbers. The caller computes the other fields of riis_orifice from these numbers and the valve.
+struct Orifice {
+  double area, outline_area, perimeter, effective_area;
+  Vec3 axis;             // of length 1, or 0 without an axis
+  std::int32_t outline;  // RIIS_OUTLINE_*
+};
+
+struct OrificeLimits {
+  double reach;  // how far the effective orifice's edge is moved inwards
+  double slit;   // how far the perimeter's edge is moved inwards
+};
+
+// Measures the orifice. `source` is null for triangles from arrays, whose longest boundary is the outline.
+Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
+
+// The coaptation of leaflets: the parts of them that lie within a distance of another leaflet.
+// In: triangles, free edges, a distance. Out: areas and lengths.
+
+struct Contact {
+  double area, edge;
+};
+
+// Returns the contact of each leaflet. A point of a leaflet is in contact if another leaflet is within `reach` of it. `parts` has
+// the free edges. The leaflets of `omitted` count as touching nothing. `wanted` is a leaflet, or RIIS_ALL_LEAFLETS.
+std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
+                                            std::int32_t wanted, const std::vector<std::int32_t> &omitted,
+                                            int n_threads);
+
+// Self-intersections of a surface: pairs of triangles that go through each other.
+// In: triangles and their groups. Out: the pairs in ascending order, with their depths and common segments.
+
+struct Crossings {
+  std::vector<std::int64_t> triangle;     // (2, n_pairs), positions in the set, the lower one first
+  std::vector<std::int64_t> triangle_id;  // (2, n_pairs)
+  std::vector<double> point;              // (3, n_pairs), the middle of the common segment
+  std::vector<double> depth, length;      // (n_pairs)
+};
+
+// Finds the pairs of triangles that penetrate each other by more than `least_depth`. Two triangles of one leaflet that share a
+// vertex do not count as a pair. Vertices are shared if their coordinates are equal.
+Crossings find_crossings(const TriangleSet &set, const TriangleGroups &groups, double least_depth, int n_threads);
+
+// The gap between the attachment of a valve and a wall, along the direction in which a skirt leads.
+// In: points and directions, the triangles of the wall. Out: distances, and the lengths of a skirt that reaches the wall.
+
+// The triangles of a wall, and the scene that finds them.
+struct Wall {
+  const TriangleSet &triangles;
+  const TriangleScene &scene;
+};
+
+// Returns the distance from a point to the nearest place at which the line through it meets the wall. The distance is negative if
+// this place lies against the direction, which has length 1. Returns nothing if the line misses the wall.
+std::optional<double> distance_along(const Wall &wall, Vec3 point, Vec3 direction);
+
+// The gap at each end of each edge of an attachment.
+struct Gap {
+  std::vector<double> distance;  // (2, n_edges); RIIS_FAR_DISTANCE where the line misses the wall
+  riis_gap measures;
+};
+// Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if nothing tells which way is outwards.
+Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
+
+// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is nearer
+// than the shortest skirt allows, the length is that of the shortest skirt. Fails with RIIS_INVALID_ARGUMENT if the wall is
+// farther than `longest`, in placed units.
+SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
+                             int n_threads);
+
+// Computes the volume that a surface sweeps. The volume is the integral of u . n over the surface and time, so motion along the
+// normals counts as positive.
+// In: a valve and two openings, or keyframes and two times. Out: the volume of each leaflet.
+
+// Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
+using SweptVolumes = std::map<std::int32_t, double>;
+
+// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are swapped,
+// only the sign of the result changes.
+SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
+
+// Computes the volumes between two times. Fails with RIIS_LIMIT_EXCEEDED for more than a million keys between them.
+SweptVolumes swept_volumes(const Keyframes &frames, double time_from, double time_to);
+
+// Estimates how many mesh edges fit across the band: the band's thickness divided by the shortest, the mean and the longest
+// length of the mesh edges that have a marked node.
+// In: a marking, the mesh with its adjacency. Out: counts and lengths.
+
+// Computes the number of mesh edges across the band. Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.
+riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjacency &adjacency, int n_threads);
+
+}  // namespace riis

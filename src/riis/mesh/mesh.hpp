@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data that searches need about
+// the nodes: balls, clusters and blocks of edges. Each is made when it is first needed.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "geometry/strided.hpp"
+#include "geometry/vec3.hpp"
+#include "mesh/adjacency.hpp"
+#include "mesh/clusters.hpp"
+#include "parallel/threads.hpp"
+
+namespace riis {
+
+// The mesh's nodes in balls. A ball holds 32 nodes near each other, and a large ball holds 16 balls. The neighbour search can
+// dismiss all nodes of a ball at once. The order of the nodes is made once for a mesh. When nodes move, the order stays, and the
+// balls are made again.
+struct Ball {
+  Vec3 centre;
+  double radius;  // at least the distance from the centre to each of its nodes
+};
+
+struct NodeBalls {
+  static constexpr std::int64_t nodes_per_ball = 32, balls_per_large_ball = 16;
+
+  std::vector<std::int64_t> order;  // all nodes, ball by ball
+  std::vector<Ball> balls, large_balls;
+
+  Range nodes_of(std::int64_t ball) const;  // positions in order
+  Range balls_of(std::int64_t large_ball) const;
+};
+
+// Makes the order. This function and the next fail with RIIS_INVALID_MESH for an unusable coordinate.
+void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_threads, NodeBalls &balls);
+
+// Makes the balls and the large balls from the order.
+void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
+
+// The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
+// surface can pass over most blocks as a whole.
+struct EdgeBlocks {
+  static constexpr std::int64_t rows_per_block = 64;
+
+  struct Block {
+    double longest = 0;  // the length of the longest edge in its rows
+    Bounds bounds;       // the box around its edges
+  };
+  std::vector<Block> blocks;
+  double longest = 0;  // the length of the mesh's longest edge
+};
+
+// Checks whether a mesh, a surface and its half thickness can be in the same unit.
+// In: boxes that are known already. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
+
+// The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
+class WarnedSurfaces {
+ public:
+  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, also returns false for new
+  // numbers.
+  bool is_first(std::uint64_t surface_number);
+  bool has(std::uint64_t surface_number) const;
+
+ private:
+  static constexpr std::size_t capacity = 8;
+  std::array<std::atomic<std::uint64_t>, capacity> numbers_{};
+};
+
+struct Sizes {
+  std::int64_t n_nodes;
+  Bounds mesh, surface;
+  double half_thickness;
+};
+
+// Takes a few comparisons for a mesh of any size. Compares sizes and not positions, because one process's part of a mesh may lie
+// far from the surface.
+void check_proportions(const Sizes &sizes, std::uint64_t surface_number, WarnedSurfaces &warned);
+
+class Mesh {
+ public:
+  Mesh(const StridedPoints &nodes, const Bounds &bounds) : nodes_(nodes), bounds_(bounds) {}
+
+  const StridedPoints &nodes() const { return nodes_; }
+  // Returns the box that the nodes had when the caller last gave them.
+  const Bounds &bounds() const { return bounds_; }
+  const std::optional<Adjacency> &adjacency() const { return adjacency_; }
+
+  // Call this function when the nodes have moved. Balls, clusters and edges are then made again when they are next needed.
+  void forget_places() {
+    has_balls_.store(false, std::memory_order_relaxed);
+    has_clusters_.store(false, std::memory_order_relaxed);
+    has_edges_.store(false, std::memory_order_relaxed);
+  }
+
+  // Both functions set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
+  void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
+  // Copies the nodes. After a failure the mesh keeps its old nodes.
+  template <class Real>
+  void copy_nodes(const StridedReals<Real> &nodes, const Bounds &bounds) {
+    const auto n = static_cast<std::size_t>(3 * nodes.n);
+    if (own_xyz_.capacity() < n) own_xyz_ = with_capacity(n);
+    own_xyz_.resize(n);
+    double *const xyz = own_xyz_.data();
+    for (std::int64_t i = 0; i < nodes.n; ++i) {
+      const Vec3 p = nodes[i];
+      xyz[3 * i] = p.x, xyz[3 * i + 1] = p.y, xyz[3 * i + 2] = p.z;
+    }
+    set_nodes({nodes.n, xyz, xyz + 1, xyz + 2, 3}, bounds);
+  }
+  void set_adjacency(const std::optional<Adjacency> &adjacency) {
+    adjacency_ = adjacency;
+    has_edges_.store(false, std::memory_order_relaxed);
+  }
+
+  // Returns the nodes in balls. Several threads may call this function and the next two at once.
+  const NodeBalls &balls(int n_threads) const;
+  // Returns the nodes in clusters. The mesh must have at most max_clustered_nodes nodes.
+  const Clusters &clusters(int n_threads) const;
+  // Returns the edges in blocks of rows. The mesh must have an adjacency. Fails with RIIS_INVALID_MESH for an unusable
+  // coordinate.
+  const EdgeBlocks &edges(int n_threads) const;
+
+  // Records that these nodes were marked. Returns true if clusters pay off: a marking was recorded before, or clusters already
+  // exist.
+  bool record_marking() const { return was_marked_.exchange(true, std::memory_order_relaxed); }
+
+  // Returns the surfaces that the caller was already warned about, because their sizes do not fit this mesh.
+  WarnedSurfaces &warned_surfaces() const { return warned_surfaces_; }
+
+ private:
+  static std::vector<double> with_capacity(std::size_t n) {
+    std::vector<double> made;
+    made.reserve(n);
+    return made;
+  }
+  void set_nodes(const StridedPoints &nodes, const Bounds &bounds);
+
+  StridedPoints nodes_;
+  std::vector<double> own_xyz_;  // (3, n), used if the nodes are copied
+  Bounds bounds_;
+  std::optional<Adjacency> adjacency_;
+  mutable std::mutex balls_mutex_;
+  mutable NodeBalls balls_;
+  mutable std::atomic<bool> has_balls_{false};
+  mutable std::mutex clusters_mutex_;
+  mutable Clusters clusters_;
+  mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
+  mutable WarnedSurfaces warned_surfaces_;
+  mutable std::mutex edges_mutex_;
+  mutable EdgeBlocks edges_;
+  mutable std::atomic<bool> has_edges_{false};
+};
+
+}  // namespace riis

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes how far the points of a patch moved since an earlier state of the valve (docs/theory/velocity.md).
+// In: the patch now and before, its grid. Out: the displacement of every vertex.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "base/recycled.hpp"
+#include "geometry/coons.hpp"
+#include "geometry/curve.hpp"
+#include "geometry/placement.hpp"
+#include "geometry/quads.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// The earlier state of the valve, and the time from it to the triangulated state.
+struct EarlierState {
+  const PatchSet &patches_before;
+  Placement placement_before;
+  double seconds;  // not 0; negative if the valve moves backwards in time
+};
+
+// A patch in both states.
+struct MovedPatch {
+  const PatchSet &now, &before;
+  std::size_t patch;
+};
+
+// The polynomial through values at n_material nodes, the first of which is 0 and the last 1. In Newton's form.
+template <class T>
+class Through {
+ public:
+  Through() = default;
+  Through(const std::array<double, n_material> &nodes, const std::array<T, n_material> &values)
+      : nodes_(nodes), factors_(values) {
+    for (std::size_t order = 1; order < n_material; ++order)
+      for (std::size_t i = n_material - 1; i >= order; --i)
+        factors_[i] = (1 / (nodes_[i] - nodes_[i - order])) * (factors_[i] - factors_[i - 1]);
+  }
+
+  T at(double x) const {
+    T value = factors_[n_material - 1];
+    for (std::size_t i = n_material - 1; i-- > 0;) value = (x - nodes_[i]) * value + factors_[i];
+    return value;
+  }
+
+  // Bounds the sizes of the value and of the first two derivatives on [0, 1].
+  struct Bounds {
+    double size, slope, bend;
+  };
+  Bounds bounds() const;
+
+ private:
+  std::array<double, n_material> nodes_{};
+  std::array<T, n_material> factors_{};
+};
+
+// Tells which points of a side are the same material in both states. Without a warp, points at equal shares of the length are. A
+// warp stretches curves unevenly. Then the point at a share now was at another share before. A warped curve also differs a little
+// from the curve along which the map takes the points. `rest` makes up for the change of this difference.
+class SideMaterial {
+ public:
+  SideMaterial() = default;  // of a side that is not warped
+  SideMaterial(const MovedPatch &moved, Side Patch::*side);
+
+  bool is_warped() const { return is_warped_; }
+  // Returns where the points at these shares were. The result ascends from 0 to 1.
+  Vector<double> shares_before(const Vector<double> &shares) const;
+  Vec3 rest(double share) const { return rest_.at(share); }
+
+  Through<double>::Bounds slide_bounds() const { return slide_.bounds(); }
+  Through<Vec3>::Bounds rest_bounds() const { return rest_.bounds(); }
+  // Returns the current share of the material point k of the side.
+  const std::array<double, n_material> &nodes() const { return nodes_; }
+
+ private:
+  bool is_warped_ = false;
+  std::array<double, n_material> nodes_{};
+  Through<double> slide_;
+  Through<Vec3> rest_;
+};
+
+// The material of the sides of a patch. The sides u0 and u1 of a patch of arcs are left out, because the arcs follow from v0
+// and v1.
+struct PatchMaterial {
+  explicit PatchMaterial(const MovedPatch &moved);
+
+  bool has_arcs;  // in one of the states
+  SideMaterial v0, v1, u0, u1;
+};
+
+// The same for the offsets of a patch of arcs: how far the map moves them, beyond the offsets of the warped curves. The
+// polynomial is 0 for a patch without a warp.
+Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
+
+// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At four inner points, whose
+// u and v are 1/3 or 2/3, the displacement is that of the material that the map takes there. It follows from the mapped points
+// beside them (MappedInside). What it has beyond the Coons combination of the sides is a polynomial of degree 3 in u and in v.
+class RestInside {
+ public:
+  RestInside() = default;
+  RestInside(const MovedPatch &moved, const PatchMaterial &material);
+
+  bool is_warped() const { return is_warped_; }
+  double size() const;
+  Vec3 at(double u, double v) const {
+    return first(u) * (first(v) * rest_[0] + second(v) * rest_[2]) +
+           second(u) * (first(v) * rest_[1] + second(v) * rest_[3]);
+  }
+  // Bounds the distance from linear on a range of u or of v.
+  double off_linear(double width) const { return 0.125 * width * width * 106 * size(); }
+
+ private:
+  // They are 1 at one third and two thirds, and 0 at the other and at the ends. On [0, 1], the sum of their sizes is at most 1.3,
+  // and that of their second derivatives at most 81.
+  static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
+  static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
+
+  bool is_warped_ = false;
+  std::array<Vec3, 4> rest_{};
+};
+
+// The displacement S_now(u,v) - S_before(u,v) of a patch at the vertices of its grid and of its subdivided quads. Both states are
+// evaluated on the smooth patches: on the sides directly, and inside by the same combination of the sides. Only (u,v) identifies
+// a point in both states, so the two states may have different triangles. SideMaterial matches the points of a warped side. The
+// result is exactly 0 if neither the sides nor the bulge changed.
+class PatchDisplacement {
+ public:
+  // Computes the displacements at the grid's vertices. The grid must have been made with its lines kept.
+  PatchDisplacement(const MovedPatch &moved, const LevelledGrid &levelled);
+
+  // Returns the displacement where two lines of the grid meet.
+  Vec3 at_lines(std::size_t i, std::size_t j) const { return at(column_[i], row_[j]); }
+  // Returns the displacement inside the quad after this point. The sides of the quad are halved `level` times.
+  Vec3 in_quad(std::size_t i, std::size_t j, int level, int column, int row) const {
+    return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
+              row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
+  }
+  // Returns the displacement inside a quad, but interpolated linearly along a side between the vertices that the neighbouring
+  // quad also has. So the displacement does not jump between neighbouring quads.
+  Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
+
+  // Returns how far the offset O of a patch of arcs (geometry/bulge.hpp) has moved on each of its lines.
+  Vector<Vec3> offset_moves() const {
+    Vector<Vec3> made;
+    for (const std::size_t i : column_) made.push_back(offsets_[i]);
+    return made;
+  }
+
+ private:
+  Vec3 at(std::size_t i, std::size_t j) const;
+
+  Vector<int> column_levels_, row_levels_;  // the largest level of the quads between two lines
+  Vector<std::size_t> column_, row_;        // for each line of the grid, its position among the halved lines
+  Vector<double> u_, v_;                    // u and v of the halved lines
+  bool has_arcs_;
+  const LevelledGrid &levelled_;
+  SideVectors sides_;
+  Vector<Vec3> offsets_;
+  RestInside rest_;  // of a patch that has no arcs
+};
+
+// The velocity of one image of a patch in space. It combines the displacements of the patch, the image and the placement.
+class ImageVelocity {
+ public:
+  ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
+                const EarlierState &earlier);
+
+  // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p now
+  // and was at p - displacement. If image and placement are at rest, no cancellation occurs.
+  Vec3 velocity(Vec3 p, Vec3 displacement) const {
+    const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
+    return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
+  }
+
+  // Bounds the error of a velocity from velocity(). The arguments bound the errors of the displacement and of p.
+  double velocity_error(double of_displacement, double of_point) const {
+    const auto norm = [](const Rotation &a) {  // the Frobenius norm
+      return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
+    };
+    return (scale_before_ * of_displacement + norm(difference_.linear) * of_point) / std::abs(seconds_);
+  }
+
+ private:
+  struct AffineMap {
+    Rotation linear;  // a matrix with any scale, perhaps mirrored
+    Vec3 offset;
+  };
+  static AffineMap map_of(const PatchImage &image, const Placement &placement);
+
+  AffineMap now_, difference_;
+  double seconds_, scale_before_;
+};
+
+// Returns the offsets O of a patch of arcs (geometry/bulge.hpp) at the ascending u of these points. Returns 0 for other patches.
+// At the ends, O comes from the shared sides, as in the neighbouring patches.
+Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoints &base, const CurvePoints &edge);
+
+// Returns the joints of a side in the patch's parameter.
+Vector<double> joints_of(const PatchSet &set, const Side &side);
+// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
+Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
+
+// Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images
+// and kinds. The message names the states.
+void check_same_build(const PatchSet &now, const PatchSet &before, const StateNames &names = {"valve_before", "valve"});
+
+}  // namespace riis

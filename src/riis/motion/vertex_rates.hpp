@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Derivatives of a surface's vertices with respect to a parameter (docs/theory/gradients.md).
+// In: the patches and the grids of the surface, the patches of two near states. Out: the rate of every vertex.
+#pragma once
+
+#include <vector>
+
+#include "base/recycled.hpp"
+#include "geometry/placement.hpp"
+#include "geometry/quads.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// A direction in which a valve changes: two states near that of the surface, and the difference of the parameter between them.
+struct Direction {
+  const PatchSet &after, &before;  // both may be the same object
+  Placement placement_after, placement_before;
+  double step;  // not 0
+};
+
+// Computes (after - before) / step for every vertex, in the order of the vertices of a TriangleSet. `at` and `grids` are those of
+// the surface. Both states are put on the same grids: a vertex on a curve keeps its share of the curve's length, a vertex on a
+// chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. So these are the rates of the triangles'
+// corners, not those of the smooth valve. Inside a triangle the rate is exactly linear.
+void make_vertex_rates(const PatchSet &at, const Vector<LevelledGrid> &grids, const Direction &direction, int n_threads,
+                       std::vector<double> &rates);
+
+}  // namespace riis

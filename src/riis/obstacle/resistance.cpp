@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "obstacle/resistance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/constants.hpp"
+#include "base/errors.hpp"
+#include "common/array_view.hpp"
+#include "obstacle/nearest_edges.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// Returns K at a distance d. K is (R / eps) delta(d) with delta(d) = (1 + cos(pi d / eps)) / (2 eps). K is 0 for d >= eps.
+double coefficient_at(const Resistance &resistance, double distance) {
+  const double eps = resistance.half_thickness;
+  if (!(distance < eps)) return 0;
+  return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
+}
+
+// Returns the derivative of K with respect to the distance, from K alone: sin is the root of (1 + cos) (1 - cos). Two roots do
+// not overflow.
+double slope_at(const Resistance &resistance, double k) {
+  const double most = resistance.factor / resistance.half_thickness;
+  return -(pi / resistance.half_thickness) * (std::sqrt(k) * std::sqrt(std::max(0.0, most - k)));
+}
+
+// Returns K at entry i of a list.
+double coefficient_at(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
+  if (resistance.cuts_rim && view(list.fields.rim)[i]) return 0;
+  return coefficient_at(resistance, view(list.nodes.distance)[i]);
+}
+
+// Calls visit(i, K) for each entry i of the range whose K is above 0, in ascending order.
+template <class Visit>
+void for_each_resistance(const Marks &marks, const Resistance &resistance, const Range &range, const Visit &visit) {
+  for (std::int64_t i = range.begin; i < range.end; ++i) {
+    const double k = coefficient_at(resistance, marks.within, i);
+    if (k > 0) visit(i, k);
+  }
+}
+
+void require_field(const Marks &marks, std::int32_t field, const char *field_name, const char *what) {
+  if (!(marks.data.fields & field))
+    fail(RIIS_INVALID_ARGUMENT, what, " needs ", field_name,
+         ", but the nodes were marked with options.fields = ", marks.data.given_fields);
+}
+
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding error of each addition. The sums over the leaflets
+// therefore add up to the sum over the surface, except for a few units in the last place, however many nodes there are.
+class Sum {
+ public:
+  void add(double x) {
+    const double sum = sum_ + x;
+    lost_ += std::abs(sum_) >= std::abs(x) ? (sum_ - sum) + x : (x - sum) + sum_;
+    sum_ = sum;
+  }
+  double total() const { return sum_ + lost_; }
+
+ private:
+  double sum_ = 0, lost_ = 0;
+};
+
+struct Wrench {
+  std::array<Sum, 3> force, moment;
+
+  void add(Vec3 more_force, Vec3 more_moment) {
+    force[0].add(more_force.x), force[1].add(more_force.y), force[2].add(more_force.z);
+    moment[0].add(more_moment.x), moment[1].add(more_moment.y), moment[2].add(more_moment.z);
+  }
+};
+
+void add_sum(const std::array<Sum, 3> &sum, double *to) {
+  for (std::size_t c = 0; c < 3; ++c) to[c] += sum[c].total();
+}
+
+// Adds the sums to the caller's arrays of shape (3, n). Each array may be null.
+void add_sums(const Vector<Wrench> &sums, double *force, double *moment) {
+  for (std::int64_t i = 0; i < view(sums).size(); ++i) {
+    if (force) add_sum(view(sums)[i].force, force + 3 * i);
+    if (moment) add_sum(view(sums)[i].moment, moment + 3 * i);
+  }
+}
+
+Vec3 vector_at(const UnfilledVector<double> &list, std::int64_t i) {
+  return {view(list)[3 * i], view(list)[3 * i + 1], view(list)[3 * i + 2]};
+}
+
+// Checks n_leaflets against the leaflets of the surface, not against the leaflets of the nodes. All ranks then refuse a wrong
+// n_leaflets, also a rank that has no node of the last leaflet.
+void check_leaflets(const Marks &marks, const riis_reaction &to) {
+  const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
+  if (to.n_leaflets <= last)
+    fail(RIIS_INVALID_ARGUMENT, "reaction.n_leaflets is ", to.n_leaflets, ", but the surface has the leaflet id ", last,
+         "; n_leaflets must be larger");
+}
+
+Edges checked_edges(const riis_reaction &reaction) {
+  if (reaction.n_edges < 1) fail(RIIS_INVALID_ARGUMENT, "reaction.n_edges is 0; a force by edge needs at least 1");
+  const Edges edges{reaction.n_edges, require(reaction.edges, "reaction.edges"), reaction.edge_leaflet_id};
+  for (std::int64_t i = 0; i < 6 * edges.n; ++i)
+    if (!(std::abs(edges.ends[i]) <= 1e60))
+      fail(RIIS_INVALID_ARGUMENT, "reaction.edges: ", "xyz"[i % 3], " of the ", i / 3 % 2 == 0 ? "first" : "second",
+           " point of edge ", i / 6, " is ", edges.ends[i], "; it must be finite, of magnitude at most 1e+60");
+  for (std::int64_t i = 0; edges.leaflet_id && i < edges.n; ++i)
+    if (edges.leaflet_id[i] < 0)
+      fail(RIIS_INVALID_ARGUMENT, "reaction.edge_leaflet_id of edge ", i, " is ", edges.leaflet_id[i],
+           "; it must be at least 0");
+  return edges;
+}
+
+// A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
+constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
+// The search for nearest edges has smaller limits, because a node takes it ten times as long.
+constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
+
+// Finds the nearest edge of each node, to which the node's force is added. Entries of nodes without resistance have no meaning.
+Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
+  const NearestEdges search(edges);
+  for (const std::int32_t leaflet : marks.leaflet_ids)
+    if (!search.has(leaflet))
+      fail(RIIS_INVALID_ARGUMENT, "reaction.edge_leaflet_id has no edge of leaflet ", leaflet,
+           ", which the surface has");
+  const std::int64_t n = marks.within.nodes.size();
+  Vector<std::int64_t> nearest;
+  resize(nearest, n);
+  parallel_for_ranges(
+      n, edge_nodes_per_block, marks.n_threads.for_part(n, few_edge_nodes), [&](const Range &range, int) {
+        for_each_resistance(marks, resistance, range, [&](std::int64_t i, double) {
+          view(nearest)[i] = search.of(view(marks.within.nodes.leaflet_id)[i], vector_at(marks.within.fields.point, i));
+        });
+      });
+  return nearest;
+}
+
+}  // namespace
+
+Resistance checked_resistance(const riis_resistance &resistance, const char *name, double half_thickness,
+                              double distance_limit) {
+  check_range(name, "R", resistance.R, 0, 1e60);
+  const double eps = resistance.half_thickness == RIIS_AUTO ? half_thickness : resistance.half_thickness;
+  if (!(eps >= 1e-50 && eps <= distance_limit))
+    fail(RIIS_INVALID_ARGUMENT, name, ".half_thickness is ", eps,
+         "; it must be from 1e-50 to the distance limit of the marking, ", distance_limit);
+  if (resistance.rim != RIIS_RIM_ROUND && resistance.rim != RIIS_RIM_CUT)
+    fail(RIIS_INVALID_ARGUMENT, name, ".rim is ", resistance.rim, "; it must be RIIS_RIM_ROUND or RIIS_RIM_CUT");
+  if (resistance.reserved != 0)
+    fail(RIIS_INVALID_ARGUMENT, name, ".reserved is ", resistance.reserved, "; it must be 0");
+  return {resistance.R / eps, eps, resistance.rim == RIIS_RIM_CUT};
+}
+
+Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks) {
+  if (!marks.was_marked) fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
+  const Resistance checked = checked_resistance(resistance, "resistance", marks.half_thickness, marks.distance_limit);
+  if (checked.cuts_rim) require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "RIIS_RIM_CUT");
+  return checked;
+}
+
+void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads,
+                     ListedNodes &list) {
+  const std::int64_t n = list.nodes.size();
+  resize(list.k, data.k ? n : 0);
+  resize(list.k_u_surface, data.k_u_surface ? 3 * n : 0);
+  resize(list.k_gradient, data.n_k_gradients() * n);
+  if (!data.k) return;
+  parallel_for_ranges(n, nodes_per_block, n_threads.for_part(n, few_nodes), [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const double k = view(list.k)[i] = coefficient_at(*resistance, list, i);
+      if (data.k_u_surface)
+        for (std::int64_t at = 3 * i; at < 3 * i + 3; ++at)
+          view(list.k_u_surface)[at] = k * view(list.fields.velocity)[at];
+      if (data.n_directions == 0) continue;
+      const double slope = slope_at(*resistance, k);
+      for (std::int64_t at = data.n_directions * i; at < data.n_directions * (i + 1); ++at)
+        view(list.k_gradient)[at] = slope * view(list.fields.distance_gradient)[at];
+    }
+  });
+}
+
+void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to) {
+  const bool adds_k_u = to.K_u_surface[0] != nullptr;
+  if (adds_k_u) require_field(marks, RIIS_FIELD_VELOCITY, "RIIS_FIELD_VELOCITY", "arrays.K_u_surface");
+  const auto node_id = view(marks.within.nodes.node_id);
+  const double *velocity = marks.within.fields.velocity.data();
+  // If the three components of a node are adjacent, they share a cache line, and one prefetch serves all three.
+  const int n_lines = adds_k_u && to.K_u_surface[1] == to.K_u_surface[0] + 1 ? 1 : 3;
+  const int n_threads = marks.n_threads.for_part(node_id.size(), few_nodes);
+  parallel_for_ranges(node_id.size(), nodes_per_block, n_threads, [&](const Range &range, int) {
+    for_each_resistance(marks, resistance, range, [&](std::int64_t i, double k) {
+      // The nodes lie far apart in the caller's arrays, so the entries of later nodes are prefetched.
+      const std::int64_t ahead = node_id[std::min(i + 16, node_id.size() - 1)], node = node_id[i];
+      if (to.K) {
+        __builtin_prefetch(to.K + to.K_stride * ahead, 1);
+        to.K[to.K_stride * node] += k;
+      }
+      if (!adds_k_u) return;
+      for (int c = 0; c < n_lines; ++c) __builtin_prefetch(to.K_u_surface[c] + to.K_u_surface_stride * ahead, 1);
+      for (int c = 0; c < 3; ++c) to.K_u_surface[c][to.K_u_surface_stride * node] += k * velocity[3 * i + c];
+    });
+  });
+}
+
+void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
+                  const riis_reaction &to) {
+  const bool wants_edges = to.edge_force || to.edge_moment, wants_leaflets = to.leaflet_force || to.leaflet_moment;
+  const bool wants_points = wants_edges || to.moment || to.leaflet_moment;
+  if (wants_points)
+    require_field(marks, RIIS_FIELD_POINT, "RIIS_FIELD_POINT", "a moment or a force by edge in reaction");
+  if (wants_leaflets) check_leaflets(marks, to);
+  const Edges edges = wants_edges ? checked_edges(to) : Edges{};
+  const Vector<std::int64_t> nearest = wants_edges ? nearest_edges(marks, resistance, edges) : Vector<std::int64_t>();
+  Wrench whole;
+  Vector<Wrench> of_leaflet(static_cast<std::size_t>(wants_leaflets ? to.n_leaflets : 0));
+  Vector<Wrench> of_edge(static_cast<std::size_t>(edges.n));
+  const Vec3 about{to.about[0], to.about[1], to.about[2]};
+  const bool moves = (marks.data.fields & RIIS_FIELD_VELOCITY) != 0;
+  // A single thread adds the forces in the order of the nodes, so that the bits do not depend on the number of threads.
+  for_each_resistance(marks, resistance, {0, marks.within.nodes.size()}, [&](std::int64_t i, double k) {
+    const std::int64_t node = view(marks.within.nodes.node_id)[i];
+    const Vec3 surface_velocity = moves ? vector_at(marks.within.fields.velocity, i) : Vec3{0, 0, 0};
+    const auto component = [&](int c, double of_surface) {
+      return flow.weight[node] * (k * (flow.velocity[c][flow.velocity_stride * node] - of_surface));
+    };
+    const Vec3 force{component(0, surface_velocity.x), component(1, surface_velocity.y),
+                     component(2, surface_velocity.z)};
+    const Vec3 point = wants_points ? vector_at(marks.within.fields.point, i) : Vec3{0, 0, 0};
+    const Vec3 moment = cross(point - about, force);
+    whole.add(force, moment);
+    if (wants_leaflets) view(of_leaflet)[view(marks.within.nodes.leaflet_id)[i]].add(force, moment);
+    if (!wants_edges) return;
+    const std::int64_t edge = view(nearest)[i];
+    view(of_edge)[edge].add(force, cross(point - edges.middle(edge), force));
+  });
+  if (to.force) add_sum(whole.force, to.force);
+  if (to.moment) add_sum(whole.moment, to.moment);
+  add_sums(of_leaflet, to.leaflet_force, to.leaflet_moment);
+  add_sums(of_edge, to.edge_force, to.edge_moment);
+}
+
+riis_band_sums band_sums(const Marks &marks, const riis_band &band) {
+  require_field(marks, RIIS_FIELD_SIDE, "RIIS_FIELD_SIDE", "riis_marks_get_band_sums");
+  require_field(marks, RIIS_FIELD_RIM, "RIIS_FIELD_RIM", "riis_marks_get_band_sums");
+  riis_band_sums sums{};
+  const NodeList &within = marks.within.nodes;
+  const auto distance = view(within.distance);
+  for (std::int64_t i = 0; i < within.size(); ++i) {
+    const std::int32_t side = view(marks.within.fields.side)[i];
+    if (view(marks.within.fields.rim)[i] || side == 0) continue;
+    if (!(distance[i] >= band.inner && distance[i] <= band.outer)) continue;
+    const std::int64_t node = view(within.node_id)[i];
+    const std::size_t at = side < 0 ? 0 : 1;
+    sums.sum[at] += band.weight[node] * band.value[node];
+    sums.weight[at] += band.weight[node];
+    ++sums.n_nodes[at];
+  }
+  return sums;
+}
+
+}  // namespace riis

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance").
+// In: the nodes within the limit, with their fields. Out: the term and its sums, added to the caller's arrays.
+#pragma once
+
+#include <riis/riis.h>
+
+#include "marks/marks.hpp"
+
+namespace riis {
+
+// The checked numbers of a riis_resistance. K is above 0 only at nodes within the half thickness.
+struct Resistance {
+  double factor;          // R / eps
+  double half_thickness;  // eps
+  bool cuts_rim;
+};
+
+// Checks the argument `name`, a resistance, for a marking with this half thickness and this distance limit.
+Resistance checked_resistance(const riis_resistance &resistance, const char *name, double half_thickness,
+                              double distance_limit);
+// Computes K and K u_surface at the nodes of the list, and stores both in the list. The fields of the nodes are already in the
+// list. `resistance` is null if `data` requests neither array.
+void list_resistance(const Resistance *resistance, const WantedData &data, const Threads &n_threads, ListedNodes &list);
+
+// Each of the next four functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
+Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
+void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
+// Adds the flow's force on the surface, and its moments. Also fails, and adds nothing, if the reaction's edges or n_leaflets do
+// not fit the surface.
+void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
+                  const riis_reaction &to);
+// Sums the caller's value over the nodes of the band on each side of the surface. Nodes beyond a rim do not count.
+riis_band_sums band_sums(const Marks &marks, const riis_band &band);
+
+}  // namespace riis

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/mark_nodes.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "base/errors.hpp"
+#include "common/array_view.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay only if they are used again, so not in a
+// mesh's first marking.
+bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
+  if (request.surface.other_distance()) return false;
+  return has_few_near(request) ? !is_first : are_enough_for_clusters(request.mesh.nodes().n, request.surface);
+}
+
+// Chooses the search.
+std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
+  const PatchDistance *other = request.surface.other_distance();
+  if (other && asked_for == RIIS_SEARCH_CLUSTERS)
+    fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
+         ", clusters, which need distances to triangles, but the surface's distances are by ", other->name());
+  const bool is_first = !request.mesh.record_marking();
+  if (asked_for == RIIS_SEARCH_AUTO)
+    asked_for = do_clusters_pay_off(request, is_first) ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
+  const bool walks = asked_for == RIIS_SEARCH_NEIGHBOR || asked_for == RIIS_SEARCH_PAPER;
+  if (walks && !request.mesh.adjacency().has_value())
+    fail(RIIS_INVALID_ARGUMENT, "options.search is ", asked_for,
+         ", which walks along the mesh's adjacency, but the mesh has none: see riis_mesh_set_adjacency");
+  return asked_for;
+}
+
+// The search that ran and its report.
+struct SearchRun {
+  std::int32_t search;
+  SearchReport report;
+};
+
+// Searches over clusters. Searches exhaustively instead if the mesh has too many nodes for clusters or if single precision is
+// too coarse.
+SearchRun run_clusters(const SearchRequest &request, Marks &marks) {
+  if (request.mesh.nodes().n <= max_clustered_nodes) {
+    const Clusters &clusters = request.mesh.clusters(request.n_threads);
+    if (separates_in_single_precision(request, clusters.frame))
+      return {RIIS_SEARCH_CLUSTERS,
+              search_clusters(request, clusters, kernels(request.instructions), marks.cluster_scratch, marks.found)};
+  }
+  return {RIIS_SEARCH_EXHAUSTIVE, search_exhaustively(request, marks.found)};
+}
+
+SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
+  static const std::vector<std::int64_t> nowhere;
+  if (request.mesh.nodes().n == 0) {
+    // A process of a parallel solver may have no nodes. Every search is then complete and finds nothing.
+    marks.found.prepare(1);
+    return {search, {0, 1, true, 0}};
+  }
+  switch (search) {
+    case RIIS_SEARCH_NEIGHBOR: {
+      // A moving valve is near its last position, so the walk starts at the nodes found last. These may be nodes of another mesh
+      // with as many nodes: a wrong start does no harm.
+      const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
+      return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
+                                       marks.found)};
+    }
+    case RIIS_SEARCH_PAPER:
+      return {search, search_as_the_paper(request, marks.neighbor_scratch, marks.found)};
+    case RIIS_SEARCH_CLUSTERS:
+      return run_clusters(request, marks);
+    default:
+      return {search, search_exhaustively(request, marks.found)};
+  }
+}
+
+// Returns the data that the caller requested, together with the fields from which K and K u_surface are computed.
+WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked) {
+  WantedData data;
+  data.fields = data.given_fields = asked.fields;
+  data.k = asked.resistance != nullptr;
+  if (asked.fields & RIIS_FIELD_GRADIENT) data.n_directions = request.surface.n_directions();
+  if (!data.k) return data;
+  if (asked.resistance->cuts_rim) data.fields |= RIIS_FIELD_RIM;
+  data.k_u_surface = !request.surface.other_distance() && !request.surface.triangles().velocity.empty();
+  if (data.k_u_surface) data.fields |= RIIS_FIELD_VELOCITY;
+  return data;
+}
+
+// Gives both lists room for their new entries. If a list lacks room, both are replaced, but only after all memory for the new
+// ones was reserved.
+void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
+  if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
+    ListedNodes within, marked;
+    within.reserve(data, n.n_within);
+    marked.reserve(data, n.n_marked);
+    marks.within = std::move(within);
+    marks.marked = std::move(marked);
+  }
+  marks.within.nodes.resize(n.n_within);
+  marks.marked.nodes.resize(n.n_marked);
+}
+
+}  // namespace
+
+bool ListedNodes::has_room(const WantedData &data, std::int64_t n) const {
+  return nodes.has_room(n) && fields.has_room(data.field_set(), n) && (!data.k || riis::has_room(k, n)) &&
+         (!data.k_u_surface || riis::has_room(k_u_surface, 3 * n)) &&
+         riis::has_room(k_gradient, data.n_k_gradients() * n);
+}
+
+void ListedNodes::reserve(const WantedData &data, std::int64_t n) {
+  nodes.reserve(n);
+  fields.reserve(data.field_set(), n);
+  if (data.k) reserve_amply(k, n);
+  if (data.k_u_surface) reserve_amply(k_u_surface, 3 * n);
+  if (data.n_k_gradients() > 0) reserve_amply(k_gradient, data.n_k_gradients() * n);
+}
+
+void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks) {
+  const auto start = std::chrono::steady_clock::now();
+  check_fields(asked.surface, marking.fields);
+  SearchRequest request = asked;
+  const WantedData data = wanted_data(request, marking);
+  request.ties = ties_for(request.surface, data.fields);
+  const auto [search, report] = run(request, search_for(request, marking.search), marks);
+  const bool limit_is_wider = request.distance_limit > request.surface.half_thickness();
+  // Everything that may fail comes first, so that a failure leaves the old lists intact.
+  marks.field_scratch.prepare(request, data.fields, marks.found);
+  if (need_normals(request.surface, data.fields, marks.found.size())) request.surface.pseudonormals();
+  marks.leaflet_ids.reserve(request.surface.leaflet_ids().size());
+  make_room(data,
+            prepare_order(request.surface, marks.found, limit_is_wider, request.mesh.nodes().n, request.n_threads,
+                          marks.order_scratch),
+            marks);
+  put_in_order(request.surface, limit_is_wider, request.mesh.nodes().n, request.n_threads, marks.order_scratch,
+               marks.within.nodes, marks.marked.nodes);
+  make_fields(request, data.fields, marks.within.nodes, marks.field_scratch, marks.within.fields);
+  if (limit_is_wider)
+    select_fields(data.field_set(), marks.within.nodes, marks.within.fields, marks.marked.nodes, marks.marked.fields);
+  for (ListedNodes *list : {&marks.within, &marks.marked})
+    list_resistance(marking.resistance, data, request.n_threads, *list);
+  marks.leaflet_ids = request.surface.leaflet_ids();
+  marks.data = data;
+  marks.was_marked = true;
+  marks.limit_is_wider = limit_is_wider;
+  marks.distance_limit = request.distance_limit;
+  marks.half_thickness = request.surface.half_thickness();
+  marks.n_threads = request.n_threads;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  marks.stats = {request.mesh.nodes().n,
+                 marks.marked_nodes().size(),
+                 marks.within.nodes.size(),
+                 report.n_queries,
+                 elapsed.count(),
+                 search,
+                 report.n_threads,
+                 report.complete ? 1 : 0,
+                 RIIS_INSTRUCTIONS_BASELINE +
+                     (request.surface.other_distance() ? 0 : static_cast<std::int32_t>(request.instructions)),
+                 report.n_unreached};
+}
+
+void write_dense(const Marks &marks, const riis_dense_arrays &to) {
+  constexpr std::int64_t nodes_per_block = 65536, few = 8 * nodes_per_block;
+  const std::int64_t n_nodes = marks.stats.n_nodes;
+  parallel_for_ranges(n_nodes, nodes_per_block, marks.n_threads.for_part(n_nodes, few), [&](const Range &range, int) {
+    const auto [begin, end] = range;
+    if (to.mark) std::fill(to.mark + begin, to.mark + end, std::uint8_t{0});
+    if (to.distance) std::fill(to.distance + begin, to.distance + end, to.far_distance);
+    if (to.triangle_id) std::fill(to.triangle_id + begin, to.triangle_id + end, std::int64_t{-1});
+    if (to.leaflet_id) std::fill(to.leaflet_id + begin, to.leaflet_id + end, -1);
+  });
+  if (to.mark)
+    for (const std::int64_t node : marks.marked_nodes().node_id) to.mark[node] = 1;
+  const NodeList &within = marks.within.nodes;
+  for (std::int64_t i = 0; i < within.size(); ++i) {
+    const std::int64_t node = view(within.node_id)[i];
+    if (to.distance) to.distance[node] = view(within.distance)[i];
+    if (to.triangle_id) to.triangle_id[node] = view(within.triangle_id)[i];
+    if (to.leaflet_id) to.leaflet_id[node] = view(within.leaflet_id)[i];
+  }
+}
+
+}  // namespace riis

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole marking, from the request to the marks: runs the search and then makes the lists.
+#pragma once
+
+#include <cstdint>
+
+#include "marks/marks.hpp"
+#include "obstacle/resistance.hpp"
+#include "search/search.hpp"
+
+namespace riis {
+
+// The kind of search, and the options of a marking that the search itself does not need.
+struct MarkingRequest {
+  std::int32_t search;           // RIIS_SEARCH_*
+  std::int32_t fields;           // a sum of RIIS_FIELD_*
+  const Resistance *resistance;  // null if not wanted
+};
+
+// Marks the nodes. If it fails, the marks' lists keep their content and their addresses.
+void mark_nodes(const SearchRequest &asked, const MarkingRequest &marking, Marks &marks);
+
+// Writes the marks to the caller's arrays. The caller must have checked far_distance.
+void write_dense(const Marks &marks, const riis_dense_arrays &to);
+
+}  // namespace riis

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The edges of a surface: the open boundary of triangles, the free edges of leaflets, and the attachment, where tissue or a stent
+// holds a leaflet.
+// In: triangles, whose vertices may be repeated. Out: open edges, vertices along the sides of patches, and the leaflets.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "triangulate/triangle_set.hpp"
+
+namespace riis {
+
+// An open edge, in the direction in which it runs round its triangle.
+struct OpenEdge {
+  std::int64_t from, to;  // vertices, each of which stands for all vertices with the same coordinates
+  std::int64_t triangle;  // the position of its triangle in the set
+};
+
+// Returns the edges that only one triangle has, in the order of the triangles. If by_leaflet is true, only triangles of the same
+// leaflet count. A vertex inside a neighbour's edge opens no edge, because the edges on both sides cancel.
+std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
+
+// Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. If several lines meet
+// in one vertex, each line continues along other triangles than before. So the attachments of cusps that meet at commissures make
+// one line, and their free edges make another.
+std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
+
+// One side of one patch. Its length is above 0.
+struct SideLine {
+  std::int32_t leaflet_id, patch_id;
+  Vector<std::int64_t> vertex_id;  // in order along the side; no two vertices have the same parameter
+  AxisLine axis;                   // axis of the patch, placed
+};
+
+double length_of(const TriangleSet &set, const SideLine &side);
+
+// free_edges and attached_sides return the sides in the order of their patches. A surface from arrays has no sides.
+// A leaflet's free edge consists of the sides v = 1 that only one patch of the leaflet has.
+std::vector<SideLine> free_edges(const TriangleSet &set);
+// The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share does not
+// belong to it.
+std::vector<SideLine> attached_sides(const TriangleSet &set);
+
+// The edges of all attached sides. Their order is that of the patches. The edges of one side follow each other along the side.
+// Edges of length 0 are left out.
+struct Attachment {
+  std::vector<double> edges;     // (3, 2, n_edges)
+  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt, of length 1, or 0 without a direction
+  std::vector<std::int64_t> vertex_id;   // (2, n_edges)
+  std::vector<std::int32_t> leaflet_id;  // (n_edges)
+  std::vector<std::int32_t> patch_id;    // (n_edges)
+
+  std::int64_t n_edges() const { return view(leaflet_id).size(); }
+};
+
+Attachment attachment_of(const TriangleSet &set);
+
+// A straight part of a leaflet's free edge.
+struct EdgePart {
+  std::int32_t leaflet_id;
+  Vec3 from, to;
+};
+
+// Returns the straight parts of the leaflets' free edges.
+std::vector<EdgePart> free_edge_parts(const TriangleSet &set);
+
+// Returns the leaflets, ascending by id.
+std::vector<riis_leaflet> leaflets_of(const TriangleSet &set);
+
+// Returns the area of all leaflets except one.
+double area_without(const std::vector<riis_leaflet> &leaflets, std::int32_t leaflet_id);
+
+}  // namespace riis

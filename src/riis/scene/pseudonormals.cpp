@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/pseudonormals.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+#include "base/constants.hpp"
+#include "common/array_view.hpp"
+#include "kernels/kernels.hpp"
+#include "valve/rims.hpp"
+
+namespace riis {
+namespace {
+
+std::uint64_t hash(Vec3 p) {
+  std::uint64_t h = 0;
+  for (const double coordinate : {p.x, p.y, p.z}) {
+    const double positive_zero = coordinate + 0.0;  // -0 and 0 are the same position
+    std::uint64_t bits;
+    std::memcpy(&bits, &positive_zero, sizeof bits);
+    h = (h ^ bits) * 0x9e3779b97f4a7c15;
+    h ^= h >> 32;
+  }
+  return h;
+}
+
+// Computes the third angle from the other two, because an arc tangent is expensive.
+std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
+  const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
+               at_b = std::atan2(measures.twice_area[lane], measures.product_at_b[lane]);
+  return {at_a, at_b, std::max(0.0, pi - at_a - at_b)};
+}
+
+// Sorts edges by their upper ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
+// order. A stable sort of the standard library would allocate memory.
+template <class Edge>
+void sort_few(Edge *begin, Edge *end) {
+  constexpr std::ptrdiff_t few = 32;
+  if (end - begin > few) {
+    std::sort(begin, end, [](const Edge &a, const Edge &b) {
+      return a.upper < b.upper || (a.upper == b.upper && a.slot < b.slot);
+    });
+    return;
+  }
+  for (Edge *next = begin + 1; next < end; ++next) {
+    const Edge edge = *next;
+    Edge *to = next;
+    for (; to != begin && edge.upper < to[-1].upper; --to) *to = to[-1];
+    *to = edge;
+  }
+}
+
+}  // namespace
+
+UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
+  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place from its hash on.
+  constexpr std::int32_t none = -1;
+  UnfilledShortVector<std::int32_t> position;
+  resize(position, set.n_vertices());
+  std::size_t size = 16;
+  while (size < 2 * position.size()) size *= 2;
+  Vector<std::int32_t> table(size, none);
+  std::int32_t n = 0;
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) {
+    const Vec3 p = set.vertex(i);
+    std::size_t at = hash(p) & (size - 1);
+    while (table[at] != none && !(set.vertex(table[at]) == p)) at = (at + 1) & (size - 1);
+    if (table[at] == none) {
+      table[at] = static_cast<std::int32_t>(i);
+      view(position)[i] = n++;
+    } else {
+      view(position)[i] = view(position)[table[at]];
+    }
+  }
+  n_positions = n;
+  return position;
+}
+
+Vec3 triangle_normal(const std::array<Vec3, 3> &corners) {
+  const auto &[a, b, c] = corners;
+  // Scales the edges first, so that neither small nor large triangles leave the range of doubles.
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double longest = std::sqrt(std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)}));
+  const Vec3 n = cross((1.0 / longest) * (b - a), (1.0 / longest) * (c - a));
+  return (1.0 / length(n)) * n;
+}
+
+Pseudonormals::Pseudonormals(const TriangleSet &set) {
+  const std::int64_t n = set.n_triangles();
+  std::int64_t n_positions = 0;
+  const UnfilledShortVector<std::int32_t> position_of_vertex = distinct_positions(set, n_positions);
+  resize(face_, n);
+  resize(edge_, 3 * n);
+  resize(position_, 3 * n);
+  resize(edge_is_rim_, 3 * n);
+  resize(corner_, n_positions);
+  resize(corner_is_rim_, n_positions);
+  // Edges are listed by their lower end. Each list is short. After it is sorted, equal edges are next to each other.
+  Vector<std::int32_t> end_of_list;
+  resize(end_of_list, n_positions + 1);
+  const auto ends_at = view(end_of_list);
+  const Kernels &simd = kernels(best_instruction_set());
+  for (std::int64_t first = 0; first < n; first += pairs_at_once) {
+    const auto n_here = static_cast<std::int32_t>(std::min<std::int64_t>(pairs_at_once, n - first));
+    TriangleMeasures measures;
+    simd.measure_triangles(set.xyz.data(), set.vertex_id.data() + 3 * first, n_here, measures);
+    for (std::int32_t lane = 0; lane < n_here; ++lane) {
+      const std::int64_t i = first + lane;
+      const Vec3 normal{measures.normal[0][lane], measures.normal[1][lane], measures.normal[2][lane]};
+      view(face_)[i] = normal;
+      const std::array<double, 3> angles = angles_of(measures, lane);
+      for (std::int64_t k = 0; k < 3; ++k) {
+        const std::int32_t position = view(position_of_vertex)[view(set.vertex_id)[3 * i + k]];
+        view(position_)[3 * i + k] = position;
+        Vec3 &sum = view(corner_)[position];
+        sum = sum + view(angles)[k] * normal;
+      }
+      for (std::int64_t k = 0; k < 3; ++k) ++ends_at[ends_of(3 * i + k).lower];
+    }
+  }
+  std::partial_sum(end_of_list.begin(), end_of_list.end(), end_of_list.begin());
+  struct Edge {
+    std::int32_t upper, slot;  // position of its upper end, index in edge_
+  };
+  UnfilledShortVector<Edge> edges;
+  resize(edges, 3 * n);
+  // Lists are filled from their ends, so that equal edges are in the order of their slots. So sums have the same bits for any
+  // numbering of the positions.
+  for (std::int64_t slot = 3 * n; slot-- > 0;) {
+    const auto [lower, upper] = ends_of(slot);
+    view(edges)[--ends_at[lower]] = {upper, static_cast<std::int32_t>(slot)};
+  }
+  for (std::int64_t lower = 0; lower < n_positions; ++lower) {
+    Edge *const end = edges.data() + ends_at[lower + 1];
+    Edge *first = edges.data() + ends_at[lower];
+    sort_few(first, end);
+    while (first != end) {
+      Vec3 sum{0, 0, 0};
+      const Edge *last = first;
+      for (; last != end && last->upper == first->upper; ++last) sum = sum + view(face_)[last->slot / 3];
+      if (set.rim_sides.empty() && last - first == 1) note_rim(first->slot);
+      for (; first != last; ++first) view(edge_)[first->slot] = sum;
+    }
+  }
+  if (!set.rim_sides.empty()) note_rim_sides(set);
+}
+
+// Records that an edge and its ends are on the rim.
+void Pseudonormals::note_rim(std::int64_t slot) {
+  const auto [lower, upper] = ends_of(slot);
+  view(edge_is_rim_)[slot] = view(corner_is_rim_)[lower] = view(corner_is_rim_)[upper] = 1;
+}
+
+void Pseudonormals::note_rim_sides(const TriangleSet &set) {
+  UnfilledShortVector<std::uint8_t> sides;
+  resize(sides, set.n_vertices());
+  for (std::int64_t i = 0; i < set.n_vertices(); ++i) view(sides)[i] = sides_of_place(set.uv.data() + 2 * i);
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
+    const int rim = view(set.rim_sides)[view(set.patch_id)[i]];
+    const std::int64_t *id = set.vertex_id.data() + 3 * i;
+    const int a = rim & view(sides)[id[0]], b = rim & view(sides)[id[1]], c = rim & view(sides)[id[2]];
+    if (((a & b) | (b & c) | (c & a)) == 0) continue;
+    if (a & b) note_rim(3 * i);
+    if (b & c) note_rim(3 * i + 1);
+    if (c & a) note_rim(3 * i + 2);
+  }
+}
+
+Pseudonormals::Ends Pseudonormals::ends_of(std::int64_t slot) const {
+  const auto position = view(position_);
+  const std::int32_t from = position[slot], to = position[slot % 3 == 2 ? slot - 2 : slot + 1];
+  return from < to ? Ends{from, to} : Ends{to, from};
+}
+
+Pseudonormals::Simplex Pseudonormals::simplex_of(Vec3 barycentric) {
+  // The index is a sum over the weights that are 0: 1 for the first weight, 2 for the second, 4 for the third.
+  static constexpr Simplex simplices[8] = {{Kind::face, 0}, {Kind::edge, 1},   {Kind::edge, 2},   {Kind::vertex, 2},
+                                           {Kind::edge, 0}, {Kind::vertex, 1}, {Kind::vertex, 0}, {Kind::vertex, 0}};
+  return simplices[(barycentric.x == 0 ? 1 : 0) + (barycentric.y == 0 ? 2 : 0) + (barycentric.z == 0 ? 4 : 0)];
+}
+
+Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 barycentric) const {
+  const auto [kind, corner] = simplex_of(barycentric);
+  if (kind == Kind::face) return {of_face(triangle), false};
+  const std::int64_t slot = 3 * triangle + corner, position = view(position_)[slot];
+  const bool is_vertex = kind == Kind::vertex;
+  const Vec3 normal = is_vertex ? view(corner_)[position] : view(edge_)[slot];
+  const bool is_on_rim = (is_vertex ? view(corner_is_rim_)[position] : view(edge_is_rim_)[slot]) != 0;
+  // The normals of faces folded onto each other cancel up to rounding. Then the triangle's own normal is used.
+  return {dot(normal, normal) > 1e-18 ? normal : of_face(triangle), is_on_rim};
+}
+
+}  // namespace riis

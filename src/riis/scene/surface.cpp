@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/surface.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "geometry/point_triangle.hpp"
+
+namespace riis {
+namespace {
+
+// Sums numbers of triangles block by block, which loses less to rounding.
+template <class OfTriangle>
+double sum_over_triangles(std::int64_t n, const OfTriangle &of_triangle) {
+  constexpr std::int64_t triangles_per_block = 4096;
+  double sum = 0;
+  for (std::int64_t first = 0; first < n; first += triangles_per_block) {
+    double of_block = 0;
+    for (std::int64_t i = first; i < std::min(n, first + triangles_per_block); ++i) of_block += of_triangle(i);
+    sum += of_block;
+  }
+  return sum;
+}
+
+// Returns the derivative of the area of a triangle whose corners move at these rates.
+double area_rate_of(const TriangleSet &set, const double *rates, std::int64_t triangle) {
+  const auto [a, b, c] = set.corners(triangle);
+  const std::int64_t *const id = set.vertex_id.data() + 3 * triangle;
+  const auto rate = [&](int k) { return Vec3{rates[3 * id[k]], rates[3 * id[k] + 1], rates[3 * id[k] + 2]}; };
+  const Vec3 ab = b - a, ac = c - a, normal = cross(ab, ac), of_a = rate(0);
+  const double twice_area = length(normal);
+  if (!(twice_area > 0)) return 0;
+  return 0.5 / twice_area * dot(normal, cross(rate(1) - of_a, ac) + cross(ab, rate(2) - of_a));
+}
+
+// Collects the ids of the leaflets. In the surface of a valve, the triangles of a leaflet follow each other, so few ids are
+// sorted.
+void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
+  ids.clear();
+  for (const std::int32_t id : set.leaflet_id)
+    if (ids.empty() || ids.back() != id) ids.push_back(id);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+}  // namespace
+
+Vec3 SourceValve::axis() const {
+  if (disc.rim.empty()) return placement.rotation * Vec3{0, 0, 1};
+  Vec3 area{0, 0, 0};
+  for (std::size_t i = 0; i < disc.rim.size(); ++i)
+    area = area + cross(disc.rim[i] - disc.rim[0], disc.rim[(i + 1) % disc.rim.size()] - disc.rim[0]);
+  return placement.rotation * ((1 / length(area)) * area);
+}
+
+void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
+  triangles_ = std::move(triangles);
+  half_thickness_ = half_thickness;
+  collect_leaflets(triangles_, leaflet_ids_);
+  attachment_.reset();
+  leaflets_.reset();
+  area_.store(not_known, std::memory_order_relaxed);
+  pseudonormals_.store(nullptr, std::memory_order_relaxed);
+  pseudonormals_owner_.reset();
+  other_distance_.reset();
+  source_valve_.reset();
+  states_.reset();
+  patches_.reset();
+  n_directions_ = 0;
+  velocity_error_bound_.store(not_known, std::memory_order_relaxed);
+  scene_.make(triangles_, n_threads);
+}
+
+void Surface::measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error) {
+  other_distance_ = std::move(other_distance);
+  triangle_error_ = triangle_error;
+}
+
+double Surface::area() const {
+  double area = area_.load(std::memory_order_relaxed);
+  if (area == not_known) {
+    area = sum_over_triangles(triangles_.n_triangles(), [&](std::int64_t i) { return triangles_.area(i); });
+    area_.store(area, std::memory_order_relaxed);
+  }
+  return area;
+}
+
+double Surface::area_rate(std::int64_t direction) const {
+  const double *const rates_here = rates(direction).data();
+  return sum_over_triangles(triangles_.n_triangles(),
+                            [&](std::int64_t i) { return area_rate_of(triangles_, rates_here, i); });
+}
+
+double Surface::velocity_error_bound() const {
+  double bound = velocity_error_bound_.load(std::memory_order_relaxed);
+  if (bound == not_known) {
+    bound = states_ ? riis::velocity_error_bound(*states_, triangles_.grids) : 0;
+    velocity_error_bound_.store(bound, std::memory_order_relaxed);
+  }
+  return bound;
+}
+
+void Surface::add_direction(const Direction &direction, int n_threads) {
+  const auto n = static_cast<std::size_t>(n_directions_);
+  if (rates_.size() == n) rates_.emplace_back();
+  make_vertex_rates(*patches(), triangles_.grids, direction, n_threads, rates_[n]);
+  ++n_directions_;
+}
+
+const Attachment &Surface::attachment() const {
+  const std::lock_guard<std::mutex> lock(attachment_mutex_);
+  if (!attachment_) attachment_.emplace(attachment_of(triangles_));
+  return *attachment_;
+}
+
+const std::vector<riis_leaflet> &Surface::leaflets() const {
+  const std::lock_guard<std::mutex> lock(leaflets_mutex_);
+  if (!leaflets_) leaflets_.emplace(leaflets_of(triangles_));
+  return *leaflets_;
+}
+
+const Pseudonormals &Surface::make_pseudonormals() const {
+  const std::lock_guard<std::mutex> lock(pseudonormals_mutex_);
+  if (!pseudonormals_owner_) {
+    pseudonormals_owner_.emplace(triangles_);
+    pseudonormals_.store(&*pseudonormals_owner_, std::memory_order_release);
+  }
+  return *pseudonormals_owner_;
+}
+
+}  // namespace riis

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// A surface that answers queries. It has triangles, their scene, the half thickness, and optionally another method to measure
+// distances.
+// In: triangles. Out: closest triangles, sides.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/placement.hpp"
+#include "motion/velocity_bound.hpp"
+#include "motion/vertex_rates.hpp"
+#include "paper_distances/patch_distance.hpp"
+#include "scene/edges.hpp"
+#include "scene/pseudonormals.hpp"
+#include "scene/triangle_scene.hpp"
+#include "triangulate/triangle_set.hpp"
+#include "valve/valve.hpp"
+
+namespace riis {
+
+// The placement, the disc, the housing, the skirt and the kind of the valve that a surface was made from.
+struct SourceValve {
+  Placement placement;
+  Valve::Disc disc;      // before placement
+  std::int32_t housing;  // the leaflet_id of the housing, or -1 if the valve has no housing
+  std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
+  const ValveKind *kind;
+  bool is_warped;
+
+  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
+  Vec3 axis() const;
+};
+
+class Surface {
+ public:
+  // Makes the surface. A surface that moved is made again in the same memory. After a failure the surface must not be used.
+  void make(TriangleSet triangles, double half_thickness, int n_threads);
+  // Moves the triangles out, so that the next surface's triangles can reuse their memory.
+  TriangleSet take_triangles() { return std::move(triangles_); }
+  // Sets another method to measure distances. Before this call, distances are to the triangles.
+  void measure_by(std::unique_ptr<const PatchDistance> other_distance, double triangle_error);
+
+  // Takes the valve that the triangles come from. A surface from arrays has none.
+  void is_of_valve(const SourceValve &source) { source_valve_.emplace(source); }
+  const std::optional<SourceValve> &source() const { return source_valve_; }
+
+  // Takes the two states that the velocities were computed from.
+  void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
+  // Takes the patches of a valve at rest.
+  void is_of_patches(PatchSet patches) { patches_.emplace(std::move(patches)); }
+  // Returns the patches that the triangles come from, or null for a surface from arrays.
+  const PatchSet *patches() const { return states_ ? &states_->now : patches_ ? &*patches_ : nullptr; }
+
+  // Adds a direction in which the patches change. Both of its states must have the build of patches() (check_same_build).
+  void add_direction(const Direction &direction, int n_threads);
+  std::int64_t n_directions() const { return n_directions_; }
+  // Returns the rates of the vertices in a direction, (3, n_vertices).
+  const std::vector<double> &rates(std::int64_t direction) const { return view(rates_)[direction]; }
+  // Computes the derivative of area() in a direction.
+  double area_rate(std::int64_t direction) const;
+
+  const TriangleSet &triangles() const { return triangles_; }
+  const TriangleScene &scene() const { return scene_; }
+  double half_thickness() const { return half_thickness_; }
+  // The leaflet ids of the triangles, each once, ascending.
+  const std::vector<std::int32_t> &leaflet_ids() const { return leaflet_ids_; }
+  // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
+  double area() const;
+
+  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. The bound is 0 if the
+  // velocities do not come from patches. The first call computes it. Several threads may call this function at once.
+  double velocity_error_bound() const;
+
+  // Returns the sides at which leaflets are attached. A surface from arrays has none. The first call makes them. Several threads
+  // may call this function at once.
+  const Attachment &attachment() const;
+
+  // Returns the leaflets, ascending by id. The first call measures them. Several threads may call this function at once.
+  const std::vector<riis_leaflet> &leaflets() const;
+
+  // Returns the other method that measures distances, or null if the triangles' scene measures them.
+  const PatchDistance *other_distance() const { return other_distance_.get(); }
+  // Bounds by how much the distance to the triangles exceeds a distance that the method returns.
+  double triangle_error() const { return triangle_error_; }
+
+  // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.
+  const Pseudonormals &pseudonormals() const {
+    const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire);
+    return made ? *made : make_pseudonormals();
+  }
+
+ private:
+  static constexpr double not_known = -1;
+
+  const Pseudonormals &make_pseudonormals() const;
+
+  TriangleSet triangles_;
+  TriangleScene scene_;
+  double half_thickness_ = 0;
+  std::vector<std::int32_t> leaflet_ids_;
+  // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
+  mutable std::atomic<double> area_{not_known};
+  std::optional<SourceValve> source_valve_;
+  std::optional<TwoStates> states_;
+  std::optional<PatchSet> patches_;         // without an earlier state; otherwise states_ has them
+  std::vector<std::vector<double>> rates_;  // of the directions; later entries only keep their memory
+  std::int64_t n_directions_ = 0;
+  mutable std::atomic<double> velocity_error_bound_{not_known};
+  std::unique_ptr<const PatchDistance> other_distance_;
+  double triangle_error_ = 0;
+  // The pseudonormals are made when a side is first queried, because marking alone does not need them.
+  mutable std::mutex pseudonormals_mutex_;
+  mutable std::optional<const Pseudonormals> pseudonormals_owner_;
+  mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};
+  mutable std::mutex attachment_mutex_;
+  mutable std::optional<const Attachment> attachment_;
+  mutable std::mutex leaflets_mutex_;
+  mutable std::optional<const std::vector<riis_leaflet>> leaflets_;
+};
+
+}  // namespace riis

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts neighbouring triangles into groups of up to 16, which is the form that the filters take (kernels/kernels.hpp).
+// In: a triangle set. Out: groups in the surface's frame, their bounds, and the unchanged corners of all triangles.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "geometry/vec3.hpp"
+#include "kernels/kernels.hpp"
+#include "parallel/threads.hpp"
+#include "triangulate/triangle_set.hpp"
+
+namespace riis {
+
+// Takes a coordinate x to (x - centre) * scale. The scale is a power of two that makes the surface's half extent from 1/2 to 1.
+// The errors of both operations are only the rounding of their results.
+struct SurfaceFrame {
+  Vec3 centre{0, 0, 0};
+  double scale = 1;
+
+  SurfaceFrame() = default;
+  explicit SurfaceFrame(const Bounds &bounds);
+  Vec3 operator()(Vec3 p) const { return scale * (p - centre); }
+};
+
+// round_down rounds to single precision towards minus infinity, and round_up towards plus infinity.
+float round_down(double x);
+float round_up(double x);
+
+// Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). The points come from a frame
+// `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths up to
+// `longest_edge`.
+inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
+  return static_cast<float>(0x1p-21 * (ratio + shift + 5 * reach + 7 * longest_edge + 3));
+}
+
+// Bounds the difference between the computed squares of two distances that are in fact equal. Both distances are at most
+// `reach`, which includes the error.
+inline float filter_tolerance(double error, double reach) { return static_cast<float>(5 * error * (reach + error)); }
+
+struct TriangleGroups {
+  static constexpr std::int64_t groups_per_pack = 16;
+
+  SurfaceFrame frame;
+  std::vector<double> corners;  // (3, 3, n_triangles), in the set's own coordinates
+  std::vector<TriangleGroup> groups;
+  Bounds of_all;  // bounds of all corners, in the set's own coordinates
+  std::vector<GroupBounds> bounds;
+  // Packs of groups_per_pack neighbouring groups in order, the last perhaps of fewer. Only their boxes along the coordinate axes,
+  // their longest edges and their corners are set, and a pack has the corner of one of its groups.
+  std::vector<GroupBounds> packs;
+  float longest_edge = 0;
+  // True if each group has the same triangles as before and the groups are not much larger. Then structures built over the
+  // groups still fit.
+  bool are_as_before = false;
+
+  // Copies the corners of a set's triangles, and computes their bounds.
+  void take_corners(const TriangleSet &set, int n_threads);
+  // Replaces the groups by groups of the triangles whose corners were taken last. Reuses the groups' memory.
+  void make(const TriangleSet &set, const SurfaceFrame &surface_frame, int n_threads);
+
+  Range groups_of(std::int64_t pack) const {
+    return {pack * groups_per_pack, std::min((pack + 1) * groups_per_pack, view(groups).size())};
+  }
+
+ private:
+  // What the threads find about a pack.
+  struct OfPack {
+    double size;    // the sum of the extents of its groups' boxes
+    bool are_same;  // whether each group has the same triangles as before
+  };
+
+  // Makes the groups and packs. Returns whether all groups have the same triangles as before.
+  bool enclose(const Grouping &grouping, int n_threads);
+  void enclose_pack(const Range &range);
+  double size() const;
+
+  std::vector<OfPack> of_packs_;
+  Grouping by_place_;  // the groups by position, if the set has none of its own
+  bool is_by_place_ = false;
+  double size_at_first_ = 0;  // the size when are_as_before was last false
+};
+
+}  // namespace riis

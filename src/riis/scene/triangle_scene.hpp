@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree.
+// In: a triangle set, a point, a limit. Out: the closest triangle, the same as brute force with the same kernel finds.
+//
+// Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
+// the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
+// is decided in double precision.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "common/array_view.hpp"
+#include "geometry/point_triangle.hpp"
+#include "scene/ties.hpp"
+#include "scene/triangle_groups.hpp"
+#include "triangulate/triangle_set.hpp"
+
+namespace riis {
+
+class TriangleScene {
+ public:
+  TriangleScene();
+  ~TriangleScene();
+  TriangleScene(const TriangleScene &) = delete;
+  TriangleScene &operator=(const TriangleScene &) = delete;
+
+  // Makes the groups from a copy of the corners, so the set need not be kept. Another call, for triangles that moved, reuses the
+  // memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
+  // because a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if
+  // Embree reports an error, and the next query tries once more.
+  void make(const TriangleSet &set, int n_threads);
+
+  // Builds Embree's tree, as the first query does. Several threads may call this function at once.
+  void build_tree() const;
+
+  // Returns the closest triangle to p, or a triangle -1 if none is within the limit (>= 0, may be infinite). p must be finite,
+  // with coordinates up to max_coordinate. Several threads may call this function at once. If `ties` is not null, its candidates
+  // are replaced by those of p.
+  ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
+                          Ties *ties = nullptr) const;
+
+  // Returns false only if no triangle is within the limit of p. Compares p with the box of all triangles in double precision,
+  // which is cheap.
+  bool may_be_within(Vec3 p, double limit) const;
+
+  const Bounds &bounds() const { return bounds_; }
+
+  const TriangleGroups &groups() const;
+
+  // Adds to `found` all groups whose bounds are within a radius of a point, and perhaps more. Point and radius are in the
+  // groups' frame. The radius and the point's coordinates must be below 4e6.
+  void collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const;
+
+  // Calls visit(triangle) for all triangles that meet the segment from a to b, and perhaps for others. `triangle` is a position
+  // in the set. `found` is scratch memory. Coordinates must be at most max_coordinate.
+  template <class Visit>
+  void for_each_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found, const Visit &visit) const {
+    found.clear();
+    collect_along(a, b, found);
+    const TriangleGroups &in = groups();
+    for (const std::int32_t group : found)
+      for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
+  }
+
+  // Bounds the error of a computed distance that comes from rounding the triangles' coordinates. Errors proportional to the
+  // distance and to |p| are not included.
+  double rounding() const { return rounding_; }
+
+  struct Implementation;  // public, because Embree's callbacks use this type
+
+ private:
+  template <bool keeps_ties>
+  ClosestTriangle find_closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const;
+
+  // Adds all groups that have a triangle which meets the segment, and perhaps more.
+  void collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &found) const;
+
+  Bounds bounds_{};
+  double rounding_ = 0;  // the value that rounding() returns
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace riis

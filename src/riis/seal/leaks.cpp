@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "seal/seal.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <tuple>
+
+#include "common/array_view.hpp"
+#include "parallel/parallel_for.hpp"
+#include "seal/segment_triangle.hpp"
+#include "search/search.hpp"
+
+namespace riis {
+namespace {
+
+struct Edge {
+  std::int64_t a, b;  // a < b
+  double length;
+
+  bool operator<(const Edge &other) const { return std::tie(a, b) < std::tie(other.a, other.b); }
+  bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
+};
+
+// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface, its nearer node is at most
+// half the length from that point, so the node is within the half thickness and marked. The margins are several times the
+// rounding, so this also holds for computed distances. Returns -1 if marks may be missing or do not follow the distances to the
+// triangles. Then no edge counts as short.
+double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
+  if (surface.other_distance() || !marks.stats.complete) return -1;
+  return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
+}
+
+// The search of one thread and its memory.
+struct alignas(64) Finder {
+  const SearchRequest *request = nullptr;
+  const std::vector<std::int64_t> *marked = nullptr;
+  double too_short = 0;
+  std::vector<std::int32_t> room;
+  std::vector<Edge> found;
+
+  bool is_open(std::int64_t node) const {
+    return !request->is_masked_out(node) && !std::binary_search(marked->begin(), marked->end(), node);
+  }
+
+  bool crosses(Vec3 p, Vec3 q) {
+    const TriangleScene &scene = request->surface.scene();
+    const double *corners = scene.groups().corners.data();
+    bool crosses = false;
+    scene.for_each_along(p, q, room, [&](std::int32_t triangle) {
+      const double *c = corners + 9 * static_cast<std::ptrdiff_t>(triangle);
+      crosses = crosses || segment_meets_triangle(p, q, {{{c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {c[6], c[7], c[8]}}});
+    });
+    return crosses;
+  }
+
+  // Returns false only if no point of the surface is within the radius of p. One such query often makes the queries of single
+  // edges unnecessary. The margin is several times the rounding, including that of p, which lies near the surface.
+  bool may_be_within(Vec3 p, double radius) const {
+    const TriangleScene &scene = request->surface.scene();
+    return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
+  }
+
+  void search_block(const EdgeBlocks::Block &block, std::int64_t begin) {
+    const Bounds &bounds = block.bounds;
+    if (block.longest <= too_short || !overlap(bounds, request->surface.scene().bounds())) return;
+    if (!may_be_within(bounds.middle(), length(bounds.half_extent()))) return;
+    const std::int64_t end = std::min(begin + EdgeBlocks::rows_per_block, request->mesh.nodes().n);
+    for (std::int64_t i = begin; i < end; ++i) search_row(i);
+  }
+
+  void search_row(std::int64_t i) {
+    const StridedPoints &nodes = request->mesh.nodes();
+    const Adjacency &adjacency = *request->mesh.adjacency();
+    const Vec3 p = checked_point(nodes, i, "node", RIIS_INVALID_MESH);
+    double longest = 0;
+    adjacency.for_each_neighbor(i, [&](std::int64_t j) { longest = std::max(longest, distance(p, nodes[j])); });
+    if (longest <= too_short || !is_open(i) || !may_be_within(p, longest)) return;
+    adjacency.for_each_neighbor(i, [&](std::int64_t j) {
+      if (j < i && adjacency.has_neighbor(j, i)) return;  // the edge is found in row j
+      const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
+      const double length = distance(p, q);
+      if (length <= too_short || !is_open(j)) return;
+      // Each edge is followed from the end with the lower number, even if the edge was found in the other end's row.
+      if (crosses(i < j ? p : q, i < j ? q : p)) found.push_back({std::min(i, j), std::max(i, j), length});
+    });
+  }
+};
+
+std::vector<Edge> leaking_edges(const SearchRequest &request, const Marks &marks) {
+  constexpr std::int64_t blocks_per_task = 16;
+  std::vector<Edge> found;
+  const double too_short = length_that_cannot_leak(request.surface, marks);
+  const EdgeBlocks &edges = request.mesh.edges(request.n_threads);
+  if (edges.longest <= too_short) return found;
+  std::vector<Finder> finders;
+  resize(finders, request.n_threads);
+  for (Finder &finder : finders) {
+    finder.request = &request;
+    finder.marked = &marks.marked_nodes().node_id;
+    finder.too_short = too_short;
+  }
+  const auto n_blocks = view(edges.blocks).size();
+  const auto search = [&](const Range &range, int thread) {
+    for (std::int64_t k = range.begin; k < range.end; ++k)
+      view(finders)[thread].search_block(view(edges.blocks)[k], k * EdgeBlocks::rows_per_block);
+  };
+  parallel_for_ranges(n_blocks, blocks_per_task, request.n_threads, search);
+  for (const Finder &finder : finders) found.insert(found.end(), finder.found.begin(), finder.found.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());  // the caller's rows may repeat columns
+  return found;
+}
+
+// Returns the distance of the edge's nearer node, with the same bits as in the marking.
+double closing_distance(const SearchRequest &request, const Edge &edge) {
+  const StridedPoints &nodes = request.mesh.nodes();
+  return with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return std::sqrt(std::min(distances.closest(nodes[edge.a], infinity).distance_sq,
+                              distances.closest(nodes[edge.b], infinity).distance_sq));
+  });
+}
+
+Leaks listed(const SearchRequest &request, const std::vector<Edge> &edges) {
+  constexpr std::int64_t edges_per_task = 64, few = 512;
+  const int n_threads = request.n_threads.for_part(view(edges).size(), few);
+  Leaks list;
+  list.node_id.resize(2 * edges.size());
+  list.length.resize(edges.size());
+  list.distance.resize(edges.size());
+  parallel_for_ranges(view(edges).size(), edges_per_task, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      const Edge &edge = view(edges)[i];
+      view(list.node_id)[2 * i] = edge.a;
+      view(list.node_id)[2 * i + 1] = edge.b;
+      view(list.length)[i] = edge.length;
+      view(list.distance)[i] = closing_distance(request, edge);
+    }
+  });
+  return list;
+}
+
+void find_longest(const StridedPoints &nodes, Leaks &leaks) {
+  if (leaks.length.empty()) return;
+  const std::int64_t longest = std::max_element(leaks.length.begin(), leaks.length.end()) - leaks.length.begin();
+  for (int end = 0; end < 2; ++end) leaks.longest_node_id[end] = view(leaks.node_id)[2 * longest + end];
+  leaks.longest_length = view(leaks.length)[longest];
+  leaks.longest_middle = mix(nodes[leaks.longest_node_id[0]], nodes[leaks.longest_node_id[1]], 0.5);
+  leaks.half_thickness = *std::max_element(leaks.distance.begin(), leaks.distance.end());
+}
+
+}  // namespace
+
+Leaks find_leaks(const SearchRequest &request, const Marks &marks) {
+  const auto start = std::chrono::steady_clock::now();
+  if (request.mesh.nodes().n == 0) return {};
+  Leaks leaks = listed(request, leaking_edges(request, marks));
+  find_longest(request.mesh.nodes(), leaks);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  leaks.seconds = elapsed.count();
+  return leaks;
+}
+
+}  // namespace riis

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "seal/seal.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/errors.hpp"
+#include "base/recycled.hpp"
+#include "parallel/parallel_for.hpp"
+#include "pipeline/mark_nodes.hpp"
+#include "search/search.hpp"
+
+namespace riis {
+namespace {
+
+// Returns the largest distance of the nodes to the surface. Refuses nodes in the band.
+double largest_distance(const SearchRequest &request, const char *name, ArrayView<const std::int64_t> ids) {
+  constexpr std::int64_t nodes_per_task = 256, few = 2048;
+  const int n_threads = request.n_threads.for_part(ids.size(), few);
+  const double half_thickness = request.surface.half_thickness();
+  std::vector<double> distance;
+  resize(distance, ids.size());
+  with_distances(request.surface, request.instructions, [&](const auto &distances) {
+    parallel_for_ranges(ids.size(), nodes_per_task, n_threads, [&](const Range &range, int) {
+      for (std::int64_t i = range.begin; i < range.end; ++i) {
+        const Vec3 p = checked_point(request.mesh.nodes(), ids[i], "node", RIIS_INVALID_MESH);
+        const double d = std::sqrt(distances.closest(p, std::numeric_limits<double>::infinity()).distance_sq);
+        if (!(d > half_thickness))
+          fail(RIIS_INVALID_ARGUMENT, "ends.", name, "[", i, "] is node ", ids[i],
+               ", in the band: its distance to the surface, ", d, ", is at most the half thickness, ", half_thickness);
+        view(distance)[i] = d;
+      }
+    });
+  });
+  return *std::max_element(distance.begin(), distance.end());
+}
+
+// A node that is not open yet.
+struct Candidate {
+  double distance;
+  std::int64_t node;
+
+  // Puts the farthest node first and, among equal distances, the lowest id first.
+  bool operator<(const Candidate &other) const {
+    return distance != other.distance ? distance > other.distance : node < other.node;
+  }
+};
+
+// An edge that only the row of `other` lists.
+struct OneWayEdge {
+  std::int64_t node, other;
+
+  bool operator<(const OneWayEdge &edge) const { return node != edge.node ? node < edge.node : other < edge.other; }
+};
+
+// Opens nodes in the order from far to near, until they join the ends.
+class Opening {
+ public:
+  Opening(const SearchRequest &request, const PassageEnds &ends)
+      : request_(request),
+        adjacency_(*request.mesh.adjacency()),
+        from_(request.mesh.nodes().n),
+        to_(from_ + 1),
+        from_ids_(ends.from.begin(), ends.from.end()),
+        to_ids_(ends.to.begin(), ends.to.end()) {
+    resize(parent_, from_ + 2);
+    std::sort(from_ids_.begin(), from_ids_.end());
+    std::sort(to_ids_.begin(), to_ids_.end());
+  }
+
+  // Opens the nodes beyond the limit. Returns whether they join the ends.
+  bool joins_beyond(double limit) {
+    SearchRequest within = request_;
+    within.distance_limit = limit;
+    mark_nodes(within, {RIIS_SEARCH_AUTO, 0, nullptr}, near_);
+    label_open_regions({adjacency_, request_.node_mask, near_.within.nodes.node_id}, request_.n_threads, view(parent_));
+    OpenSets sets = this->sets();
+    sets.open(from_);
+    sets.open(to_);
+    for (const std::int64_t node : from_ids_)
+      if (sets.is_open(node)) sets.unite(node, from_);
+    for (const std::int64_t node : to_ids_)
+      if (sets.is_open(node)) sets.unite(node, to_);
+    return is_joined();
+  }
+
+  // Opens the other nodes that are farther than `nearest`, one by one. Returns the node that joins the ends. If no node does,
+  // returns a candidate with the id -1.
+  Candidate open_until_joined(double nearest) {
+    const std::vector<OneWayEdge> one_way = one_way_edges();
+    OpenSets sets = this->sets();
+    for (const Candidate &next : candidates(nearest)) {
+      const std::int64_t node = next.node;
+      sets.open(node);
+      adjacency_.for_each_neighbor(node, [&](std::int64_t other) {
+        if (sets.is_open(other)) sets.unite(node, other);
+      });
+      for (auto edge = std::lower_bound(one_way.begin(), one_way.end(), OneWayEdge{node, 0});
+           edge != one_way.end() && edge->node == node; ++edge)
+        if (sets.is_open(edge->other)) sets.unite(node, edge->other);
+      if (std::binary_search(from_ids_.begin(), from_ids_.end(), node)) sets.unite(node, from_);
+      if (std::binary_search(to_ids_.begin(), to_ids_.end(), node)) sets.unite(node, to_);
+      if (is_joined()) return next;
+    }
+    return {0, -1};
+  }
+
+ private:
+  OpenSets sets() { return OpenSets(view(parent_)); }
+  bool is_joined() { return sets().root(from_) == sets().root(to_); }
+
+  std::vector<Candidate> candidates(double nearest) const {
+    const NodeList &within = near_.within.nodes;
+    std::vector<Candidate> made;
+    for (std::int64_t i = 0; i < within.size(); ++i)
+      if (view(within.distance)[i] > nearest) made.push_back({view(within.distance)[i], view(within.node_id)[i]});
+    std::sort(made.begin(), made.end());
+    return made;
+  }
+
+  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies are symmetric and
+  // have no such edges.
+  std::vector<OneWayEdge> one_way_edges() {
+    constexpr std::int64_t rows_per_task = 4096;
+    std::vector<std::vector<OneWayEdge>> by_thread;
+    resize(by_thread, request_.n_threads);
+    const OpenSets sets = this->sets();
+    parallel_for_ranges(adjacency_.n_rows, rows_per_task, request_.n_threads, [&](const Range &range, int thread) {
+      for (std::int64_t i = range.begin; i < range.end; ++i)
+        adjacency_.for_each_neighbor(i, [&](std::int64_t j) {
+          if (!sets.is_open(j) && !adjacency_.has_neighbor(j, i)) view(by_thread)[thread].push_back({j, i});
+        });
+    });
+    std::vector<OneWayEdge> all;
+    for (const auto &edges : by_thread) all.insert(all.end(), edges.begin(), edges.end());
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  const SearchRequest &request_;
+  const Adjacency &adjacency_;
+  std::int64_t from_, to_;  // two extra nodes, each joined to all nodes of one end
+  std::vector<std::int64_t> from_ids_, to_ids_;
+  Marks near_;
+  UnfilledVector<std::int64_t> parent_;
+};
+
+// A distance larger than that of any node.
+constexpr double beyond_all = 10 * max_coordinate;
+
+}  // namespace
+
+riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
+  const auto start = std::chrono::steady_clock::now();
+  const double half_thickness = request.surface.half_thickness();
+  // A path's least distance is at most the distance of each of its ends.
+  const double widest =
+      std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
+  Opening opening(request, ends);
+  double limit = half_thickness, beyond = -1, growth = 2;
+  for (int step = 0; opening.joins_beyond(limit); ++step) {
+    beyond = limit;
+    if (step >= 4) growth *= growth;  // a surface that is tiny compared with the mesh needs faster growth
+    limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
+  }
+  const Candidate nearest = opening.open_until_joined(beyond);
+  riis_passage passage{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0};
+  if (nearest.node >= 0) {
+    const Vec3 p = request.mesh.nodes()[nearest.node];
+    passage = {nearest.node,
+               nearest.distance,
+               {p.x, p.y, p.z},
+               0,
+               nearest.distance > half_thickness ? RIIS_PASSAGE_OPEN : RIIS_PASSAGE_CLOSED,
+               0};
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  passage.seconds = elapsed.count();
+  return passage;
+}
+
+std::int64_t label_open_regions(const OpenNodes &nodes, int n_threads, ArrayView<std::int64_t> label) {
+  constexpr std::int64_t rows_per_task = 4096;
+  const std::int64_t n = nodes.adjacency.n_rows;
+  OpenSets sets(label);
+  parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i)
+      label[i] = nodes.node_mask && !nodes.node_mask[i] ? OpenSets::closed : i;
+  });
+  for (const std::int64_t i : nodes.closed_id) label[i] = OpenSets::closed;
+  parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
+    for (std::int64_t i = range.begin; i < range.end; ++i) {
+      if (!sets.is_open(i)) continue;
+      nodes.adjacency.for_each_neighbor(i, [&](std::int64_t j) {
+        if (sets.is_open(j)) sets.unite(i, j);
+      });
+    }
+  });
+  std::atomic<std::int64_t> n_regions{0};
+  parallel_for_ranges(n, rows_per_task, n_threads, [&](const Range &range, int) {
+    std::int64_t n_roots = 0;
+    for (std::int64_t i = range.begin; i < range.end; ++i) n_roots += sets.is_open(i) && sets.flatten(i) == i;
+    n_regions.fetch_add(n_roots, std::memory_order_relaxed);
+  });
+  return n_regions;
+}
+
+}  // namespace riis

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether marks seal a valve: leaks, open regions, and the widest passage.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "geometry/vec3.hpp"
+#include "marks/marks.hpp"
+#include "mesh/adjacency.hpp"
+#include "search/search.hpp"
+
+namespace riis {
+
+// Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave these paths open.
+// In: a surface, a mesh with an adjacency, the marks. Out: the leaking edges in ascending order.
+
+// Edges between two unmarked nodes that cross the surface, in ascending order. riis_leak_list documents the members.
+struct Leaks {
+  std::vector<std::int64_t> node_id;  // (2, n)
+  std::vector<double> length, distance;
+  double half_thickness = 0;
+  std::int64_t longest_node_id[2] = {-1, -1};
+  double longest_length = 0;
+  Vec3 longest_middle{0, 0, 0};
+  double seconds = 0;
+};
+
+// Finds the leaks. Fails with RIIS_INVALID_MESH for an unusable coordinate. Does not use the request's distance limit.
+Leaks find_leaks(const SearchRequest &request, const Marks &marks);
+
+// Open regions: the connected components of the nodes that are neither closed nor masked out.
+// In: an adjacency, the closed nodes. Out: for each node, the lowest node of its region.
+
+struct OpenNodes {
+  const Adjacency &adjacency;
+  const std::uint8_t *node_mask;               // or null
+  const std::vector<std::int64_t> &closed_id;  // in any order
+};
+
+// Writes a label for each row of the adjacency, and returns the number of regions. The label is the lowest node of the region,
+// or OpenSets::closed for a node in no region. An edge may be in the row of one node or of both.
+std::int64_t label_open_regions(const OpenNodes &nodes, int n_threads, ArrayView<std::int64_t> label);
+
+// Disjoint sets of nodes that several threads unite at the same time without locks. An array holds each node's parent, which is
+// a lower node. So the root of a set is its lowest node, in any order of the unions.
+class OpenSets {
+ public:
+  static constexpr std::int64_t closed = -1;  // the parent of a node that is in no set
+
+  // Borrows the array of parents. Each entry must be `closed`, the node itself, or a lower node of the same set.
+  explicit OpenSets(ArrayView<std::int64_t> parent) : parent_(parent) {}
+
+  bool is_open(std::int64_t node) const { return load(node) != closed; }
+  // Puts the node into a new set of its own.
+  void open(std::int64_t node) { parent_[node] = node; }
+
+  // Returns the lowest node of the set. Also halves the path to it, which makes later calls faster.
+  std::int64_t root(std::int64_t node) {
+    for (;;) {
+      std::int64_t parent = load(node);
+      const std::int64_t above = load(parent);
+      if (above == parent) return parent;
+      replace(node, parent, above);  // may fail: another thread may have found a still lower parent
+      node = above;
+    }
+  }
+
+  // Makes the lowest node of the set the node's parent, and returns it. Must not run while other threads unite sets.
+  std::int64_t flatten(std::int64_t node) {
+    const std::int64_t lowest = root(node);
+    __atomic_store_n(&parent_[node], lowest, __ATOMIC_RELAXED);
+    return lowest;
+  }
+
+  void unite(std::int64_t a, std::int64_t b) {
+    for (;;) {
+      a = root(a);
+      b = root(b);
+      if (a == b) return;
+      if (replace(a < b ? b : a, a < b ? b : a, a < b ? a : b)) return;
+      // Another thread has given the higher root a parent, so the loop tries again.
+    }
+  }
+
+ private:
+  // Relaxed atomic operations are enough here. No other data depends on the parents, and the end of the parallel loop orders
+  // everything else.
+  std::int64_t load(std::int64_t node) const { return __atomic_load_n(&parent_[node], __ATOMIC_RELAXED); }
+  bool replace(std::int64_t node, std::int64_t before, std::int64_t parent) {
+    return __atomic_compare_exchange_n(&parent_[node], &before, parent, false, __ATOMIC_RELAXED, __ATOMIC_RELAXED);
+  }
+
+  ArrayView<std::int64_t> parent_;
+};
+
+// The widest passage: the path from one set of nodes to another that stays farthest from the surface.
+// In: a surface, a mesh with an adjacency, the two sets. Out: the path's node nearest to the surface, and its distance.
+
+// The two sets of nodes. Each has at least one node, and none is masked out.
+struct PassageEnds {
+  ArrayView<const std::int64_t> from, to;
+};
+
+// Finds the widest passage. Fails with RIIS_INVALID_ARGUMENT for an end within the half thickness, and with RIIS_INVALID_MESH for
+// an unusable coordinate. Does not use the request's distance limit.
+riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends);
+
+}  // namespace riis

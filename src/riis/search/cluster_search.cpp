@@ -1,0 +1,609 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "search/cluster_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+
+#include "base/errors.hpp"
+#include "common/array_view.hpp"
+#include "geometry/point_triangle.hpp"
+#include "parallel/parallel_for.hpp"
+
+namespace riis {
+namespace {
+
+// In the surface's frame, single precision does not separate triangles at such lengths.
+constexpr double large = 0x1p20;
+
+// With more groups near a leaf, a query of each node is faster. Large leaves near small triangles have so many.
+constexpr std::size_t most_groups = 4096;
+
+// Maps the mesh's frame to the surface's frame.
+struct Placing {
+  double ratio;
+  Vec3 shift;
+  double largest_shift;
+
+  Placing(const NodeFrame &nodes, const SurfaceFrame &frame)
+      : ratio(frame.scale / nodes.scale),
+        shift(frame.scale * (nodes.centre - frame.centre)),
+        largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
+};
+
+#if defined(__SIZEOF_INT128__)
+// The order of closest triangles (is_closer) as one number, if squares of distances are finite. Its first 64 bits are those of
+// the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest
+// number if there is none.
+__extension__ typedef unsigned __int128 Rank;
+Rank rank_of(const ClosestTriangle &closest) {
+  std::uint64_t square;
+  std::memcpy(&square, &closest.distance_sq, sizeof square);
+  return static_cast<Rank>(square) << 64 | static_cast<std::uint64_t>(closest.triangle);
+}
+ClosestTriangle of_rank(Rank rank) {
+  const auto square = static_cast<std::uint64_t>(rank >> 64);
+  ClosestTriangle closest{0, static_cast<std::int64_t>(rank)};
+  std::memcpy(&closest.distance_sq, &square, sizeof square);
+  return closest;
+}
+// No processor can predict which one is closer, so this has no branch.
+ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
+  return of_rank(std::min(rank_of(a), rank_of(b)));
+}
+#else
+ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
+  return is_closer(a.distance_sq, a.triangle, b) ? a : b;
+}
+#endif
+
+class ClusterSearch {
+ public:
+  ClusterSearch(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels, ClusterScratch &scratch,
+                FoundNodes &found)
+      : request_(request),
+        scene_(request.surface.scene()),
+        groups_(scene_.groups()),
+        clusters_(clusters),
+        placing_(clusters.frame, groups_.frame),
+        limit_(std::min(request.distance_limit * groups_.frame.scale, large)),
+        kernels_(kernels),
+        found_(found),
+        own_(scratch) {
+    task_.ratio = static_cast<float>(placing_.ratio);
+    task_.shift[0] = static_cast<float>(placing_.shift.x);
+    task_.shift[1] = static_cast<float>(placing_.shift.y);
+    task_.shift[2] = static_cast<float>(placing_.shift.z);
+    task_.groups = groups_.groups.data();
+    task_.bounds = groups_.bounds.data();
+    limits_within(limit_, task_.limits);
+    of_packs_ = task_;
+    of_packs_.bounds = groups_.packs.data();
+    const auto n_groups = view(groups_.groups).size();
+    for (auto i = view(own_.all_groups).size(); i < n_groups; ++i)
+      own_.all_groups.push_back(static_cast<std::int32_t>(i));
+    found.prepare(request.n_threads, request.ties);
+    own_.prepare(request.n_threads);
+  }
+
+  // Finds the clusters that may be near the surface. For each of them, lists the groups that may be near the cluster. For each of
+  // these groups, sets a bit for each leaf of the cluster that may be near the group.
+  void find_near_clusters() {
+    const Bounds &bounds = scene_.bounds();
+    const Vec3 lower = groups_.frame(bounds.lower), upper = groups_.frame(bounds.upper);
+    const float surface_lower[3] = {round_down(lower.x), round_down(lower.y), round_down(lower.z)};
+    const float surface_upper[3] = {round_up(upper.x), round_up(upper.y), round_up(upper.z)};
+    const auto n_regions = view(clusters_.regions).size();
+    own_.near_regions.clear();
+    own_.near_regions.reserve(static_cast<std::size_t>(n_regions));
+    for (std::int64_t region = 0; region < n_regions; ++region) {
+      const Clusters::Box &box = view(clusters_.boxes)[region];
+      float gap_sq = 0;
+      for (int i = 0; i < 3; ++i) {
+        const auto [from, to] = placed(box, i);
+        const float gap = std::max({from - surface_upper[i], surface_lower[i] - to, 0.0f});
+        gap_sq += gap * gap;
+      }
+      if (gap_sq <= task_.limits.reach_sq) own_.near_regions.push_back(region);
+    }
+    constexpr std::int64_t few = 64;  // searching this many regions takes a few tenths of a millisecond
+    const auto n_near = view(own_.near_regions).size();
+    const int n_ran = parallel_for(n_near, request_.n_threads.for_part(n_near, few), [&](std::int64_t i, int thread) {
+      search_region(view(own_.near_regions)[i], view(own_.threads)[thread]);
+    });
+    n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  void search_near_clusters() {
+    std::vector<ClusterScratch::Item> &items = own_.items;
+    items.clear();
+    for (std::size_t thread = 0; thread < own_.threads.size(); ++thread)
+      for (ClusterScratch::Item item : own_.threads[thread].items) {
+        item.thread = static_cast<int>(thread);
+        items.push_back(item);
+      }
+    constexpr std::int64_t few = 128;  // searching this many clusters takes about half a millisecond
+    const auto n = view(items).size();
+    const int n_ran = parallel_for(n, request_.n_threads.for_part(n, few), [&](std::int64_t i, int thread) {
+      search_cluster(view(items)[i], view(own_.threads)[thread], thread, nullptr,
+                     i + 1 < n ? leaves_ahead(view(items)[i + 1]) : LeavesAhead{nullptr, 0});
+    });
+    n_threads_ = std::max(n_threads_, n_ran);
+  }
+
+  // Searches with a limit that excludes few triangles, or none. A point of the surface near each box takes the place of the
+  // limit (docs/theory/clusters.md, "Every distance").
+  void search_every_cluster() {
+    const auto n = view(clusters_.clusters).size();
+    // A thread compares a region anew if another thread had some of its clusters.
+    const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
+    constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
+    n_threads_ =
+        parallel_for_ranges(n, per_block, request_.n_threads.for_part(n, few), [&](const Range &range, int thread) {
+          for (std::int64_t cluster = range.begin; cluster < range.end; ++cluster)
+            search_alone(cluster, view(own_.threads)[thread], thread);
+        });
+  }
+
+  SearchReport report() {
+    std::int64_t n_queries = 0;
+    for (const auto &own : own_.threads) n_queries += own.n_queries;
+    return {n_queries, n_threads_, true, 0};
+  }
+
+ private:
+  // The extent of a box along one axis, in the surface's frame.
+  struct Interval {
+    float from, to;
+  };
+  Interval placed(const Clusters::Box &box, int axis) const {
+    return {box.lower[axis] * task_.ratio + task_.shift[axis], box.upper[axis] * task_.ratio + task_.shift[axis]};
+  }
+
+  // Appends the groups of all packs that have a bit.
+  void add_groups_of_packs(const std::vector<std::uint16_t> &bits, std::vector<std::int32_t> &to) const {
+    for (std::int64_t pack = 0; pack < view(groups_.packs).size(); ++pack) {
+      if (!view(bits)[pack]) continue;
+      const Range of_pack = groups_.groups_of(pack);
+      for (std::int64_t group = of_pack.begin; group < of_pack.end; ++group)
+        to.push_back(static_cast<std::int32_t>(group));
+    }
+  }
+
+  void search_region(std::int64_t region, ClusterScratch::Thread &own) {
+    ++own.n_queries;
+    own.candidates.clear();
+    // A group's box is within its pack's box, also after rounding. So no group near a cluster is in a pack that is not.
+    own.bits.resize(groups_.packs.size());
+    if (!kernels_.near_boxes(of_packs_, view(clusters_.regions)[region], own_.all_groups.data(),
+                             static_cast<std::int32_t>(groups_.packs.size()), own.bits.data()))
+      return;
+    add_groups_of_packs(own.bits, own.candidates);
+    own.bits.resize(own.candidates.size());
+    if (!kernels_.near_boxes(task_, view(clusters_.regions)[region], own.candidates.data(),
+                             static_cast<std::int32_t>(own.candidates.size()), own.bits.data()))
+      return;
+    const Range of_region = clusters_.clusters_of(region);
+    for (std::int64_t cluster = of_region.begin; cluster < of_region.end; ++cluster)
+      add_cluster(cluster, cluster - of_region.begin, own);
+  }
+
+  // Appends each numbers[k] whose bits[k] has the given bit. Returns how many were appended.
+  std::size_t add_marked(const std::int32_t *numbers, const std::uint16_t *bits, std::size_t n, std::int64_t bit,
+                         std::vector<std::int32_t> &to) const {
+    const std::size_t first = to.size();
+    to.resize(first + n);
+    const auto n_added = static_cast<std::size_t>(kernels_.select(numbers, bits, static_cast<std::int32_t>(n),
+                                                                  static_cast<std::int32_t>(bit), to.data() + first));
+    to.resize(first + n_added);
+    return n_added;
+  }
+
+  static std::uint32_t near_leaves(const std::uint16_t *leaf_bits, std::size_t n) {
+    std::uint32_t near = 0;
+    for (std::size_t k = 0; k < n; ++k) near |= leaf_bits[k];
+    return near;
+  }
+
+  static std::size_t n_marked(const std::uint16_t *bits, std::size_t n, std::int64_t bit) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < n; ++k) count += bits[k] >> bit & 1;
+    return count;
+  }
+
+  void add_cluster(std::int64_t cluster, std::int64_t bit, ClusterScratch::Thread &own) {
+    const std::size_t first = own.near_groups.size();
+    const std::size_t n =
+        add_marked(own.candidates.data(), own.bits.data(), own.candidates.size(), bit, own.near_groups);
+    if (n == 0) return;
+    own.leaf_bits.resize(first + n);
+    const Boxes &leaves = view(clusters_.clusters)[cluster];
+    const std::int32_t *const near_groups = own.near_groups.data() + first;
+    std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
+    const auto n_near = static_cast<std::int32_t>(n);
+    // Many groups are near a cluster if they are smaller than its leaves. Then their own axes make little difference.
+    constexpr std::size_t many = 32;
+    if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
+        (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
+      own.items.push_back({cluster, first, n, 0, near_leaves(leaf_bits, n)});
+    } else {
+      own.near_groups.resize(first);
+      own.leaf_bits.resize(first);
+    }
+  }
+
+  // Calls visit(address) for each cache line of an array.
+  template <class Visit>
+  static void for_each_line(const void *from, std::size_t size, const Visit &visit) {
+    constexpr std::size_t line = 64;
+    for (std::size_t at = 0; at < size; at += line) visit(static_cast<const char *>(from) + at);
+  }
+
+  // The leaves of the next cluster that will be filtered. Their coordinates are requested one leaf at a time (see LinesAhead).
+  struct LeavesAhead {
+    const Leaf *first;
+    std::uint32_t near;
+
+    void request_one() {
+      if (near == 0) return;
+      for_each_line(first[__builtin_ctz(near)].x, 3 * sizeof(Leaf::x),
+                    [](const char *line) { __builtin_prefetch(line); });
+      near &= near - 1;
+    }
+  };
+  LeavesAhead leaves_ahead(const ClusterScratch::Item &item) const {
+    return {&clusters_.leaves.get()[clusters_.leaves_of(item.cluster).begin], item.near_leaves};
+  }
+  LeavesAhead every_leaf_ahead(std::int64_t cluster) const {
+    const Range leaves = clusters_.leaves_of(cluster);
+    return {&clusters_.leaves.get()[leaves.begin], (1u << (leaves.end - leaves.begin)) - 1};
+  }
+
+  // The pairs of node and triangle in a cluster that the filter did not dismiss. They are stored until double precision decides
+  // them.
+  struct Pairs {
+    std::int64_t first_leaf;
+    Ties *ties;  // or null
+    LeavesAhead ahead;
+    std::int32_t n = 0;
+    std::uint32_t nodes[leaves_per_cluster] = {};  // for each leaf, a bit for each node that has or had pairs
+  };
+
+  // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
+  double limits_within(double limit, FilterLimits &limits) const {
+    const double scale = groups_.frame.scale;
+    // The second term covers the rounding of the distances that are decided in double precision. The third covers ties, which
+    // may be farther than the closest triangle by this amount.
+    const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
+                         4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
+    limits.reach_sq = static_cast<float>((limit + 2 * error) * (limit + 2 * error));
+    limits.tolerance = filter_tolerance(error, limit + 2 * error);
+    limits.margin = static_cast<float>(0.5 * error);
+    return error;
+  }
+
+  // Returns a point of the surface. It is near `to` if a triangle of the group is.
+  Vec3 point_of_surface(std::int32_t group, Vec3 to) const {
+    const float point[3] = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
+    float distance_sq[triangles_per_group];
+    kernels_.group_distances(view(groups_.groups)[group], point, 0, distance_sq);
+    const GroupBounds &bounds = view(groups_.bounds)[group];
+    const auto nearest = std::min_element(distance_sq, distance_sq + bounds.n) - distance_sq;
+    const double *c = groups_.corners.data() + 9 * std::int64_t{bounds.triangle[nearest]};
+    const SurfaceFrame &frame = groups_.frame;
+    return frame(closest_point_on_triangle(frame.centre + (1 / frame.scale) * to, {c[0], c[1], c[2]},
+                                           {c[3], c[4], c[5]}, {c[6], c[7], c[8]})
+                     .point);
+  }
+
+  // For each of 16 boxes, an upper bound of the distances of its nodes, in the surface's frame.
+  struct UpperBounds {
+    double of_box[leaves_per_cluster];
+  };
+
+  // For each candidate group, sets a bit for each box that may have nodes whose closest triangle is in the group.
+  UpperBounds compare(const Boxes &boxes, const std::int32_t *candidates, std::size_t n,
+                      std::uint16_t *competes) const {
+    std::int32_t nearest[leaves_per_cluster];
+    const auto n_candidates = static_cast<std::int32_t>(n);
+    kernels_.nearest_groups(task_, boxes, candidates, n_candidates, nearest);
+    UpperBounds bounds;
+    PointsOfBoxes points;
+    for (int k = 0; k < leaves_per_cluster; ++k) {
+      bounds.of_box[k] = 0;
+      points.xyz[0][k] = points.xyz[1][k] = points.xyz[2][k] = points.tolerance[k] = 0;
+      if (!(boxes.lower[0][k] <= boxes.upper[0][k])) continue;
+      const auto end = [&](const float(&ends)[3][16]) {
+        return placing_.ratio * Vec3{ends[0][k], ends[1][k], ends[2][k]} + placing_.shift;
+      };
+      const Vec3 lower = end(boxes.lower), upper = end(boxes.upper);
+      const Vec3 point = point_of_surface(candidates[nearest[k]], 0.5 * (lower + upper));
+      const auto farthest = [](double p, double from, double to) {
+        return std::max(std::abs(p - from), std::abs(p - to));
+      };
+      const double to_farthest = length(Vec3{farthest(point.x, lower.x, upper.x), farthest(point.y, lower.y, upper.y),
+                                             farthest(point.z, lower.z, upper.z)});
+      bounds.of_box[k] = to_farthest + 0x1p-21 * (placing_.ratio + placing_.largest_shift + 6) +
+                         2 * scene_.rounding() * groups_.frame.scale;
+      FilterLimits limits;
+      limits_within(bounds.of_box[k], limits);
+      points.xyz[0][k] = static_cast<float>(point.x);
+      points.xyz[1][k] = static_cast<float>(point.y);
+      points.xyz[2][k] = static_cast<float>(point.z);
+      points.tolerance[k] = limits.tolerance;
+    }
+    kernels_.competing_groups(task_, boxes, points, candidates, n_candidates, competes);
+    return bounds;
+  }
+
+  void search_alone(std::int64_t cluster, ClusterScratch::Thread &own, int thread) {
+    const std::int64_t region = cluster / Clusters::clusters_per_region;
+    const std::size_t n_groups = groups_.groups.size();
+    if (own.region != region) {
+      own.bits.resize(n_groups);
+      compare(view(clusters_.regions)[region], own_.all_groups.data(), n_groups, own.bits.data());
+      own.region = region;
+    }
+    ++own.n_queries;
+    own.near_groups.clear();
+    const std::size_t n = add_marked(own_.all_groups.data(), own.bits.data(), n_groups,
+                                     cluster % Clusters::clusters_per_region, own.near_groups);
+    own.leaf_bits.resize(n);
+    const UpperBounds bounds =
+        compare(view(clusters_.clusters)[cluster], own.near_groups.data(), n, own.leaf_bits.data());
+    if (limit_ < large) {
+      own.bits_within.resize(n);
+      kernels_.near_boxes(task_, view(clusters_.clusters)[cluster], own.near_groups.data(),
+                          static_cast<std::int32_t>(n), own.bits_within.data());
+      for (std::size_t k = 0; k < n; ++k)
+        own.leaf_bits[k] = static_cast<std::uint16_t>(own.leaf_bits[k] & own.bits_within[k]);
+    }
+    const bool is_last = cluster + 1 == view(clusters_.clusters).size();
+    search_cluster({cluster, 0, n, thread, near_leaves(own.leaf_bits.data(), n)}, own, thread, &bounds,
+                   is_last ? LeavesAhead{nullptr, 0} : every_leaf_ahead(cluster + 1));
+  }
+
+  // Queries the nodes of a leaf one by one.
+  void query_nodes(std::int64_t number, ClusterScratch::Thread &own, int thread) {
+    const Leaf &leaf = clusters_.leaves.get()[number];
+    const double *const xyz = clusters_.points.get()[number].xyz;
+    for (int lane = 0; lane < clusters_.n_nodes_of(number); ++lane) {
+      const std::int64_t node = leaf.node[lane];
+      const Vec3 p{xyz[3 * lane], xyz[3 * lane + 1], xyz[3 * lane + 2]};
+      if (request_.is_masked_out(node) || !scene_.may_be_within(p, request_.distance_limit)) continue;
+      ++own.n_queries;
+      const ClosestTriangle closest =
+          scene_.closest(p, request_.distance_limit, request_.instructions, found_.ties_of(thread));
+      if (closest.triangle >= 0) found_.add(thread, node, closest);
+    }
+  }
+
+  void search_cluster(const ClusterScratch::Item &item, ClusterScratch::Thread &own, int thread,
+                      const UpperBounds *bounds, const LeavesAhead &ahead) {
+    const ClusterScratch::Thread &from = view(own_.threads)[item.thread];
+    const std::int32_t *candidates = from.near_groups.data() + item.first;
+    const std::uint16_t *leaf_bits = from.leaf_bits.data() + item.first;
+    const Range leaves = clusters_.leaves_of(item.cluster);
+    std::uint32_t near = item.near_leaves;
+    if (bounds)
+      for (std::uint32_t rest = near; rest; rest &= rest - 1) {
+        const int bit = __builtin_ctz(rest);
+        const bool has_many = item.n > most_groups && n_marked(leaf_bits, item.n, bit) > most_groups;
+        if (is_separated(bounds->of_box[bit]) && !has_many) continue;
+        query_nodes(leaves.begin + bit, own, thread);
+        near &= ~(1u << bit);
+      }
+    Pairs pairs{leaves.begin, found_.ties_of(thread), ahead};
+    ClusterTask &task = own.task;
+    // The bounds of so many pairs of a leaf and a group take 8 kB, and so stay in the processor's first cache.
+    constexpr std::size_t many = 64;
+    std::int32_t *const leaf_groups = own.room_for_groups(many + item.n);
+    while (near) {
+      task.n_leaves = 0;
+      std::size_t n_listed = 0;
+      for (; near && n_listed < many; near &= near - 1) {
+        const int bit = __builtin_ctz(near);
+        std::int32_t *const near_groups = leaf_groups + n_listed;
+        const std::int32_t n_groups =
+            kernels_.select(candidates, leaf_bits, static_cast<std::int32_t>(item.n), bit, near_groups);
+        LeafTask &leaf = task.leaf[task.n_leaves++];
+        leaf = leaf_task(leaves.begin, bit, near_groups, n_groups);
+        if (bounds) limits_within(std::min(bounds->of_box[bit], limit_), leaf.limits);
+        n_listed += static_cast<std::size_t>(n_groups);
+      }
+      task.lower_bounds = own.room_for_bounds(n_listed);
+      filter(own, pairs);
+    }
+    decide(own, pairs);
+    while (pairs.ahead.near) pairs.ahead.request_one();
+    // Every node with pairs is written, but the place moves on only after a node within the limit.
+    UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
+    const std::size_t n_before = found.size();
+    std::size_t n_paired = 0;
+    for (const std::uint32_t nodes : pairs.nodes) n_paired += static_cast<std::size_t>(__builtin_popcount(nodes));
+    found.resize(n_before + n_paired);
+    FoundNode *next = found.data() + n_before;
+    for (std::int64_t leaf = leaves.begin; leaf < leaves.end; ++leaf) {
+      const std::int64_t i = leaf - leaves.begin;
+      const Leaf &of_leaf = clusters_.leaves.get()[leaf];
+      const ClosestTriangle *const of_nodes = own.closest.data() + nodes_per_leaf * i;
+      for (std::uint32_t rest = pairs.nodes[i]; rest; rest &= rest - 1) {
+        const int lane = __builtin_ctz(rest);
+        const double distance = std::sqrt(of_nodes[lane].distance_sq);
+        *next = FoundNode(of_leaf.node[lane], distance, of_nodes[lane].triangle);
+        next += distance <= request_.distance_limit;
+      }
+    }
+    found.resize(static_cast<std::size_t>(next - found.data()));
+    if (pairs.ties) settle_ties(own, pairs);
+  }
+
+  // Turns the cluster's candidates for ties into ties, for the nodes within the limit.
+  __attribute__((noinline)) void settle_ties(const ClusterScratch::Thread &own, const Pairs &pairs) const {
+    const auto closest_to = [&](std::int64_t node) -> auto & {
+      const ClosestTriangle &closest = view(own.closest)[node];
+      return std::sqrt(closest.distance_sq) <= request_.distance_limit ? closest : nothing;
+    };
+    pairs.ties->settle(closest_to, [&](std::int64_t node) -> std::int64_t {
+      return clusters_.leaves.get()[pairs.first_leaf + node / nodes_per_leaf].node[node % nodes_per_leaf];
+    });
+  }
+
+  // Returns false if the filter's error is so large that the filter would leave many triangles.
+  bool is_separated(double limit) const {
+    constexpr double useful = 0x1p-8;
+    FilterLimits limits;
+    return limits_within(std::min(limit, limit_), limits) <= useful;
+  }
+
+  LeafTask leaf_task(std::int64_t first_leaf, int position, const std::int32_t *near_groups,
+                     std::int32_t n_groups) const {
+    const Leaf &leaf = clusters_.leaves.get()[first_leaf + position];
+    const int n_nodes = clusters_.n_nodes_of(first_leaf + position);
+    std::uint32_t wanted = n_nodes == nodes_per_leaf ? 0xffffffffu : (1u << n_nodes) - 1;
+    if (request_.node_mask)
+      for (int lane = 0; lane < n_nodes; ++lane)
+        if (!request_.node_mask[leaf.node[lane]]) wanted &= ~(1u << lane);
+    return {&leaf, position, wanted, near_groups, n_groups, task_.limits, true, 0};
+  }
+
+  // Filters the leaves of own.task, and prepares `closest` for their nodes.
+  void filter(ClusterScratch::Thread &own, Pairs &pairs) {
+    ClusterTask &task = own.task;
+    kernels_.begin_cluster(task_, task);
+    task.ahead.n = 0;
+    static_assert(leaves_per_cluster * (sizeof(LeafPoints) + sizeof(Leaf::node)) <= 64 * std::size(LinesAhead{}.line));
+    const auto request = [&](const void *from, std::size_t size) {
+      for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
+    };
+    // Many leaves near the surface have no pairs, so points and node numbers are requested only here.
+    for (std::int32_t i = 0; i < task.n_leaves; ++i) {
+      const LeafTask &leaf = task.leaf[i];
+      if (!leaf.may_be_near) continue;
+      request(&clusters_.points.get()[pairs.first_leaf + leaf.position], sizeof(LeafPoints));
+      request(leaf.leaf->node, sizeof(Leaf::node));
+      std::fill_n(own.closest.begin() + leaf.position * nodes_per_leaf, nodes_per_leaf, nothing);
+    }
+    while (!task.is_done) {
+      constexpr std::int32_t room = ClusterScratch::room_for_pairs, enough = 1024;
+      if (room - pairs.n < enough) decide(own, pairs);
+      pairs.n += kernels_.filter_cluster(
+          task_, task, {own.pair_nodes.data() + pairs.n, own.pair_triangles.data() + pairs.n}, room - pairs.n);
+    }
+    for (std::int32_t i = 0; i < task.n_leaves; ++i) pairs.nodes[task.leaf[i].position] = task.leaf[i].found;
+  }
+
+  void decide(ClusterScratch::Thread &own, Pairs &pairs) {
+    constexpr std::int32_t at_once = 16;  // between two requests
+    for (std::int32_t i = 0; i < pairs.n; i += at_once) {
+      pairs.ahead.request_one();
+      kernels_.decide(std::min(at_once, pairs.n - i), own.pair_nodes.data() + i, own.pair_triangles.data() + i,
+                      clusters_.points.get()[pairs.first_leaf].xyz, groups_.corners.data(),
+                      own.pair_decided.data() + i);
+    }
+    if (pairs.ties) {
+      take_closest_and_ties(own, pairs);
+    } else {
+      take_closest(pairs.n, own.pair_nodes.data(), own.pair_triangles.data(), own.pair_decided.data(),
+                   own.closest.data());
+    }
+    pairs.n = 0;
+  }
+
+  // Lets each pair compete with its node's closest triangle so far.
+  static void take_closest(std::int32_t n, const std::int32_t *node, const std::int32_t *triangle,
+                           const double *decided, ClosestTriangle *closest) {
+    for (std::int32_t i = 0; i < n; ++i) {
+      ClosestTriangle &best = closest[node[i]];
+      best = closer_of({decided[i], triangle[i]}, best);
+    }
+  }
+
+  // This function is not inlined, so that the code for a search without ties can use all registers.
+  __attribute__((noinline)) void take_closest_and_ties(ClusterScratch::Thread &own, const Pairs &pairs) const {
+    for (std::int64_t i = 0; i < pairs.n; ++i) {
+      const std::int32_t node = view(own.pair_nodes)[i];
+      ClosestTriangle &best = view(own.closest)[node];
+      const ClosestTriangle before = best, decided{view(own.pair_decided)[i], view(own.pair_triangles)[i]};
+      const bool is_nearer = is_closer(decided.distance_sq, decided.triangle, before);
+      if (is_nearer) best = decided;
+      pairs.ties->compare(node, best, is_nearer ? before : decided);
+    }
+  }
+
+  static constexpr ClosestTriangle nothing{std::numeric_limits<double>::infinity(), -1};
+
+  const NodeSearch &request_;
+  const TriangleScene &scene_;
+  const TriangleGroups &groups_;
+  const Clusters &clusters_;
+  const Placing placing_;
+  const double limit_;  // in the surface's frame; `large` if it excludes nothing that single precision separates
+  const Kernels &kernels_;
+  FoundNodes &found_;
+  ClusterScratch &own_;
+  FilterTask task_, of_packs_;
+  int n_threads_ = 1;
+};
+
+}  // namespace
+
+void ClusterScratch::prepare(int n_threads) {
+  if (view(threads).size() < n_threads) resize(threads, n_threads);
+  const auto make_room_for = [this](auto member) {
+    make_room(
+        threads, [member](Thread & thread) -> auto & { return thread.*member; });
+  };
+  make_room_for(&Thread::candidates);
+  make_room_for(&Thread::bits);
+  make_room_for(&Thread::items);
+  make_room_for(&Thread::near_groups);
+  make_room_for(&Thread::leaf_bits);
+  make_room_for(&Thread::leaf_groups);
+  make_room_for(&Thread::lower_bounds);
+  for (Thread &thread : threads) {
+    thread.items.clear();
+    thread.near_groups.clear();
+    thread.leaf_bits.clear();
+    // The arrays get more room than they need, because the kernels write whole registers.
+    constexpr std::int64_t room = room_for_pairs + 16;
+    resize(thread.pair_nodes, room);
+    resize(thread.pair_triangles, room);
+    resize(thread.pair_decided, room);
+    resize(thread.closest, nodes_per_cluster);
+    thread.n_queries = 0;
+    thread.region = -1;
+  }
+}
+
+bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes) {
+  const Placing placing(nodes, request.surface.scene().groups().frame);
+  return placing.ratio >= 0x1p-100 && placing.ratio <= large && placing.largest_shift <= large;
+}
+
+bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface) {
+  constexpr std::int64_t fewest = 64, groups_per_node = 8;
+  return n_nodes >= std::max(fewest, view(surface.scene().groups().groups).size() / groups_per_node);
+}
+
+bool has_few_near(const NodeSearch &request) {
+  const Bounds &bounds = request.surface.scene().bounds();
+  const Vec3 extent = bounds.upper - bounds.lower;
+  return request.distance_limit <= 0.2 * std::max({extent.x, extent.y, extent.z});
+}
+
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found) {
+  ClusterSearch search(request, clusters, kernels, scratch, found);
+  if (has_few_near(request)) {
+    search.find_near_clusters();
+    search.search_near_clusters();
+  } else {
+    search.search_every_cluster();
+  }
+  return search.report();
+}
+
+}  // namespace riis

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search over clusters of nodes, and the memory that it reuses from one marking to the next. It filters in single precision,
+// sixteen triangles at a time, and decides in double precision (docs/theory/clusters.md, "The proof").
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/point_triangle.hpp"
+#include "kernels/kernels.hpp"
+#include "search/search.hpp"
+
+namespace riis {
+
+struct ClusterScratch {
+  static constexpr std::int32_t room_for_pairs = 4096;
+
+  // A near cluster, and the place of its near groups: the thread whose lists hold them, and their range in these lists.
+  struct Item {
+    std::int64_t cluster;
+    std::size_t first, n;
+    int thread;
+    std::uint32_t near_leaves;  // a bit for each leaf that a group may be near
+  };
+  struct alignas(64) Thread {
+    std::vector<std::int32_t> candidates;  // groups near a region
+    std::vector<std::uint16_t> bits;       // for each candidate, a bit for each near cluster of the region
+    std::vector<Item> items;
+    std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
+    std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
+    std::vector<std::int32_t> leaf_groups;  // the near groups of leaves that are filtered together
+    ClusterTask task;
+    struct alignas(64) NodeBounds {
+      float of_node[nodes_per_leaf];
+    };
+    std::vector<NodeBounds> lower_bounds;  // for each group near a leaf, bounds of the leaf's nodes
+    std::vector<std::int32_t> pair_nodes, pair_triangles;
+    std::vector<double> pair_decided;        // squares of distances
+    std::vector<ClosestTriangle> closest;    // closest triangles of a cluster's nodes
+    std::vector<std::uint16_t> bits_within;  // for each near group, a bit for each leaf within the limit
+    std::int64_t region = -1;                // the region whose groups `bits` has, in a search for every distance
+    std::int64_t n_queries = 0;
+
+    std::int32_t *room_for_groups(std::size_t n_groups) {
+      if (leaf_groups.size() < n_groups) leaf_groups.resize(n_groups + n_groups / 2);
+      return leaf_groups.data();
+    }
+    float *room_for_bounds(std::size_t n_groups) {
+      if (lower_bounds.size() < n_groups) lower_bounds.resize(n_groups + n_groups / 2);
+      return lower_bounds.data()->of_node;
+    }
+  };
+  std::vector<Thread> threads;
+  std::vector<std::int64_t> near_regions;
+  std::vector<Item> items;
+  std::vector<std::int32_t> all_groups;  // 0, 1, 2, ...
+
+  void prepare(int n_threads);
+};
+
+// Returns false if single precision cannot separate near from far. This happens if the mesh or its distance from the surface is
+// about a million times the surface's size. It also happens if the mesh is extremely small compared with the surface.
+bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
+
+// Returns whether clusters pay off for the distances of this many nodes, if the limit leaves out few or none. For fewer nodes,
+// comparing all groups with the first clusters takes longer than a query of each node.
+bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
+
+// Returns whether most triangles are farther than the limit from most nodes near the surface.
+bool has_few_near(const NodeSearch &request);
+
+// Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
+// must be those of the request's instructions, except that ./run bench roofline passes kernels that count operations.
+SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
+                             ClusterScratch &scratch, FoundNodes &found);
+
+}  // namespace riis

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns patches into grids of quads (paper, 3.2 and 3.3).
+// In: curves and patches of a valve, the allowed error. Out: a grid for each patch. Its error leaves room for the error of
+// splitting quads into triangles.
+#pragma once
+
+#include "base/recycled.hpp"
+#include "geometry/coons.hpp"
+#include "geometry/quads.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// The allowed error is divided as in docs/theory/triangles.md, "Shares of the bound". A point of a Coons patch has the errors of
+// a u curve, of a v curve and of merged grid lines. Each of these errors is bounded by its share below. At least
+// 1 - 2 * (curve_share + merge_share) remains for splitting a quad into triangles.
+inline constexpr double curve_share = 0.45, merge_share = 0.01;
+// The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for quads, and many
+// quads would be subdivided.
+inline constexpr double planned_curve_share = 0.39;
+// The error of a point of a patch of arcs has three parts: the mean of two curves' errors, at most half of the error of O, and
+// the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
+inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
+
+// Between two vertices of a curve, the velocity's estimated distance from linear is at most this share of the largest speed.
+inline constexpr double bend_share = 0.008;
+
+// Returns the number of rows that keeps chords within their share of max_error, for arcs with offsets up to `offset`.
+double rows_for(double offset, double max_error);
+
+// Makes one grid for each patch, in the order of the patches, before any image is placed. Keeps each curve within its share of
+// max_error. Fails with RIIS_LIMIT_EXCEEDED if the surface would take more than max_triangles triangles.
+Vector<QuadGrid> make_grids(const PatchSet &set, double max_error);
+// Does the same, keeps each grid's lines, and gives each quad its level. A curve's share is multiplied by its tightness. An empty
+// `tightness` means 1 for all curves.
+Vector<LevelledGrid> make_levelled_grids(const PatchSet &set, double max_error, const Vector<double> &tightness,
+                                         int n_threads);
+
+// Checks the precision of a set. Fails with RIIS_LIMIT_EXCEEDED if rounding of the curves' lengths or coordinates is too large
+// for max_error.
+void check_precision(const PatchSet &set, double max_error);
+
+// Returns max_error minus the deviation of the curves from the shape that they represent. Fails with RIIS_LIMIT_EXCEEDED if the
+// deviation is more than half of max_error.
+double error_left(const PatchSet &set, double max_error);
+
+// Checks a number of triangles. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+void check_count(double n_triangles, double max_error);
+
+}  // namespace riis

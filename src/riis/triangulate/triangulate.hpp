@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns patches into triangles (paper, 3.3 and 4.1 "Triangulation").
+// In: curves and patches of a valve, the allowed error, the placement. Out: triangles with their patch, leaflet, u and v.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/recycled.hpp"
+#include "geometry/coons.hpp"
+#include "geometry/placement.hpp"
+#include "geometry/quads.hpp"
+#include "motion/displacement.hpp"
+#include "triangulate/triangle_set.hpp"
+#include "valve/patches.hpp"
+
+namespace riis {
+
+// Grids whose lines stay the same while a valve opens (docs/theory/triangles.md, "Fixed triangulation").
+// In: the patches of a valve at many openings, the allowed error. Out: lines that keep the error at all these openings. Also
+// grids on these lines at any opening, with their errors.
+struct PatchPlan {
+  bool has_arcs = false;  // whether the patch is one of arcs at some opening
+
+  GridLines lines;  // the lines of a Coons patch
+
+  // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
+  // Between two joints, a line keeps its relative position. Without joints the lines do not move.
+  Vector<double> u, joints;
+  Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at the ends of the parts
+};
+
+// The numbering of curves that the sides of patches use. A set of patches may number its curves differently at each opening. For
+// example, closed mitral leaflets share curves that are separate in open leaflets.
+class CurveNumbering {
+ public:
+  explicit CurveNumbering(const PatchSet &set);
+  // Returns whether the patches already use this numbering.
+  bool is_of(const PatchSet &set) const;
+  // Returns the patches with this numbering of curves. Then lists with an entry for each curve fit all openings. The patches
+  // must have the same build except for shared curves (check_same_build).
+  PatchSet renumbered(const PatchSet &set) const;
+
+ private:
+  Vector<Patch> patches_;
+  std::size_t n_curves_;
+};
+
+struct GridPlan {
+  Vector<Vector<double>> shares;  // shares of each curve's length at its vertices; empty if only arcs end on it
+  Vector<PatchPlan> patches;
+  std::size_t n_rows = 1;  // the number of rows of all patches of arcs
+};
+
+// Makes the plan from the patches at each of the openings. All must use one numbering of curves. Keeps each curve of a Coons
+// patch within max_error times of_curves times its tightness, and the curves of other patches within their own share. Fails with
+// RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER if no lines are enough.
+GridPlan plan_grids(const Vector<PatchSet> &states, double max_error, double of_curves,
+                    const Vector<double> &tightness);
+
+// Makes one grid for each patch on the plan's lines. (The other make_grids chooses its own lines.) The bounds of errors are
+// refined no further than max_error requires.
+Vector<QuadGrid> make_grids(const PatchSet &set, const GridPlan &plan, double max_error, int n_threads,
+                            bool keeps_lines);
+
+// A triangle without area, which is one half of a quad. `a` and `b` are the ends of the quad's diagonal, and `corner` is the
+// third vertex.
+struct LeftOut {
+  std::int64_t corner, a, b;
+  bool other_was_kept;
+};
+
+// The triangles of a plan at one of the openings, as ids of the plan's vertices. Two openings share them if the same triangles
+// have area.
+struct Connectivity {
+  std::vector<std::int64_t> vertex_id, triangle_id;
+  std::vector<std::int32_t> leaflet_id, patch_id;
+  Grouping grouping;
+  Vector<LeftOut> left_out;
+  // For each image of each patch: the end of its triangles, and whether its triangles are the same as those of the previous
+  // image.
+  struct OfImage {
+    std::int64_t end;
+    bool is_as_before;
+  };
+  Vector<OfImage> images;
+  std::uint64_t number = 0;  // the plan's number
+};
+
+// A triangulation that stays the same while a valve opens: grids, levels of the quads' subdivision, and triangles.
+struct TriangulationPlan {
+  GridPlan grids;
+  CurveNumbering curves;       // the numbering that the grids use
+  double max_error;            // the error that the lines and levels were chosen for
+  Vector<Vector<int>> levels;  // levels of the quads of each patch
+  Connectivity connectivity;
+};
+
+// Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan uses a little
+// less than this error, so that it also serves openings between the given ones. Fails as triangulate_fixed does.
+TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
+
+// Returns whether the plan's triangles are within asked_error of the smooth surface in a state.
+bool is_within(const PatchSet &state, const TriangulationPlan &plan, double asked_error);
+
+struct Triangulation {
+  double
+      max_error;  // bounds the distance between triangles and smooth surface, in the patches' units (before placement)
+  const Placement &placement;
+  bool flip_normals;
+  int n_threads;
+  const EarlierState *earlier = nullptr;  // null without velocities; it never changes the triangles' bits
+};
+
+// Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory is reused. Fails with
+// RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
+TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
+// Makes the triangles of a plan. A triangle keeps its id if other triangles lose their area. Fails as triangulate_adapted does,
+// and with RIIS_LIMIT_EXCEEDED if the plan is not within max_error of this state.
+TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, const TriangulationPlan &plan,
+                              TriangleSet memory = {});
+
+}  // namespace riis

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks files, reads them as bytes, lines and words, and writes files under a temporary name. VTK itself reads and writes the
+// formats. This header also has the names of the arrays in files.
+#pragma once
+
+#include <charconv>
+#include <string_view>
+
+#include <vtkErrorCode.h>
+#include <vtkNew.h>
+#include <vtkType.h>
+
+#include "riis_vtk/base/vtk_errors.hpp"
+
+class vtkDataObject;
+class vtkFieldData;
+
+namespace riis::vtk {
+
+// The names of the arrays in files. riis_vtk.h documents them.
+inline constexpr const char *marked_array = "riis_marked";
+inline constexpr const char *distance_array = "riis_distance";
+inline constexpr const char *leaflet_array = "riis_leaflet";
+inline constexpr const char *patch_array = "riis_patch";
+inline constexpr const char *triangle_array = "riis_triangle";
+inline constexpr const char *uv_array = "riis_uv";
+inline constexpr const char *velocity_array = "riis_velocity";
+inline constexpr const char *node_id_array = "riis_node_id";
+inline constexpr const char *cell_id_array = "riis_cell_id";
+// The field array in which VTK's filters store times.
+inline constexpr const char *time_array = "TimeValue";
+// The default prefix of the names PREFIX_marked, PREFIX_distance and PREFIX_leaflet.
+inline constexpr const char *default_prefix = "riis";
+
+// Returns an array with this name and size. Its values are not set.
+template <class Array>
+vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, int n_components = 1) {
+  const auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(n_components);
+  array->SetNumberOfTuples(n_tuples);
+  return array;
+}
+
+// Returns a text such as "; there are: a, b" for a message about a missing array.
+std::string list_of_arrays(vtkFieldData *data);
+
+// Lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII in any locale.
+bool is_blank(char c);
+
+std::string lower_case(std::string_view text);
+
+// Removes the first line from the text, and returns it without its line feed.
+std::string_view take_line(std::string_view &text);
+
+// Removes the first word and the blanks before it. Returns the word, or "" if there is none.
+std::string_view take_word(std::string_view &text);
+
+// Reads the whole text as a number. Returns false if it is not a number of that type.
+template <class Number>
+bool read_number(std::string_view text, Number &number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// Returns the path's ending in lower case without the dot, or "" if there is none.
+std::string ending_of(const std::string &path);
+
+// Returns the size of the file. Fails unless the path is a regular, readable, non-empty file. VTK's own messages would not give
+// the reason.
+std::int64_t check_readable(const std::string &path);
+
+// The bytes of a file. They are readable while this object lives.
+class MappedFile {
+ public:
+  // Maps the file into memory. `size` must be the result of check_readable.
+  MappedFile(const std::string &path, std::int64_t size);
+  ~MappedFile();
+  MappedFile(const MappedFile &) = delete;
+  MappedFile &operator=(const MappedFile &) = delete;
+
+  std::string_view bytes() const { return {static_cast<const char *>(bytes_), size_}; }
+
+ private:
+  std::size_t size_;
+  void *bytes_;
+};
+
+// A file that is complete or does not exist. It is written under temporary(), a name in the same folder, and commit() moves it
+// to its final place. It gets the permissions of the file that it replaces. Without commit(), the destructor removes the
+// temporary file, and the final place stays unchanged.
+class ReplacingFile {
+ public:
+  // Makes the temporary file. Fails if the path cannot be written to: the folder or a permission is missing, the path is not a
+  // regular file, or links form a circle.
+  explicit ReplacingFile(const std::string &path);
+  ~ReplacingFile();
+  ReplacingFile(const ReplacingFile &) = delete;
+  ReplacingFile &operator=(const ReplacingFile &) = delete;
+
+  const std::string &temporary() const { return temporary_; }
+  // Writes content from memory to the temporary file.
+  void write(const unsigned char *bytes, std::int64_t n_bytes);
+  // Moves the file to its final place. Fails unless the temporary file ends with `closing`, the last bytes of its format. On a
+  // full disk the file ends early, and not every writer notices this.
+  void commit(const std::string &closing);
+
+ private:
+  std::string path_;   // the path as the caller gave it
+  std::string place_;  // the path with links resolved, so that a link stays and its target is replaced or made
+  std::string temporary_;
+};
+
+// Writes a data set to a VTK XML file that is complete or does not exist. The data is raw and appended, which is as fast as the
+// disk and keeps every bit of every double. Sizes of blocks have 64 bits, because VTK's default limits them to 4 GiB.
+template <class Writer>
+void write_xml(const std::string &path, const std::string &ending, vtkDataObject *data, const CaughtOutput &caught) {
+  if (ending_of(path) != ending) fail_file(path, "the file's ending must be .", ending);
+  ReplacingFile file(path);
+  vtkNew<Writer> writer;
+  writer->SetFileName(file.temporary().c_str());
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  const bool written = writer->Write() != 0;
+  if (writer->GetErrorCode() != vtkErrorCode::NoError) {
+    fail_file(path, "cannot be written: ", vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  }
+  caught.check(path);
+  if (!written) fail_file(path, "cannot be written");
+  file.commit("</VTKFile>");
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh handle holds a grid.
+// In: a grid whose cells are checked. Out: the edges of its cells, their typical length, and its linear volume cells as plain
+// arrays for riis_adjacency_create_from_cells.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+
+class vtkUnsignedCharArray;
+
+namespace riis::vtk {
+
+// The centres of all cells, xyz(3, n_cells), and the pairs of cells that share a face, (2, n_pairs).
+struct CellCenters {
+  std::vector<double> xyz;
+  std::vector<std::int64_t> pairs;
+};
+CellCenters centers_of(vtkUnstructuredGrid *grid);
+
+}  // namespace riis::vtk
+
+struct riis_vtk_mesh {
+  vtkSmartPointer<vtkUnstructuredGrid> grid;  // its points are a vtkDoubleArray
+  std::string notes = {};                     // the notes that riis_vtk_mesh_get_notes gives
+  std::string foam_case = {};                 // the folder of the case that the mesh was read from, or ""
+  // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
+  std::unique_ptr<const riis::vtk::CellCenters> centers = {};
+
+  std::int64_t n_nodes() const { return centers ? grid->GetNumberOfCells() : grid->GetNumberOfPoints(); }
+  vtkDataSetAttributes *node_data() const;
+};
+
+namespace riis::vtk {
+
+// Gives the grid points in double precision. A grid without points gets an empty list of them.
+void make_points_double(vtkUnstructuredGrid *grid);
+
+struct VolumeCounts {
+  std::int64_t n_volumes = 0;
+  std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
+  std::int64_t n_unknown = 0;  // the volume cells whose edges are not known
+};
+// `ghosts`, by cell, may be NULL. Cells that it marks as copies of another piece's cells do not count.
+VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts = nullptr);
+
+struct VolumeCells {
+  std::vector<std::int64_t> node_ids;
+  std::vector<std::int64_t> offsets = {0};  // one entry more than there are cells
+};
+
+// Returns tetrahedra, pyramids, wedges and hexahedra, and also voxels as hexahedra. Leaves out other cells.
+VolumeCells volume_cells_of(vtkUnstructuredGrid *grid);
+
+// Edges of volume cells, as pairs of nodes. An edge appears once for each of its cells.
+struct VolumeEdges {
+  std::vector<std::int64_t> node_ids;  // (2, n)
+  std::int64_t n_cells_left_out = 0;   // volume cells whose edges are not known
+};
+VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
+
+// Returns the edges that are longer than a length and whose bounding box meets the box from lower to upper. xyz(3, n) are the
+// grid's points.
+VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
+                          const double *upper);
+
+// Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge counts once for each of its
+// cells. At most 20,000 cells are used, at equal distances in the list.
+double median_edge_of(vtkUnstructuredGrid *grid);
+
+// Writes the arrays of cells as fields of a case of OpenFOAM, into the folder of a time (foam_fields.cpp).
+void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh);
+
+}  // namespace riis::vtk

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens the X display. This code has its own file, because X11's headers define macros with names that VTK's headers use.
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "riis_vtk/base/vtk_errors.hpp"
+#include "riis_vtk/picture/drawing.hpp"
+
+#include <X11/Xlib.h>
+
+namespace riis::vtk {
+namespace {
+
+constexpr const char *advice = "; on a machine without one, run the program by: xvfb-run -a PROGRAM";
+
+// Tries several times, because the X server refuses connections while it resets itself after a picture.
+Display *open_display() {
+  for (int n_tries_left = 5;; --n_tries_left) {
+    Display *display = XOpenDisplay(nullptr);
+    if (display || n_tries_left == 1) return display;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+}  // namespace
+
+HeldDisplay::HeldDisplay() {
+  const char *name = std::getenv("DISPLAY");
+  if (!name || !*name) fail(RIIS_UNAVAILABLE, joined("a picture needs an X display: DISPLAY is not set", advice));
+  display_ = open_display();
+  if (!display_) {
+    fail(RIIS_UNAVAILABLE, joined("a picture needs an X display: DISPLAY ", name, " cannot be opened", advice));
+  }
+  int opcode = 0, event = 0, error = 0;
+  if (!XQueryExtension(display_, "GLX", &opcode, &event, &error)) {
+    XCloseDisplay(display_);
+    fail(RIIS_UNAVAILABLE, joined("a picture needs OpenGL: DISPLAY ", name, " has no GLX extension", advice));
+  }
+}
+
+HeldDisplay::~HeldDisplay() { XCloseDisplay(display_); }
+
+}  // namespace riis::vtk

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the outer faces of cells. VTK's own filters for this, vtkDataSetSurfaceFilter and vtkGeometryFilter, would take longer
+// than all other steps of a picture.
+#include "riis_vtk/picture/picture_faces.hpp"
+
+#include <algorithm>
+
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellType.h>
+#include <vtkGenericCell.h>
+#include <vtkIdList.h>
+#include <vtkMath.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+namespace riis::vtk {
+namespace {
+
+using Corners = std::vector<vtkIdType>;
+
+// The faces of one type of cell. Each is a list of corners, anticlockwise seen from outside. For a triangle the list ends with
+// -1.
+using FaceTable = std::vector<std::array<int, 4>>;
+
+const FaceTable *faces_of_type(int type) {
+  static const FaceTable tetra = {{0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}, {0, 2, 1, -1}};
+  static const FaceTable pyramid = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
+  static const FaceTable wedge = {{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
+  static const FaceTable hexahedron = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
+                                       {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+  static const FaceTable voxel = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  switch (type) {
+    case VTK_TETRA:
+      return &tetra;
+    case VTK_PYRAMID:
+      return &pyramid;
+    case VTK_WEDGE:
+      return &wedge;
+    case VTK_HEXAHEDRON:
+      return &hexahedron;
+    case VTK_VOXEL:
+      return &voxel;
+    default:
+      return nullptr;
+  }
+}
+
+// The cells of a grid as polygons of corners. For types of cells without a table of faces, VTK gives the faces.
+class Polygons {
+ public:
+  explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
+
+  int n_faces_of_volume(vtkIdType cell) {
+    if (const FaceTable *table = faces_of_type(grid_->GetCellType(cell))) return static_cast<int>(table->size());
+    return generic(cell)->GetNumberOfFaces();
+  }
+
+  // Returns the corners of a face. The result is valid until the next call.
+  const Corners &face_of_volume(vtkIdType cell, int face) {
+    corners_.clear();
+    if (const FaceTable *table = faces_of_type(grid_->GetCellType(cell))) {
+      vtkIdType n = 0;
+      const vtkIdType *ids = nullptr;
+      grid_->GetCells()->GetCellAtId(cell, n, ids);
+      for (const int corner : view(*table)[face]) {
+        if (corner >= 0) corners_.push_back(ids[corner]);
+      }
+    } else {
+      add_corners(generic(cell)->GetFace(face));
+    }
+    return corners_;
+  }
+
+  const Corners &flat_cell(vtkIdType cell) {
+    corners_.clear();
+    const int type = grid_->GetCellType(cell);
+    add_corners(generic(cell));
+    // Puts the corners in the order round the cell, because VTK lists those of a pixel row by row and those of a strip in zigzag.
+    if (type == VTK_PIXEL) std::swap(corners_[2], corners_[3]);
+    if (type == VTK_TRIANGLE_STRIP) {
+      Corners round;
+      for (std::size_t i = 0; i < corners_.size(); i += 2) round.push_back(corners_[i]);
+      for (std::size_t i = corners_.size() / 2 * 2; i >= 2; i -= 2) round.push_back(corners_[i - 1]);
+      corners_ = round;
+    }
+    return corners_;
+  }
+
+ private:
+  vtkCell *generic(vtkIdType cell) {
+    if (cell != held_) grid_->GetCell(cell, generic_);
+    held_ = cell;
+    return generic_;
+  }
+
+  // Appends the corners of a polygon. The corners are the polygon's first points, and it has as many corners as edges.
+  void add_corners(vtkCell *polygon) {
+    for (int i = 0; i < polygon->GetNumberOfEdges(); ++i) corners_.push_back(polygon->GetPointIds()->GetId(i));
+  }
+
+  vtkUnstructuredGrid *grid_;
+  vtkNew<vtkGenericCell> generic_;
+  vtkIdType held_ = -1;
+  Corners corners_;
+};
+
+struct Face {
+  vtkIdType cell;
+  int number;  // the face's position in its cell
+};
+
+// The faces that only one cell has had so far. Neighbouring cells are mostly near each other in the list, so there are few such
+// faces at any time.
+class LoneFaces {
+ public:
+  explicit LoneFaces(vtkIdType n_points) : first_(static_cast<std::size_t>(n_points), -1) {}
+
+  // Adds a face. If the face already exists, two cells share it, and it is removed.
+  void toggle(const Corners &corners, Face face) {
+    Key key = {-1, -1, -1, -1};
+    std::partial_sort_copy(corners.begin(), corners.end(), key.begin(), key.end());
+    std::int64_t &first = view(first_)[key[0]];
+    std::int64_t *link = &first;
+    while (*link >= 0) {
+      Entry &entry = view(entries_)[*link];
+      if (entry.key == key && entry.n_corners == corners.size()) {
+        const std::int64_t freed = *link;
+        *link = entry.next;
+        entry.next = free_;
+        free_ = freed;
+        return;
+      }
+      link = &entry.next;
+    }
+    first = kept({key, corners.size(), first, face});
+  }
+
+  template <class Visit>
+  void for_each(Visit &&visit) const {
+    for (std::int64_t at : first_) {
+      for (; at >= 0; at = view(entries_)[at].next) visit(view(entries_)[at].face);
+    }
+  }
+
+ private:
+  using Key = std::array<vtkIdType, 4>;  // the four lowest corners in ascending order; the last is -1 for a triangle
+
+  struct Entry {
+    Key key;
+    std::size_t n_corners;
+    std::int64_t next;
+    Face face;
+  };
+
+  std::int64_t kept(const Entry &entry) {
+    if (free_ >= 0) {
+      const std::int64_t at = free_;
+      free_ = view(entries_)[at].next;
+      view(entries_)[at] = entry;
+      return at;
+    }
+    entries_.push_back(entry);
+    return view(entries_).size() - 1;
+  }
+
+  std::vector<std::int64_t> first_;  // for each node, the faces with this node as their lowest corner
+  std::vector<Entry> entries_;
+  std::int64_t free_ = -1;
+};
+
+// Collects polygons and the points that they use.
+class Collected {
+ public:
+  explicit Collected(vtkUnstructuredGrid *grid)
+      : from_(grid->GetPoints()), place_(static_cast<std::size_t>(grid->GetNumberOfPoints()), -1) {
+    points_->SetDataTypeToDouble();
+  }
+
+  void add(const Corners &corners) {
+    polygons_->InsertNextCell(static_cast<int>(corners.size()));
+    for (const vtkIdType corner : corners) {
+      vtkIdType &place = view(place_)[corner];
+      if (place < 0) place = points_->InsertNextPoint(from_->GetPoint(corner));
+      polygons_->InsertCellPoint(place);
+    }
+  }
+
+  vtkSmartPointer<vtkPolyData> faces() const {
+    const auto faces = vtkSmartPointer<vtkPolyData>::New();
+    faces->SetPoints(points_);
+    faces->SetPolys(polygons_);
+    return faces;
+  }
+
+ private:
+  vtkPoints *from_;
+  std::vector<vtkIdType> place_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> polygons_;
+};
+
+// Reverses a face whose corners run clockwise, seen from outside its cell. Such faces come from inverted cells.
+void turn_outwards(vtkUnstructuredGrid *grid, vtkIdType cell, Corners &corners) {
+  vtkNew<vtkIdList> nodes;
+  grid->GetCellPoints(cell, nodes);
+  double inside[3] = {0, 0, 0};
+  for (const vtkIdType node : *nodes) vtkMath::Add(inside, grid->GetPoint(node), inside);
+  vtkMath::MultiplyScalar(inside, 1.0 / static_cast<double>(nodes->GetNumberOfIds()));
+  // Sums the volumes of the tetrahedra from a point inside the cell to the face.
+  double first[3], volume = 0;
+  vtkMath::Subtract(grid->GetPoint(corners[0]), inside, first);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    double a[3], b[3];
+    vtkMath::Subtract(grid->GetPoint(corners[i]), inside, a);
+    vtkMath::Subtract(grid->GetPoint(corners[i + 1]), inside, b);
+    volume += vtkMath::Determinant3x3(first, a, b);
+  }
+  if (volume < 0) std::reverse(corners.begin(), corners.end());
+}
+
+bool is_wanted(const std::vector<std::uint8_t> *wanted, vtkIdType cell) { return !wanted || view(*wanted)[cell] != 0; }
+
+}  // namespace
+
+CellDimensions::CellDimensions(vtkUnstructuredGrid *grid) {
+  of_type_.fill(-1);
+  vtkNew<vtkGenericCell> cell;
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
+    int &dimension = view(of_type_)[grid->GetCellType(i)];
+    if (dimension >= 0) continue;
+    cell->SetCellType(grid->GetCellType(i));
+    dimension = cell->GetCellDimension();
+    largest_ = std::max(largest_, dimension);
+  }
+}
+
+Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,
+                   const std::vector<std::uint8_t> *face_wanted) {
+  const CellDimensions dimensions(grid);
+  Polygons polygons(grid);
+  Collected collected(grid);
+  Outside outside;
+  const auto add = [&](vtkIdType cell, const Corners &corners) {
+    if (corners.size() < 3 || !is_wanted(face_wanted, cell)) return;
+    collected.add(corners);
+    outside.cell_id.push_back(cell);
+  };
+  LoneFaces lone(grid->GetNumberOfPoints());
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    if (!is_wanted(wanted, cell) || !dimensions.is_largest(grid->GetCellType(cell))) continue;
+    if (dimensions.largest() == 2) add(cell, polygons.flat_cell(cell));
+    if (dimensions.largest() < 3) continue;
+    const int n_faces = polygons.n_faces_of_volume(cell);
+    for (int face = 0; face < n_faces; ++face) {
+      const Corners &corners = polygons.face_of_volume(cell, face);
+      if (corners.size() >= 3) lone.toggle(corners, {cell, face});
+    }
+  }
+  lone.for_each([&](const Face &face) {
+    if (!is_wanted(face_wanted, face.cell)) return;
+    Corners corners = polygons.face_of_volume(face.cell, face.number);
+    turn_outwards(grid, face.cell, corners);
+    add(face.cell, corners);
+  });
+  outside.faces = collected.faces();
+  outside.of_volumes = dimensions.largest() == 3;
+  return outside;
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "riis_vtk/picture/picture_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCoordinate.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderWindow.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkTextRenderer.h>
+
+#include "common/array_view.hpp"
+#include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/picture/drawing.hpp"
+#include "riis_vtk/surface/surfaces.hpp"
+
+namespace riis::vtk {
+namespace {
+
+constexpr int least_letter = 6;
+constexpr int least_height_with_texts = 120;
+constexpr std::int32_t n_views = 3;  // views in a picture of three views
+constexpr const char *view_names[] = {"side", "top", "oblique"};
+
+// Returns the number with commas between thousands.
+std::string grouped(vtkIdType n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
+  return digits;
+}
+
+// Returns texts such as "1 edge" and "1,200 edges".
+std::string counted(vtkIdType n, const std::string &singular) {
+  return grouped(n) + " " + singular + (n == 1 ? "" : "s");
+}
+
+// Returns the largest number up to the limit that is 1, 2 or 5 times a power of ten.
+double round_length(double limit) {
+  const double power = std::pow(10, std::floor(std::log10(limit)));
+  for (const double digit : {5.0, 2.0}) {
+    if (digit * power <= limit) return digit * power;
+  }
+  return power;
+}
+
+// Replaces all characters that VTK cannot draw in one line. VTK would read letters outside ASCII only as UTF-8.
+std::string drawable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+int width_of(const std::string &text, int letter) {
+  if (text.empty()) return 0;
+  vtkNew<vtkTextProperty> property;
+  set_font(property, letter);
+  int box[4] = {0, -1, 0, -1};
+  vtkTextRenderer::GetInstance()->GetBoundingBox(property, text, box, 72);
+  return box[1] - box[0] + 1;
+}
+
+void add_text(vtkRenderer *renderer, const std::string &text, double x, double y, int letter, const Colour &colour) {
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(text.c_str());
+  actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+  actor->SetPosition(x, y);
+  set_font(actor->GetTextProperty(), letter);
+  actor->GetTextProperty()->SetColor(colour[0], colour[1], colour[2]);
+  renderer->AddViewProp(actor);
+}
+
+// Adds a text. If it is too long, uses smaller letters. If it does not fit even with the smallest letters, its end is cut off.
+void add_fitting_text(vtkRenderer *renderer, std::string text, double x, double y, double width, int letter) {
+  while (letter > least_letter && width_of(text, letter) > width) --letter;
+  if (width_of(text, letter) > width) {
+    while (!text.empty() && width_of(text + "...", letter) > width) text.pop_back();
+    text += "...";
+  }
+  add_text(renderer, text, x, y, letter, grey);
+}
+
+struct Line {
+  double from[2], to[2];
+};
+
+void add_lines(vtkRenderer *renderer, const std::vector<Line> &lines, double width) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const Line &line : lines) {
+    const vtkIdType ends[2] = {points->InsertNextPoint(line.from[0], line.from[1], 0),
+                               points->InsertNextPoint(line.to[0], line.to[1], 0)};
+    cells->InsertNextCell(2, ends);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  vtkNew<vtkCoordinate> pixels;
+  pixels->SetCoordinateSystemToViewport();
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(data);
+  mapper->SetTransformCoordinate(pixels);
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(grey[0], grey[1], grey[2]);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  renderer->AddViewProp(actor);
+}
+
+// Adds a bar whose length is a round number, with the length and its unit next to it.
+void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double y, const Sight &sight,
+                   const std::string &unit, bool has_plural) {
+  const double pixels_per_length = layout.panel_height() / (2 * sight.shown[1].half());
+  const double length = round_length(0.3 * layout.panel_width() / pixels_per_length);
+  const double end = x + length * pixels_per_length, middle = y + 0.35 * layout.letter(), tick = 0.3 * layout.letter();
+  add_lines(renderer,
+            {{{x, middle}, {end, middle}},
+             {{x, middle - tick}, {x, middle + tick}},
+             {{end, middle - tick}, {end, middle + tick}}},
+            layout.line_width());
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << length << " " << unit << (length == 1 || !has_plural ? "" : "s");
+  const double after = end + 0.6 * layout.letter();
+  const double right = layout.column_left(layout.n_columns() - 1) + layout.panel_width();
+  add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
+}
+
+// Adds arrows for x, y and z as long as these axes appear in the view. If an axis points at the eye, its name is in the middle.
+void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
+  const char *const names[3] = {"x", "y", "z"};
+  std::vector<Line> lines;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double dx = view.right()[k], dy = view.up()[k], part = std::hypot(dx, dy);
+    const double half = 0.3 * layout.letter();
+    if (part < 0.05) {
+      add_text(renderer, names[k], x - 3 * half, y - 3 * half, layout.letter(), grey);
+      continue;
+    }
+    const double tip[2] = {x + length * dx, y + length * dy};
+    lines.push_back({{x, y}, {tip[0], tip[1]}});
+    const double beyond = (length * part + 2 * half) / part;
+    add_text(renderer, names[k], x + beyond * dx - half, y + beyond * dy - half, layout.letter(), grey);
+  }
+  add_lines(renderer, lines, layout.line_width());
+}
+
+void add_caption(vtkRenderer *renderer, const Layout &layout, int column, const std::vector<std::string> &lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].empty()) continue;
+    add_fitting_text(renderer, lines[i], layout.column_left(column) + layout.margin(),
+                     layout.caption_line(static_cast<int>(i)), layout.panel_width() - 2 * layout.margin(),
+                     layout.letter());
+  }
+}
+
+// Adds the key from `left` to the right end of the column, in one or more lines. Dots replace the entries that do not fit.
+void add_key(vtkRenderer *renderer, const Layout &layout, int column, double left, int n_lines,
+             const std::vector<KeyEntry> &key) {
+  const double right = layout.column_left(column) + layout.panel_width() - layout.margin();
+  const double gap = 1.5 * layout.letter();
+  const std::string dots = "...";
+  const double width_of_dots = width_of(dots, layout.letter());
+  double x = left;
+  int line = 0;
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    const double width = width_of(key[i].text, layout.letter());
+    const auto fits = [&] {
+      const bool is_followed = line + 1 == n_lines && i + 1 < key.size();
+      return x + width + (is_followed ? gap + width_of_dots : 0) <= right;
+    };
+    if (!fits() && line + 1 < n_lines) {
+      x = left;
+      ++line;
+    }
+    if (!fits()) {
+      add_text(renderer, dots, x, layout.key_line(line), layout.letter(), key[i].colour);
+      return;
+    }
+    add_text(renderer, key[i].text, x, layout.key_line(line), layout.letter(), key[i].colour);
+    x += width + gap;
+  }
+}
+
+// Draws all texts of a picture in a layer behind its panels. `unit` follows the number at the scale bar. If has_plural is true,
+// the unit gets an s, unless the number is 1.
+vtkSmartPointer<vtkRenderer> texts_of_picture(const Layout &layout, const std::vector<PanelTexts> &columns,
+                                              const View &view, const Sight &sight, const std::string &unit,
+                                              bool has_plural) {
+  const auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetBackground(1, 1, 1);
+  if (!layout.has_texts()) return renderer;
+  const double axis = 1.3 * layout.letter();
+  add_axes(renderer, layout, layout.margin() + axis, 0.5 * layout.bottom(), axis, view);
+  const double first_key = layout.margin() + 4.5 * axis;
+  const int last = layout.n_columns() - 1;
+  for (int column = 0; column <= last; ++column) {
+    const PanelTexts &texts = columns[static_cast<std::size_t>(column)];
+    add_caption(renderer, layout, column, texts.caption);
+    const double left = column == 0 ? first_key : layout.column_left(column) + layout.margin();
+    add_key(renderer, layout, column, left, column == last ? 1 : 2, texts.key);
+    if (column == last) add_scale_bar(renderer, layout, left, layout.key_line(1), sight, unit, has_plural);
+  }
+  return renderer;
+}
+
+// Returns the texts of a picture that are the same for all views.
+std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std::string> &names,
+                                 const SurfacePanel &surface, vtkIdType n_triangles, const MarkCounts *marks,
+                                 const Leaks &leaks) {
+  std::vector<PanelTexts> panels = {{{title + ": " + counted(n_triangles, "triangle")}, {}}};
+  for (const vtkIdType leaflet : surface.leaflets()) {
+    const bool named = leaflet >= 0 && leaflet < view(names).size();
+    panels[0].key.push_back(
+        {named ? view(names)[leaflet] : "leaflet " + std::to_string(leaflet), colour_of_leaflet(leaflet)});
+  }
+  if (!marks) return panels;
+  std::string cells = grouped(marks->n_whole_cells) + " whole, " + grouped(marks->n_partly_cells) + " partly marked " +
+                      (marks->n_partly_cells == 1 ? "cell" : "cells");
+  std::vector<KeyEntry> key = {{"pale: partly marked", grey}};
+  if (leaks.edges) {
+    cells += ", " + counted(leaks.n_edges, "leaking edge");
+    if (leaks.n_edges > 0) key.push_back({"leaking edges", leak_colour});
+  }
+  panels.push_back(
+      {{"Marked: " + grouped(marks->n_marked_nodes) + " of " + counted(marks->n_nodes, "node"), cells}, key});
+  return panels;
+}
+
+KeyEntry dashes_entry() { return {"dashed: the mesh goes on", grey}; }
+
+// Returns the texts of a picture of three views: the lines and the keys of its panels, spread over the columns. Below its line,
+// each column has the name of its view.
+std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, std::int32_t first) {
+  std::vector<PanelTexts> columns(n_views);
+  std::size_t n_lines = 0;
+  for (const PanelTexts &panel : panels)
+    for (const std::string &line : panel.caption) view(columns)[n_lines++].caption.push_back(line);
+  for (std::size_t i = 0; i < panels.size(); ++i) view(columns)[i].key = view(panels)[i].key;
+  for (std::int32_t i = 0; i < n_views; ++i) {
+    std::vector<std::string> &caption = view(columns)[i].caption;
+    if (caption.empty()) caption.emplace_back();
+    caption.push_back((first == RIIS_VTK_VIEW_VALVE_SIDE ? "valve-" : "") + std::string(view_names[i]));
+  }
+  return columns;
+}
+
+}  // namespace
+
+Layout::Layout(int width, int height, int n_panels, Panels panels)
+    : width_(width),
+      height_(height),
+      n_columns_(panels == Panels::stacked ? 1 : n_panels),
+      n_rows_(panels == Panels::stacked ? n_panels : 1),
+      letter_(std::max(8, std::min(height / 36, width / n_columns_ / 32))) {
+  if (height < least_height_with_texts) return;
+  const int n_caption_lines = panels == Panels::stacked ? 2 : n_panels;
+  top_ = (1.6 * n_caption_lines + 0.6) * letter_;
+  bottom_ = 3.8 * letter_;
+}
+
+std::array<double, 4> Layout::viewport(int panel) const {
+  const int column = panel % n_columns_, row = panel / n_columns_;
+  const double n = n_columns_, above = height_ - top_ - row * panel_height();
+  return {column / n, (above - panel_height()) / height_, (column + 1) / n, above / height_};
+}
+
+double Layout::line_width() const { return std::max(1.0, height_ / 500.0); }
+
+void check_has_marks(const riis_vtk_mesh *mesh) {
+  for (const char *name : {marked_array, distance_array, leaflet_array}) {
+    if (!mesh->grid->GetPointData()->GetArray(name)) {
+      refuse_argument("mesh has no marks: call riis_vtk_mesh_set_marks before riis_vtk_draw");
+    }
+  }
+}
+
+Scene::Scene(vtkUnstructuredGrid *grid, const riis_vtk_picture_options &options)
+    : axes_(axes_turned(options.rotation_axis, options.rotation_angle)),
+      layout_(options.width, options.height, grid ? 2 : 1, Layout::Panels::side_by_side),
+      unit_(options.unit ? drawable(options.unit) : ""),
+      grid_(grid),
+      surface_(layout_.line_width()) {
+  for (std::int64_t i = 0; i < options.n_leaflet_names; ++i)
+    leaflet_names_.push_back(drawable(options.leaflet_names[i]));
+  if (grid_) marks_.emplace(grid_, layout_.line_width());
+  window_->SetOffScreenRendering(1);
+  window_->SetMultiSamples(4);
+  window_->SetNumberOfLayers(2);
+  for (vtkRenderer *renderer : {surface_.renderer(), marks_ ? marks_->renderer() : nullptr}) {
+    if (!renderer) continue;
+    renderer->SetLayer(1);
+    renderer->SetActiveCamera(camera_);
+    window_->AddRenderer(renderer);
+  }
+}
+
+Scene::~Scene() = default;
+
+void Scene::show(const riis_surface *surface, const char *title, const Leaks &leaks) {
+  triangles_ = polydata_of(surface);
+  surface_.show(triangles_);
+  if (marks_) marks_->show(grid_, leaks.n_edges, leaks.edges);
+  texts_ = texts_of(title ? drawable(title) : "Surface", leaflet_names_, surface_, triangles_->GetNumberOfCells(),
+                    marks_ ? &marks_->counts() : nullptr, leaks);
+}
+
+vtkSmartPointer<vtkImageData> Scene::picture(std::int32_t of, const std::optional<Bounds> &seen) {
+  if (of == RIIS_VTK_VIEW_THREE) return three_views(RIIS_VTK_VIEW_SIDE, seen);
+  if (of == RIIS_VTK_VIEW_VALVE_THREE) return three_views(RIIS_VTK_VIEW_VALVE_SIDE, seen);
+  const View view(of, axes_);
+  const Sight seen_here = sight(view, seen, layout_);
+  std::vector<PanelTexts> texts = texts_;
+  if (seen_here.is_cut()) texts.back().key.push_back(dashes_entry());
+  return shot(view, seen_here, layout_, texts);
+}
+
+Sight Scene::sight(const View &view, const std::optional<Bounds> &seen, const Layout &layout, double least) const {
+  const Extents surface = seen ? view.extents_of(*seen) : view.extents_of(triangles_);
+  const Extents mesh = grid_ ? view.extents_of(grid_) : surface;
+  return sight_of(surface, grid_ ? &mesh : nullptr, layout.panel_width() / layout.panel_height(), least);
+}
+
+vtkSmartPointer<vtkImageData> Scene::shot(const View &view, const Sight &sight, const Layout &layout,
+                                          const std::vector<PanelTexts> &texts) {
+  window_->SetSize(layout.width(), layout.height());
+  const auto put = [&layout](vtkRenderer *renderer, int panel) {
+    const std::array<double, 4> part = layout.viewport(panel);
+    renderer->SetViewport(part[0], part[1], part[2], part[3]);
+  };
+  aim_camera(camera_, view, sight);
+  surface_.look(view, sight);
+  put(surface_.renderer(), 0);
+  if (marks_) {
+    marks_->look(view, sight);
+    put(marks_->renderer(), 1);
+  }
+  if (behind_) window_->RemoveRenderer(behind_);
+  behind_ =
+      texts_of_picture(layout, texts, view, sight, unit_.empty() ? grid_ ? "mesh unit" : "unit" : unit_, unit_.empty());
+  window_->AddRenderer(behind_);
+  surface_.renderer()->ResetCameraClippingRange();
+  if (marks_) marks_->renderer()->ResetCameraClippingRange();
+  window_->Render();
+  return image_of(window_);
+}
+
+vtkSmartPointer<vtkImageData> Scene::three_views(std::int32_t first, const std::optional<Bounds> &seen) {
+  const int width = layout_.width(), height = layout_.height();
+  const Layout column(width / n_views, height, marks_ ? 2 : 1, Layout::Panels::stacked);
+  double half_height = 0;
+  for (std::int32_t of = first; of < first + n_views; ++of)
+    half_height = std::max(half_height, sight({of, axes_}, seen, column).shown[1].half());
+  const std::vector<PanelTexts> texts = texts_of_columns(texts_, first);
+  const auto whole = vtkSmartPointer<vtkImageData>::New();
+  whole->SetDimensions(width, height, 1);
+  whole->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  whole->GetPointData()->GetScalars()->Fill(255);  // for a width that is not a multiple of the number of views
+  for (std::int32_t i = 0; i < n_views; ++i) {
+    const View view(first + i, axes_);
+    const Sight seen_here = sight(view, seen, column, half_height);
+    PanelTexts text = texts[static_cast<std::size_t>(i)];
+    if (seen_here.is_cut()) text.key.push_back(dashes_entry());
+    const vtkSmartPointer<vtkImageData> part = shot(view, seen_here, column, {text});
+    const int left = i * width / n_views;
+    part->SetExtent(left, left + column.width() - 1, 0, height - 1, 0, 0);
+    whole->CopyAndCastFrom(part, part->GetExtent());
+  }
+  return whole;
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "riis_vtk/read/grid_files.hpp"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <optional>
+
+#include <vtkCell.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+#include <vtkDataArraySelection.h>
+#include <vtkErrorCode.h>
+#include <vtkFieldData.h>
+#include <vtkGenericCell.h>
+#include <vtkIdTypeArray.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkVersionMacros.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include "common/array_view.hpp"
+#include "riis_vtk/read/other_files.hpp"
+
+namespace riis::vtk {
+namespace {
+
+void check_array_lengths(const std::string &path, vtkFieldData *data, const char *kind, vtkIdType n) {
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    const vtkAbstractArray *array = data->GetAbstractArray(i);
+    if (array->GetNumberOfTuples() != n) {
+      const char *name = const_cast<vtkAbstractArray *>(array)->GetName();
+      fail_file(path, kind, " array ", name ? name : "without a name", " has ", array->GetNumberOfTuples(),
+                " values for ", n);
+    }
+  }
+}
+
+void check_data_set(const std::string &path, vtkPointSet *data) {
+  if (data->GetNumberOfPoints() == 0) fail_file(path, "holds no points");
+  check_array_lengths(path, data->GetPointData(), "point", data->GetNumberOfPoints());
+  check_array_lengths(path, data->GetCellData(), "cell", data->GetNumberOfCells());
+}
+
+// Checks the offsets. Call this before any cell is read.
+void check_offsets(const std::string &path, vtkCellArray *cells) {
+  if (cells && cells->GetNumberOfCells() > 0 && !cells->IsValid()) fail_file(path, "has broken cell offsets");
+}
+
+void check_point_id(const std::string &path, vtkIdType cell_id, vtkIdType point_id, vtkIdType n_points) {
+  if (point_id < 0 || point_id >= n_points) {
+    fail_file(path, "cell ", cell_id, " names point ", point_id, " of ", n_points);
+  }
+}
+
+// Checks the point ids of cells. `first_id` is the id of the first cell, for the message.
+void check_point_ids(const std::string &path, vtkCellArray *cells, vtkIdType first_id, vtkIdType n_points) {
+  check_offsets(path, cells);
+  const vtkIdType n_cells = cells ? cells->GetNumberOfCells() : 0;
+  for (vtkIdType cell_id = 0; cell_id < n_cells; ++cell_id) {
+    vtkIdType n = 0;
+    const vtkIdType *ids = nullptr;
+    cells->GetCellAtId(cell_id, n, ids);
+    for (vtkIdType i = 0; i < n; ++i) check_point_id(path, first_id + cell_id, ids[i], n_points);
+  }
+}
+
+// Checks faces. `first_id` is the id of the first face, for the message.
+void check_faces(const std::string &path, vtkCellArray *faces, vtkIdType first_id, vtkIdType n_points) {
+  check_point_ids(path, faces, first_id, n_points);
+  for (vtkIdType i = 0; i < faces->GetNumberOfCells(); ++i) {
+    if (faces->GetCellSize(i) < 3) {
+      fail_file(path, "cell ", first_id + i, " is a face with ", faces->GetCellSize(i), " points");
+    }
+  }
+}
+
+// Returns the number of points for each type of cell. The number is 0 if it depends on the cell, and -1 if the type does not
+// exist.
+std::array<int, 256> points_of_cell_types() {
+  std::array<int, 256> n_points{};
+  for (int type = 0; type < 256; ++type) {
+    const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
+    const bool variable = type >= VTK_HIGHER_ORDER_EDGE || (cell && cell->RequiresExplicitFaceRepresentation());
+    n_points[static_cast<std::size_t>(type)] = !cell ? -1 : variable ? 0 : static_cast<int>(cell->GetNumberOfPoints());
+  }
+  return n_points;
+}
+
+// Checks the number of points of each cell, because VTK does not check it.
+void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
+  static const std::array<int, 256> points_of_type = points_of_cell_types();
+  for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
+    const int type = grid->GetCellType(cell_id);
+    const int n_expected = points_of_type[static_cast<std::size_t>(type)];
+    const vtkIdType n = grid->GetCells()->GetCellSize(cell_id);
+    if (n_expected < 0) fail_file(path, "cell ", cell_id, " has the unknown type ", type);
+    if (n_expected > 0 && n != n_expected) {
+      fail_file(path, "cell ", cell_id, " is a ", vtkCellTypes::GetClassNameFromTypeId(type), " with ", n, " points");
+    }
+  }
+}
+
+[[noreturn]] void fail_faces(const std::string &path, vtkIdType cell) {
+  fail_file(path, "cell ", cell, " has broken polyhedron faces");
+}
+
+// Checks a polyhedron's faces. From the cell's location on, VTK's array of faces has the number of faces, and then the size and
+// the points of each face.
+void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
+                      vtkIdType n_points) {
+  const vtkIdType n_values = faces->GetNumberOfValues();
+  const auto value = [&](vtkIdType i) {
+    if (i < 0 || i >= n_values) fail_faces(path, cell_id);
+    return faces->GetValue(i);
+  };
+  vtkIdType position = location;
+  const vtkIdType n_faces = value(position++);
+  for (vtkIdType face = 0; face < n_faces; ++face) {
+    const vtkIdType n_corners = value(position++);
+    for (vtkIdType corner = 0; corner < n_corners; ++corner) check_point_id(path, cell_id, value(position++), n_points);
+  }
+}
+
+void check_polyhedra(const std::string &path, vtkUnstructuredGrid *grid) {
+  for (vtkIdType cell_id = 0; cell_id < grid->GetNumberOfCells(); ++cell_id) {
+    if (grid->GetCellType(cell_id) != VTK_POLYHEDRON) continue;
+    vtkIdTypeArray *faces = grid->GetFaces();
+    vtkIdTypeArray *locations = grid->GetFaceLocations();
+    if (!faces || !locations || locations->GetNumberOfValues() <= cell_id) {
+      fail_file(path, "cell ", cell_id, " is a polyhedron without faces");
+    }
+    check_polyhedron(path, cell_id, locations->GetValue(cell_id), faces, grid->GetNumberOfPoints());
+  }
+}
+
+// Runs steps in callbacks from VTK. Exceptions must not pass through VTK, so the first one is kept, and rethrow() throws it
+// later.
+class Steps {
+ public:
+  template <class Step>
+  bool run(const Step &step) noexcept {
+    try {
+      if (!failure_) step();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    return !failure_;
+  }
+  bool have_failed() const { return failure_ != nullptr; }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::exception_ptr failure_;
+};
+
+// Returns a value as an id. An impossible value becomes -1 or a very large id, so later checks refuse it.
+vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
+  constexpr double most = 1e15;
+  const double value = array->GetTuple1(i);
+  return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
+}
+
+// Makes visible the failures that VTK's XML readers only record. Refuses an array before VTK reads it if the file holds less
+// data than VTK would read.
+template <class Reader>
+class WatchedReader : public Reader {
+ public:
+  static WatchedReader *New() { VTK_STANDARD_NEW_BODY(WatchedReader); }
+
+  enum class Data { all, without_arrays };
+  void read(const std::string &path, Data wanted) {
+    path_ = path;
+    sizes_.emplace(path_);
+    this->SetFileName(path.c_str());
+    this->UpdateInformation();
+    if (wanted == Data::without_arrays) {
+      this->GetPointDataArraySelection()->DisableAllArrays();
+      this->GetCellDataArraySelection()->DisableAllArrays();
+    }
+    if (!this->InformationError) steps_.run([&] { sizes_->check_pieces(this->XMLParser); });
+    if (!steps_.have_failed()) this->Update();
+    steps_.rethrow();
+  }
+  bool has_failed() const {
+    return this->DataError || this->InformationError || this->ErrorCode != vtkErrorCode::NoError;
+  }
+
+ protected:
+  using FieldType = typename Reader::FieldType;
+
+  int ReadArrayValues(vtkXMLDataElement *element, vtkIdType index, vtkAbstractArray *array, vtkIdType begin,
+                      vtkIdType n, FieldType type = Reader::OTHER) override {
+    const auto check_number = [&] { check_held(element, begin + n, array); };
+    const auto check_next = [&] { check_next_array(element, vtkDataArray::SafeDownCast(array), begin + n); };
+    return steps_.run(check_number) && Reader::ReadArrayValues(element, index, array, begin, n, type) &&
+           steps_.run(check_next);
+  }
+
+  // Fails unless the file holds n values for an element.
+  void check_held(vtkXMLDataElement *element, vtkIdType n, vtkAbstractArray *array) {
+    sizes_->check_values(this->XMLParser, element, n, array);
+  }
+  const std::string &path() const { return path_; }
+  Steps &steps() { return steps_; }
+
+ private:
+  // Checks the array that VTK reads after an array of offsets. The last offset is that array's number of values.
+  void check_next_array(vtkXMLDataElement *element, vtkDataArray *array, vtkIdType n) {
+    const std::string name = element->GetAttribute("Name") ? element->GetAttribute("Name") : "";
+    const std::string parent = element->GetParent() ? element->GetParent()->GetName() : "";
+    const bool are_cells =
+        parent == "Cells" || parent == "Verts" || parent == "Lines" || parent == "Strips" || parent == "Polys";
+    if (!are_cells || !array || n == 0) return;
+    if (name == "offsets") check_length("connectivity", element, array, array->GetNumberOfTuples() - 1);
+    if (name == "faceoffsets") {
+      face_ends_.assign(static_cast<std::size_t>(n), -1);
+      for (vtkIdType i = 0; i < n; ++i) view(face_ends_)[i] = id_at(array, i);
+      for (vtkIdType i = n; i-- > 0;)
+        if (view(face_ends_)[i] > -1) return check_length("faces", element, array, i);
+    }
+    if (name == "faces") check_stream(array, n);
+  }
+
+  void check_length(const char *name, vtkXMLDataElement *offsets, vtkDataArray *array, vtkIdType last) {
+    vtkXMLDataElement *next = this->FindDataArrayWithName(offsets->GetParent(), name);
+    if (!next) return;
+    const auto values = vtkSmartPointer<vtkAbstractArray>::Take(this->CreateArray(next));
+    if (values) check_held(next, id_at(array, last), values);
+  }
+
+  // Checks the faces of polyhedra, because VTK follows them without checks while it reads them.
+  void check_stream(vtkDataArray *faces, vtkIdType n) const {
+    vtkIdType at = 0;
+    for (std::int64_t cell = 0; cell < view(face_ends_).size(); ++cell) {
+      if (view(face_ends_)[cell] < 0) continue;
+      const auto next = [&] {
+        if (at >= n) fail_faces(path_, cell);
+        return id_at(faces, at++);
+      };
+      for (vtkIdType n_left = next(); n_left > 0; --n_left) {
+        const vtkIdType n_corners = next();
+        if (n_corners < 0 || n_corners > n - at) fail_faces(path_, cell);
+        at += n_corners;
+      }
+    }
+  }
+
+  std::string path_;
+  std::optional<XmlSizes> sizes_;
+  Steps steps_;
+  std::vector<vtkIdType> face_ends_;  // for each cell of the piece, the end of its faces; -1 if it is no polyhedron
+};
+
+// Also reads the faces of polyhedra in the layout that VTK writes since 9.4, which older releases of VTK ignore. In this layout,
+// each polyhedron refers to faces in one list, and each face refers to its corners.
+class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
+ public:
+  static GridReader *New() { VTK_STANDARD_NEW_BODY(GridReader); }
+
+ protected:
+  int ReadPieceData() override {
+    return vtkXMLUnstructuredGridReader::ReadPieceData() && steps().run([&] { read_new_faces(); });
+  }
+
+ private:
+  using Ids = std::vector<vtkIdType>;
+
+  void read_new_faces() {
+    vtkXMLDataElement *cells = CellElements[Piece];
+    const vtkIdType n_cells = NumberOfCells[Piece];
+    auto *grid = vtkUnstructuredGrid::SafeDownCast(GetCurrentOutput());
+    if (VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0) || n_cells == 0) return;
+    if (!FindDataArrayWithName(cells, "polyhedron_offsets") || FindDataArrayWithName(cells, "faces")) return;
+    const Ids ends = offsets_in(cells, "polyhedron_offsets", n_cells);
+    const Ids faces = ids_in(cells, "polyhedron_to_faces", ends.back());
+    const vtkIdType n_faces = faces.empty() ? 0 : 1 + *std::max_element(faces.begin(), faces.end());
+    const Ids corner_ends = offsets_in(cells, "face_offsets", n_faces);
+    const Ids corners = ids_in(cells, "face_connectivity", n_faces == 0 ? 0 : corner_ends.back());
+    // The first piece with polyhedra makes the list of faces. For later pieces, VTK itself fills in -1 for the cells without
+    // faces.
+    if (!grid->GetFaces()) {
+      grid->InitializeFacesRepresentation(StartCell);
+      for (vtkIdType i = 0; i < n_cells; ++i) grid->GetFaceLocations()->InsertNextValue(-1);
+    }
+    const auto begin_of = [](const Ids &all_ends, vtkIdType i) { return i == 0 ? 0 : view(all_ends)[i - 1]; };
+    for (vtkIdType cell = 0; cell < n_cells; ++cell) {
+      const vtkIdType begin = begin_of(ends, cell), end = view(ends)[cell];
+      if (begin == end) continue;
+      vtkIdTypeArray *stream = grid->GetFaces();
+      grid->GetFaceLocations()->SetValue(StartCell + cell, stream->GetNumberOfValues());
+      stream->InsertNextValue(end - begin);
+      for (vtkIdType i = begin; i < end; ++i) {
+        const vtkIdType face = view(faces)[i];
+        if (face < 0) fail_faces(path(), StartCell + cell);
+        const vtkIdType first = begin_of(corner_ends, face), last = view(corner_ends)[face];
+        stream->InsertNextValue(last - first);
+        for (vtkIdType k = first; k < last; ++k) {
+          check_point_id(path(), StartCell + cell, view(corners)[k], NumberOfPoints[Piece]);
+          stream->InsertNextValue(StartPoint + view(corners)[k]);
+        }
+      }
+    }
+  }
+
+  // Reads n values of an array of the cells. Fails unless the file holds them.
+  Ids ids_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
+    vtkXMLDataElement *element = FindDataArrayWithName(cells, name);
+    const auto created = vtkSmartPointer<vtkAbstractArray>::Take(element ? CreateArray(element) : nullptr);
+    vtkDataArray *array = vtkDataArray::SafeDownCast(created);
+    if (!array || array->GetNumberOfComponents() != 1) fail_file(path(), "has polyhedra without ", name);
+    check_held(element, n, array);
+    array->SetNumberOfTuples(n);
+    if (n > 0 && !ReadArrayValues(element, 0, array, 0, n)) {
+      steps().rethrow();
+      fail_file(path(), "is damaged: array ", name, " cannot be read");
+    }
+    Ids ids(static_cast<std::size_t>(n));
+    for (vtkIdType i = 0; i < n; ++i) view(ids)[i] = id_at(array, i);
+    return ids;
+  }
+
+  Ids offsets_in(vtkXMLDataElement *cells, const char *name, vtkIdType n) {
+    Ids ends = ids_in(cells, name, n);
+    if (!std::is_sorted(ends.begin(), ends.end()) || (n > 0 && ends.front() < 0))
+      fail_file(path(), "has broken ", name);
+    return ends;
+  }
+};
+
+// Explains why a file could not be read. VTK 9.1 crashes while it writes its message about an unreadable array, so the first
+// reader ran with messages off. A second reader skips the arrays, and can therefore report any other fault.
+template <class Watched>
+[[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
+  vtkNew<Watched> reader;
+  reader->read(path, Watched::Data::without_arrays);
+  caught.check(path);
+  fail_file(path, "is damaged: not all of its arrays can be read");
+}
+
+// Reads a file with a watched XML reader. Compares the data set with the sizes that the file states.
+template <class Watched, class DataSet>
+vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &caught) {
+  vtkNew<Watched> reader;
+  vtkObject::SetGlobalWarningDisplay(0);
+  reader->read(path, Watched::Data::all);
+  vtkObject::SetGlobalWarningDisplay(1);
+  vtkSmartPointer<DataSet> data = reader->GetOutput();
+  if (reader->has_failed() || !data || data->GetNumberOfPoints() != reader->GetNumberOfPoints() ||
+      data->GetNumberOfCells() != reader->GetNumberOfCells()) {
+    explain_failure<Watched>(path, caught);
+  }
+  return data;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const CaughtOutput &caught) {
+  const std::int64_t n_cells = check_legacy(path);
+  vtkNew<vtkUnstructuredGridReader> reader;
+  reader->SetFileName(path.c_str());
+  // Without these calls, the reader would keep only one array of each kind.
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllNormalsOn();
+  reader->ReadAllTensorsOn();
+  reader->ReadAllColorScalarsOn();
+  reader->ReadAllTCoordsOn();
+  reader->ReadAllFieldsOn();
+  reader->Update();
+  caught.check(path);
+  vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
+  if (!grid) fail_file(path, "could not be read");
+  if (grid->GetNumberOfCells() != n_cells) {
+    fail_file(path, "gives ", grid->GetNumberOfCells(), " of the ", n_cells, " cells that it promises");
+  }
+  return grid;
+}
+
+}  // namespace
+
+void check_grid(const std::string &path, vtkUnstructuredGrid *grid) {
+  check_data_set(path, grid);
+  check_point_ids(path, grid->GetCells(), 0, grid->GetNumberOfPoints());
+  check_cell_sizes(path, grid);
+  check_polyhedra(path, grid);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const CaughtOutput &caught, Points points) {
+  const std::string ending = ending_of(path);
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
+  if (is_openfoam(path)) {
+    grid = read_openfoam(path);
+  } else if (ending == "vtu") {
+    check_xml(path, "UnstructuredGrid");
+    grid = read_xml<GridReader, vtkUnstructuredGrid>(path, caught);
+  } else if (ending == "vtk") {
+    grid = read_legacy(path, caught);
+  } else if (ending == "msh") {
+    grid = read_gmsh(path);
+  } else if (ending == "xdmf" || ending == "xmf") {
+    grid = read_xdmf(path);
+  } else if (ending == "e" || ending == "exo" || ending == "ex2" || ending == "exii") {
+    grid = read_exodus(path, caught);
+  } else if (ending == "vtm") {
+    grid = read_blocks(path, caught);
+  } else {
+    fail_file(path, "a mesh must be a .vtu, .vtk, .vtm, .msh, .xdmf or .exo file, or a case of OpenFOAM");
+  }
+  if (points == Points::may_be_missing && grid->GetNumberOfPoints() == 0 && grid->GetNumberOfCells() == 0) return grid;
+  check_grid(path, grid);
+  return grid;
+}
+
+vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught) {
+  check_xml(path, "PolyData");
+  vtkSmartPointer<vtkPolyData> data = read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkPolyData>(path, caught);
+  check_data_set(path, data);
+  if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
+    fail_file(path, "holds ", data->GetNumberOfVerts(), " vertices and ", data->GetNumberOfLines(),
+              " lines; a surface has faces only");
+  }
+  check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
+  check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
+  // VTK determines the types of the cells in this call.
+  data->BuildCells();
+  return data;
+}
+
+}  // namespace riis::vtk

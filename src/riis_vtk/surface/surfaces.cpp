@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "riis_vtk/surface/surfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkCellTypes.h>
+#include <vtkDoubleArray.h>
+#include <vtkIdList.h>
+#include <vtkMath.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolygon.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkTypeInt64Array.h>
+
+namespace riis::vtk {
+namespace {
+
+void add_triangle(std::vector<std::int64_t> &triangles, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
+  auto *list = const_cast<vtkIdList *>(ids);
+  triangles.insert(triangles.end(), {list->GetId(a), list->GetId(b), list->GetId(c)});
+}
+
+void cut_strip(const vtkIdList *ids, std::vector<std::int64_t> &triangles) {
+  // Every second triangle of a strip has the opposite winding.
+  for (vtkIdType i = 0; i + 2 < const_cast<vtkIdList *>(ids)->GetNumberOfIds(); ++i) {
+    add_triangle(triangles, ids, i, i % 2 == 0 ? i + 1 : i + 2, i % 2 == 0 ? i + 2 : i + 1);
+  }
+}
+
+void cut_polygon(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtkIdList *ids,
+                 std::vector<std::int64_t> &triangles) {
+  vtkNew<vtkPolygon> polygon;
+  polygon->Initialize(static_cast<int>(ids->GetNumberOfIds()), ids->GetPointer(0), data->GetPoints());
+  vtkNew<vtkIdList> corners;
+  const bool cut = polygon->Triangulate(corners) != 0;
+  if (!cut || corners->GetNumberOfIds() != 3 * (ids->GetNumberOfIds() - 2)) {
+    fail_file(path, "cell ", cell_id, " is a polygon that cannot be cut into triangles");
+  }
+  for (vtkIdType i = 0; i < corners->GetNumberOfIds(); i += 3) {
+    add_triangle(triangles, ids, corners->GetId(i), corners->GetId(i + 1), corners->GetId(i + 2));
+  }
+}
+
+// Returns twice the vector area of a triangle.
+std::array<double, 3> area_of(vtkPointSet *data, const vtkIdList *ids, vtkIdType a, vtkIdType b, vtkIdType c) {
+  auto *list = const_cast<vtkIdList *>(ids);
+  double p[3], q[3], r[3], area[3];
+  data->GetPoint(list->GetId(a), p);
+  data->GetPoint(list->GetId(b), q);
+  data->GetPoint(list->GetId(c), r);
+  vtkMath::Subtract(q, p, q);
+  vtkMath::Subtract(r, p, r);
+  vtkMath::Cross(q, r, area);
+  return {area[0], area[1], area[2]};
+}
+
+// Returns whether the diagonal from corner i to the opposite corner cuts a quad into two triangles that face the same way.
+bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
+  const std::array<double, 3> one = area_of(data, ids, i, i + 1, i + 2);
+  const std::array<double, 3> other = area_of(data, ids, i, i + 2, (i + 3) % 4);
+  return vtkMath::Dot(one.data(), other.data()) > 0;
+}
+
+// Both this file and the core cut quads from their first corner to their third. So if only the other diagonal lies inside the
+// quad, rotates the list of corners by one.
+void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
+  if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
+    std::rotate(ids->begin(), ids->begin() + 1, ids->end());
+  }
+}
+
+// Appends the triangles of one cell.
+void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtkIdList *ids,
+              std::vector<std::int64_t> &triangles) {
+  const int type = data->GetCellType(cell_id);
+  const vtkIdType n = ids->GetNumberOfIds();
+  if (type == VTK_TRIANGLE_STRIP && n >= 3) {
+    cut_strip(ids, triangles);
+  } else if (type == VTK_TRIANGLE || (type == VTK_POLYGON && n == 3)) {
+    add_triangle(triangles, ids, 0, 1, 2);
+  } else if (type == VTK_QUAD || (type == VTK_POLYGON && n == 4)) {
+    put_inner_diagonal_first(data, ids);
+    add_triangle(triangles, ids, 0, 1, 2);
+    add_triangle(triangles, ids, 0, 2, 3);
+  } else if (type == VTK_POLYGON && n > 4) {
+    cut_polygon(path, data, cell_id, ids, triangles);
+  } else {
+    fail_file(path, "cell ", cell_id, " is a ", vtkCellTypes::GetClassNameFromTypeId(type), " with ", n,
+              " points; a surface has triangles, quads, polygons and triangle strips");
+  }
+}
+
+bool holds_quads_only(vtkPointSet *data) {
+  for (vtkIdType cell_id = 0; cell_id < data->GetNumberOfCells(); ++cell_id) {
+    if (data->GetCellType(cell_id) != VTK_QUAD) return false;
+  }
+  return true;
+}
+
+// Returns one leaflet id for each cell, or none if the array is missing. Fails if it is missing and required.
+std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
+  const std::string name = "cell array " + wanted.name;
+  vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());
+  if (!abstract && wanted.is_required) fail_file(path, "has no ", name, list_of_arrays(data->GetCellData()));
+  if (!abstract) return {};
+  vtkDataArray *array = vtkDataArray::SafeDownCast(abstract);
+  if (!array || array->GetNumberOfComponents() != 1) fail_file(path, name, " must hold one number a cell");
+  if (array->GetNumberOfTuples() != data->GetNumberOfCells()) {
+    fail_file(path, name, " has ", array->GetNumberOfTuples(), " values for ", data->GetNumberOfCells(), " cells");
+  }
+  std::vector<std::int32_t> leaflets;
+  for (vtkIdType cell_id = 0; cell_id < data->GetNumberOfCells(); ++cell_id) {
+    const double value = array->GetTuple1(cell_id);
+    if (!(value >= 0 && value <= std::numeric_limits<std::int32_t>::max()) || value != std::floor(value)) {
+      fail_file(path, name, ": cell ", cell_id, " has ", std::to_string(value),
+                ", not a whole number from 0 to 2147483647");
+    }
+    leaflets.push_back(static_cast<std::int32_t>(value));
+  }
+  return leaflets;
+}
+
+// Returns a vertex's position as bits. Bits have an order even for NaN, which a file may contain. 0 and -0 give the same bits.
+std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
+  std::array<std::uint64_t, 3> bits;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double coordinate = faces.xyz[3 * vertex + k] + 0.0;
+    std::memcpy(&bits[k], &coordinate, sizeof coordinate);
+  }
+  return bits;
+}
+
+// Disjoint sets that can be joined. One member of each set represents the set.
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+
+  std::size_t find(std::size_t member) {
+    while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
+    return member;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+template <class Array, class Value>
+vtkSmartPointer<Array> array_of(const char *name, const Value *values, int n_components, int64_t n_tuples) {
+  const auto array = named_array<Array>(name, n_tuples, n_components);
+  std::copy_n(values, n_components * n_tuples, array->GetPointer(0));
+  return array;
+}
+
+void add_vertices(const riis_triangles &of, vtkPolyData *data) {
+  const int64_t n = of.n_vertices;
+  vtkNew<vtkPoints> points;
+  points->SetData(array_of<vtkDoubleArray>("Points", of.xyz, 3, n));
+  data->SetPoints(points);
+  if (of.uv) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(uv_array, of.uv, 2, n));
+  if (of.velocity) data->GetPointData()->AddArray(array_of<vtkDoubleArray>(velocity_array, of.velocity, 3, n));
+}
+
+void add_triangles(const riis_triangles &of, vtkPolyData *data) {
+  const auto &[n_vertices, xyz, uv, velocity, n, vertex_id, triangle_id, leaflet_id, patch_id] = of;
+  vtkNew<vtkCellArray> triangles;
+  triangles->AllocateExact(n, 3 * n);
+  for (int64_t i = 0; i < n; ++i) {
+    const vtkIdType corners[3] = {vertex_id[3 * i], vertex_id[3 * i + 1], vertex_id[3 * i + 2]};
+    triangles->InsertNextCell(3, corners);
+  }
+  data->SetPolys(triangles);
+  data->GetCellData()->AddArray(array_of<vtkTypeInt32Array>(leaflet_array, leaflet_id, 1, n));
+  data->GetCellData()->AddArray(array_of<vtkTypeInt32Array>(patch_array, patch_id, 1, n));
+  data->GetCellData()->AddArray(array_of<vtkTypeInt64Array>(triangle_array, triangle_id, 1, n));
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface) {
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  riis_triangles triangles{};
+  check_core(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
+  add_vertices(triangles, data);
+  add_triangles(triangles, data);
+  return data;
+}
+
+std::vector<double> coordinates_of(vtkPointSet *data) {
+  const vtkIdType n = data->GetNumberOfPoints();
+  std::vector<double> xyz(static_cast<std::size_t>(3 * n));
+  for (vtkIdType i = 0; i < n; ++i) data->GetPoint(i, xyz.data() + 3 * i);
+  return xyz;
+}
+
+Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
+  if (data->GetNumberOfCells() == 0) fail_file(path, "holds no faces");
+  const std::vector<std::int32_t> leaflets = leaflets_of_cells(path, data, wanted);
+  Faces faces;
+  faces.xyz = coordinates_of(data);
+  faces.corners_per_face = holds_quads_only(data) ? 4 : 3;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell_id = 0; cell_id < data->GetNumberOfCells(); ++cell_id) {
+    data->GetCellPoints(cell_id, ids);
+    if (faces.corners_per_face == 4) {
+      put_inner_diagonal_first(data, ids);
+      faces.vertex_ids.insert(faces.vertex_ids.end(), ids->begin(), ids->end());
+    } else {
+      cut_cell(path, data, cell_id, ids, faces.vertex_ids);
+    }
+    const std::size_t n_faces = faces.vertex_ids.size() / static_cast<std::size_t>(faces.corners_per_face);
+    if (!leaflets.empty()) faces.leaflet_id.resize(n_faces, leaflets[static_cast<std::size_t>(cell_id)]);
+  }
+  return faces;
+}
+
+std::vector<std::size_t> places_of(const Faces &faces) {
+  const std::size_t n = faces.xyz.size() / 3;
+  std::vector<std::size_t> order(n), places(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return place_of(faces, a) < place_of(faces, b); });
+  for (std::size_t i = 1; i < n; ++i)
+    places[order[i]] = places[order[i - 1]] + (place_of(faces, order[i]) == place_of(faces, order[i - 1]) ? 0 : 1);
+  return places;
+}
+
+std::vector<std::int32_t> pieces_of(const Faces &faces) {
+  const std::vector<std::size_t> places = places_of(faces);
+  const auto n_corners = static_cast<std::size_t>(faces.corners_per_face);
+  const std::size_t n_faces = faces.vertex_ids.size() / n_corners;
+  const auto place = [&](std::size_t corner) { return places[static_cast<std::size_t>(faces.vertex_ids[corner])]; };
+  Sets sets(places.size());
+  for (std::size_t face = 0; face < n_faces; ++face)
+    for (std::size_t k = 1; k < n_corners; ++k) sets.join(place(n_corners * face), place(n_corners * face + k));
+  std::vector<std::int32_t> piece_of_set(places.size(), -1), pieces(n_faces);
+  std::int32_t n_pieces = 0;
+  for (std::size_t face = 0; face < n_faces; ++face) {
+    std::int32_t &piece = piece_of_set[sets.find(place(n_corners * face))];
+    if (piece < 0) piece = n_pieces++;
+    pieces[face] = piece;
+  }
+  return pieces;
+}
+
+void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size) {
+  check_core(riis_surface_arrays_init(arrays, struct_size));
+  const double *const xyz = faces.xyz.data();
+  arrays->n_vertices = static_cast<int64_t>(faces.xyz.size() / 3);
+  arrays->x = xyz;
+  arrays->y = xyz + 1;
+  arrays->z = xyz + 2;
+  arrays->stride = 3;
+  arrays->n_faces = static_cast<int64_t>(faces.vertex_ids.size()) / faces.corners_per_face;
+  arrays->vertex_ids = faces.vertex_ids.data();
+  arrays->id_bits = 64;
+  arrays->corners_per_face = faces.corners_per_face;
+  arrays->leaflet_id = faces.leaflet_id.empty() ? nullptr : faces.leaflet_id.data();
+}
+
+}  // namespace riis::vtk

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a file with a surface, or a surface of the core, into a data set. From a data set, makes plain arrays for the core with
+// a leaflet id for each face, and finds the connected pieces of faces.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include <vtkPointSet.h>
+
+#include "riis_vtk/base/files.hpp"
+
+class vtkPolyData;
+
+namespace riis::vtk {
+
+// Reads a .vtp, .vtu or .stl file. Checks all cells, as faces_of requires.
+vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
+
+// Returns exactly the triangles of the surface, with points in double precision and the arrays that riis_vtk.h names.
+vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface);
+
+// Faces as plain arrays: quads if the data set has only quads, and otherwise triangles.
+struct Faces {
+  std::vector<double> xyz;  // (3, n_vertices), all points, used or not
+  // (corners_per_face, n_faces); the diagonal from a quad's first corner to its third lies inside the quad
+  std::vector<std::int64_t> vertex_ids;
+  std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set has no leaflet ids
+  std::int32_t corners_per_face = 3;
+};
+
+// Returns the positions of all points, (3, n).
+std::vector<double> coordinates_of(vtkPointSet *data);
+
+// Names the cell array with the leaflet ids of the faces.
+struct LeafletArray {
+  // `given` is the name of the array that the caller chose, which must exist. NULL means riis_leaflet, which may be missing.
+  explicit LeafletArray(const char *given) : name(given ? given : leaflet_array), is_required(given != nullptr) {}
+
+  std::string name;
+  bool is_required;
+};
+
+// Converts a data set of triangles, quads, polygons and triangle strips to faces. The cells must have been checked. The path is
+// only used in messages.
+Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
+
+// Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
+// their coordinates are exactly equal.
+std::vector<std::size_t> places_of(const Faces &faces);
+
+// Returns the piece that every face belongs to. Pieces are numbered in the order of their first faces. Faces are connected if
+// they share a vertex or have vertices with exactly equal coordinates.
+std::vector<std::int32_t> pieces_of(const Faces &faces);
+
+// Fills the caller's struct with the arrays of the faces. struct_size is the size that the struct has in the caller's release of
+// riis.h.
+void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size);
+
+// Motions.
+// In: files of a surface at several times, or one file with displacements. Out: the faces of the first file, and the positions
+// of the vertices at all times.
+
+inline constexpr std::int64_t most_frames = 1'000'000;  // the limit of riis_keyframe_arrays
+
+inline bool is_time(double time) { return std::abs(time) <= 1e30; }  // the limit of riis_keyframe_arrays
+
+struct Frames {
+  Faces faces;                // with the vertices of the first frame
+  std::vector<double> times;  // (n_keys)
+  std::vector<double> xyz;    // (3, n_vertices, n_keys)
+};
+
+// Reads a file for each time. Fails if a file has other cells than the first one, or if a coordinate is not finite. In .stl
+// files, corners at the same position in the first file become one vertex. In each other file, these corners must also share one
+// position.
+Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
+                       const CaughtOutput &caught);
+
+// Reads the frames from point arrays of displacements in one file. Each array's name is the prefix, then "_" or nothing, then a
+// number. The frames are in the order of these numbers. If `times` is NULL, the times come from the field array TimeValue.
+Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
+                               const LeafletArray &leaflets, const CaughtOutput &caught);
+
+}  // namespace riis::vtk
