@@ -253,10 +253,6 @@ module riis_c
     real(c_double) :: error_bound            !< the most by which a point's distances to the triangles and to the smooth
                                              !! valve can differ; at most tolerance * half_thickness. 0 for a surface
                                              !! from arrays
-    real(c_double) :: velocity_error_bound   !< the most by which a velocity on a triangle can differ from the smooth
-                                             !! valve's at the same patch, u and v. The first call after a moving update
-                                             !! computes it, which takes about as long as the update. 0 without a
-                                             !! motion, and for arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
   end type riis_surface_info
 
@@ -785,12 +781,6 @@ module riis_c
       implicit none
       type(c_ptr) :: text
     end function riis_last_error
-
-    subroutine riis_get_version(major, minor, patch) bind(c, name='riis_get_version')
-      import :: c_int32_t
-      implicit none
-      integer(c_int32_t), intent(out), optional :: major, minor, patch
-    end subroutine riis_get_version
 
     !> For riis_c_text.
     function riis_version_string() result(text) bind(c, name='riis_version_string')
@@ -1829,19 +1819,6 @@ module riis_c
       real(c_double), intent(inout) :: volume
       integer(riis_status) :: status
     end function riis_valve_get_swept_volume
-
-    !>   options  if left out: all defaults
-    function riis_keyframes_get_swept_volume(keyframes, time_from, time_to, options, leaflet_id, volume) &
-        result(status) bind(c, name='riis_keyframes_get_swept_volume')
-      import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options
-      implicit none
-      type(c_ptr), value :: keyframes
-      real(c_double), value :: time_from, time_to
-      type(riis_surface_options), intent(in), optional :: options
-      integer(c_int32_t), value :: leaflet_id
-      real(c_double), intent(inout) :: volume
-      integer(riis_status) :: status
-    end function riis_keyframes_get_swept_volume
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Landmarks

@@ -104,9 +104,7 @@ RIIS_API const char *riis_status_name(riis_status status);
  * if no call has failed, never NULL. The library owns it; it is valid until the thread's next failed call. */
 RIIS_API const char *riis_last_error(void);
 
-/* Gives the version of the linked library, not of this header. Any pointer may be NULL. */
-RIIS_API void riis_get_version(int32_t *major, int32_t *minor, int32_t *patch);
-/* Returns the version of the linked library as static text, such as "1.0.0". */
+/* Returns the version of the linked library, not of this header, as static text such as "1.0.0". */
 RIIS_API const char *riis_version_string(void);
 
 /* Receives messages, in the thread whose call sends them. It must not call the library, throw or jump out.
@@ -482,9 +480,6 @@ typedef struct riis_surface_info {
                                 minimisation. Embree's tree is built by the first query that needs it */
   double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
                                 can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
-  double velocity_error_bound; /* the most by which a velocity on a triangle can differ from the smooth valve's
-                                at the same patch, u and v. The first call after a moving update computes it,
-                                which takes about as long as the update. 0 without a motion, and for arrays */
   int64_t largest_leaflet_id; /* of the triangles */
 } riis_surface_info;
 /* Gives the size of the surface, and the seconds that it took. */
@@ -1377,15 +1372,6 @@ enum {
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,
                                                  double *volume);
-/* Gives the volume that keyframes sweep between two times. The other arguments are those of
- * riis_valve_get_swept_volume. With linear interpolation the volume is exact up to rounding.
- *   time_from, time_to  finite, magnitude at most 1e30
- * Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has; RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys
- * between the times. */
-RIIS_API riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyframes, double time_from,
-                                                     double time_to, const riis_surface_options *options,
-                                                     int32_t leaflet_id, double *volume);
-
 /* ---- Landmarks: a valve's sizes and placement from points that a person marks in an image ----------------- */
 
 /* What a landmark marks. Landmarks are those of the closed valve. */

@@ -13,7 +13,6 @@ import sys
 # Functions of riis.h, and the names through which the package calls them.
 BOUND = {
     "riis_status_name": "status_name",
-    "riis_get_version": "version",
     "riis_version_string": "version_string",
     "riis_set_log": "set_log",
     "riis_last_error": "Error",
@@ -93,7 +92,6 @@ BOUND = {
     "riis_find_first_passage": "find_first_passage",
     "riis_marks_get_cells_across": "Marks.cells_across",
     "riis_valve_get_swept_volume": "Valve.swept_volume",
-    "riis_keyframes_get_swept_volume": "Keyframes.swept_volume",
     "riis_place": "place",
     "riis_opening_from_table": "OpeningTable.opening_and_rate",
     "riis_opening_from_times": "OpeningTimes.opening_and_rate",

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/velocity_bound.hpp"
+#include "velocity_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <utility>
 
-#include "common/array_view.hpp"
+#include "api/handles.hpp"
+#include "api/surface_options.hpp"
 #include "geometry/curve_points.hpp"
 #include "surface/displacement.hpp"
 
 namespace riis {
 namespace {
+
+// The two states that the velocities were computed from.
+struct TwoStates {
+  const PatchSet &now;
+  PatchSet before;
+  Placement placement, placement_before;
+  double seconds;
+};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -305,8 +315,67 @@ double largest_curvature(const Curve &curve) {
   return largest;
 }
 
+double size_of(double x) { return std::abs(x); }
+double size_of(Vec3 x) { return length(x); }
+
+// Bounds the sizes of a value and of its first two derivatives on [0, 1].
+struct Sizes {
+  double size = 0, slope = 0, bend = 0;
+};
+
+// Returns the sizes of the polynomial through values at n_material nodes.
+template <class T>
+Sizes sizes_of(const std::array<double, n_material> &nodes, std::array<T, n_material> factors) {
+  constexpr std::size_t n = n_material - 1;
+  // From the values to Newton's form, to powers of x, and from there to the control points of a Bézier curve, which bound it.
+  for (std::size_t order = 1; order <= n; ++order)
+    for (std::size_t i = n; i >= order; --i)
+      factors[i] = (1 / (nodes[i] - nodes[i - order])) * (factors[i] - factors[i - 1]);
+  std::array<T, n_material> power{}, control{};
+  power[0] = factors[n];
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = n; k > 0; --k) power[k] = power[k - 1] - nodes[i] * power[k];
+    power[0] = factors[i] - nodes[i] * power[0];
+  }
+  Sizes made;
+  for (std::size_t j = 0; j <= n; ++j) {
+    double share = 1;  // binomial(j, k) / binomial(n, k)
+    for (std::size_t k = 0; k <= j; ++k) {
+      control[j] = control[j] + share * power[k];
+      share *= static_cast<double>(j - k) / static_cast<double>(n - k);
+    }
+    made.size = std::max(made.size, size_of(control[j]));
+    if (j > 0) made.slope = std::max(made.slope, static_cast<double>(n) * size_of(control[j] - control[j - 1]));
+    if (j > 1)
+      made.bend = std::max(made.bend, static_cast<double>(n * (n - 1)) *
+                                          size_of((control[j] - control[j - 1]) - (control[j - 1] - control[j - 2])));
+  }
+  return made;
+}
+
+// Returns the sizes of a polynomial of this degree that is given as a function.
+template <class Rest>
+Sizes sizes_of(const Rest &rest) {
+  std::array<double, n_material> nodes{};
+  std::array<Vec3, n_material> values{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    nodes[k] = static_cast<double>(k) / static_cast<double>(n_material - 1);
+    values[k] = rest(nodes[k]);
+  }
+  return sizes_of(nodes, values);
+}
+
+// Returns the sizes of a side's slide: the share before minus the share now.
+Sizes sizes_of_slide(const SideMaterial &material) {
+  const std::array<double, n_material> &nodes = material.nodes();
+  const Vector<double> before = material.shares_before(Vector<double>(nodes.begin(), nodes.end()));
+  std::array<double, n_material> slide{};
+  for (std::size_t k = 0; k < n_material; ++k) slide[k] = before[k] - nodes[k];
+  return sizes_of(nodes, slide);
+}
+
 // Bounds the distance from linear on a range of a function whose value and derivatives are bounded.
-double off_line(double width, const Through<Vec3>::Bounds &of) {
+double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
@@ -316,13 +385,13 @@ class AddedByMaterial {
   // `third` bounds the third derivative of C by the share. It may be infinite.
   AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
     if (!material.is_warped()) return;
-    const auto slide = material.slide_bounds();
+    const Sizes slide = sizes_of_slide(material);
     const double length = before.length(), shift = length * slide.size;
     const double second = length > 0 ? length * length * largest_curvature(before) : 0;
     const double turn = length > 0 ? std::min(2 * length, second * slide.size) : 0;
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
-    rest_ = material.rest_bounds();
+    rest_ = sizes_of([&](double share) { return material.rest(share); });
     // Between a joint and its slid place, the second derivatives are those of two pieces.
     of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
   }
@@ -336,7 +405,7 @@ class AddedByMaterial {
   }
 
  private:
-  Through<Vec3>::Bounds bounds_{0, 0, 0}, rest_{0, 0, 0};
+  Sizes bounds_, rest_;
   double of_joints_ = 0;
 };
 
@@ -449,8 +518,8 @@ class SlidOffset {
  public:
   SlidOffset(const SideMaterial &on_base, const SideMaterial &on_edge, const Curve &base, const Curve &edge) {
     if (!on_base.is_warped() || !on_edge.is_warped()) return;
-    const double shift = base.length() * on_base.slide_bounds().size;
-    width_ = shift + edge.length() * on_edge.slide_bounds().size;
+    const double shift = base.length() * sizes_of_slide(on_base).size;
+    width_ = shift + edge.length() * sizes_of_slide(on_edge).size;
     turn_ = base.length() > 0 ? std::min(2.0, shift * largest_curvature(base)) : 0;
   }
 
@@ -471,7 +540,8 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
   const MovedPatch moved{states.now, states.before, patch};
   const SideMaterial material_of_base(moved, &Patch::v0), material_of_edge(moved, &Patch::v1);
   const SlidOffset slid(material_of_base, material_of_edge, base.before, edge.before);
-  const auto rest = rest_of_offsets(moved, material_of_base, material_of_edge).bounds();
+  const Through<Vec3> rest_of = rest_of_offsets(moved, material_of_base, material_of_edge);
+  const Sizes rest = sizes_of([&](double share) { return rest_of.at(share); });
   const double factor = states.now.patches[patch].bulge, factor_before = states.before.patches[patch].bulge;
   const Both of_factor{larger(std::abs(factor), std::abs(factor_before)), std::abs(factor - factor_before)};
   const Vector<double> at_lines = shares_of(lines, &GridLine::middle);
@@ -511,6 +581,33 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
   return made;
 }
 
+// Returns how far the offset O of a patch of arcs moves at these u.
+Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoCurves &base, const TwoCurves &edge,
+                          const Vector<double> &u) {
+  const MovedPatch moved{states.now, states.before, patch};
+  const SideMaterial on_base(moved, &Patch::v0), on_edge(moved, &Patch::v1);
+  const bool is_warped = on_base.is_warped() && on_edge.is_warped();
+  const Vector<double> u_base = is_warped ? on_base.shares_before(u) : u,
+                       u_edge = is_warped ? on_edge.shares_before(u) : u;
+  Vector<Vec3> made = arc_offsets(states.now, states.now.patches[patch], CurvePoints(base.now, false, u),
+                                  CurvePoints(edge.now, false, u));
+  const Vector<Vec3> before =
+      arc_offsets(states.before, states.before.patches[patch], CurvePoints(base.before, false, u_base),
+                  CurvePoints(edge.before, false, u_edge));
+  const Through<Vec3> rest = rest_of_offsets(moved, on_base, on_edge);
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i] + rest.at(u[i]);
+  return made;
+}
+
+// Bounds the distance from linear, on a range of u or of v, of the part that a map adds inside a warped Coons patch. On [0, 1],
+// the sum of the sizes of the second derivatives of its polynomials is at most 81, and that of their values at most 1.3.
+double off_linear(const RestInside &rest, double width) {
+  double size = 0;
+  for (const double u : {1. / 3, 2. / 3})
+    for (const double v : {1. / 3, 2. / 3}) size = std::max(size, length(rest.at(u, v)));
+  return 0.125 * width * width * 106 * size;
+}
+
 // Bounds of the errors of a patch's displacements and points, at equal (u, v), before any image is placed.
 struct PatchErrors {
   double displacement = 0, point = 0;
@@ -527,7 +624,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   Vector<double> at_u0(grid.v.size() - 1, 0), at_u1 = at_u0, offset(grid.u.size() - 1, 0), rows = offset;
   if (has_arcs) {
     offset = offset_off_linear(states, patch, v0, v1, grid.lines.u);
-    const Vector<Vec3> moves = motion.offset_moves();
+    const Vector<Vec3> moves = offset_moves(states, patch, v0, v1, shares_of(grid.lines.u, &GridLine::middle));
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) rows[i] = larger_of(moves[i], moves[i + 1]);
   } else {
     at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
@@ -544,7 +641,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i] +
-                   rest.off_linear(width) + rest.off_linear(row);
+                   off_linear(rest, width) + off_linear(rest, row);
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;
@@ -564,20 +661,38 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   return made;
 }
 
-}  // namespace
+// Bounds the error of a velocity of an image, from the errors of its displacement and of its point.
+double velocity_error(const ImageMotion &image, const TwoStates &states, const PatchErrors &errors) {
+  const auto of_rest = [&](Vec3 p) { return image.velocity(p, {0, 0, 0}); };
+  const Vec3 offset = of_rest({0, 0, 0});
+  double square = 0;  // of the Frobenius norm of the map that takes a point at rest to its velocity
+  for (const Vec3 &unit : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    const Vec3 column = of_rest(unit) - offset;
+    square += dot(column, column);
+  }
+  return states.placement_before.scale * errors.displacement / std::abs(states.seconds) +
+         std::sqrt(square) * (errors.point + states.now.deviation);
+}
 
-double velocity_error_bound(const TwoStates &states, const Vector<LevelledGrid> &grids) {
-  const Motion motion{states.before, states.placement_before, states.seconds};
+}  // namespace
+}  // namespace riis
+
+double velocity_error_bound(const riis_surface *surface, const riis_valve *valve, const riis_valve *before,
+                            double seconds, const riis_surface_options *options_before) {
+  const riis::Surface &content = riis::content_of(surface);
+  const riis::Placement &placement = content.frame()->placement;
+  const riis::TwoStates states{*content.patches(), valve->valve.make_patches_before(before->valve, nullptr), placement,
+                               options_before ? riis::placement_of(*options_before) : placement, seconds};
+  const riis::Motion motion{states.before, states.placement_before, states.seconds};
+  const auto &grids = content.triangles().grids;
   double bound = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
-    const PatchErrors errors = errors_of(states, i, grids[i]);
-    const Patch &patch = states.now.patches[i];
+    const riis::PatchErrors errors = riis::errors_of(states, i, grids[i]);
+    const riis::Patch &patch = states.now.patches[i];
     for (std::size_t k = 0; k < patch.images.size(); ++k) {
-      const ImageMotion image(patch.images[k], states.before.patches[i].images[k], states.placement, motion);
-      bound = larger(bound, image.velocity_error(errors.displacement, errors.point + states.now.deviation));
+      const riis::ImageMotion image(patch.images[k], states.before.patches[i].images[k], placement, motion);
+      bound = riis::larger(bound, riis::velocity_error(image, states, errors));
     }
   }
   return bound * (1 + 1e-9);
 }
-
-}  // namespace riis
