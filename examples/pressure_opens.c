@@ -6,11 +6,11 @@
 #include <stdlib.h>
 
 enum { n = 33, n_nodes = n * n * n, n_steps = 6 };
-static double xyz[3 * n_nodes];    /* [m] a cube of 4 cm around the valve, a node every 1.25 mm */
-static double pressure[n_nodes];   /* [Pa] */
-static double volume[n_nodes];     /* [m^3] around each node; 0 for nodes of other ranks */
-static const double eps = 1.5e-3;  /* [m] the half thickness */
-static const double dt = 0.01;     /* [s] */
+static double xyz[3 * n_nodes];   /* [m] a cube of 4 cm around the valve, a node every 1.25 mm */
+static double pressure[n_nodes];  /* [Pa] */
+static double volume[n_nodes];    /* [m^3] around each node; 0 for nodes of other ranks */
+static const double eps = 1.5e-3; /* [m] the half thickness */
+static const double dt = 0.01;    /* [s] */
 
 static void check(riis_status status) {
   if (status == RIIS_OK) return;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 
 enum { n = 21, n_nodes = n * n * n, n_fields = 4, n_steps = 3 };
-static float xyz[3 * n_nodes];            /* [m] the nodes, every millimetre of a cube of 2 cm */
-static double cell[n_fields * n_nodes];   /* the fields of each node side by side; K is the last of the four */
+static float xyz[3 * n_nodes];          /* [m] the nodes, every millimetre of a cube of 2 cm */
+static double cell[n_fields * n_nodes]; /* the fields of each node side by side; K is the last of the four */
 static float leaflet[12] = {-0.009f, -0.009f, 0, 0.009f, -0.009f, 0, 0.009f, 0.009f, 0, -0.009f, 0.009f, 0};
 static const int32_t triangles[6] = {0, 1, 2, 0, 2, 3};
 
@@ -63,8 +63,8 @@ int main(void) {
   fields.K_stride = n_fields; /* K of the next node lies four numbers further */
 
   for (int step = 0; step < n_steps; ++step) {
-    for (int i = 0; i < 4; ++i) leaflet[3 * i + 2] = 0.002f * (float)step;        /* the leaflet rises */
-    for (int i = 0; i < n_nodes; ++i) xyz[3 * i + 2] += step > 0 ? 0.0005f : 0;   /* and so does the mesh */
+    for (int i = 0; i < 4; ++i) leaflet[3 * i + 2] = 0.002f * (float)step;      /* the leaflet rises */
+    for (int i = 0; i < n_nodes; ++i) xyz[3 * i + 2] += step > 0 ? 0.0005f : 0; /* and so does the mesh */
     check(riis_surface_update_from_arrays(surface, &arrays, NULL));
     check(riis_mesh_update_copy(mesh, &nodes));
     check(riis_mark_nodes(surface, mesh, NULL, marks));
