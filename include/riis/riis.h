@@ -80,7 +80,7 @@ extern "C" {
 
 /* ---- Status, errors, log, version ---------------------------------------------------------------------- */
 
-/* What a call returns. Values are part of the ABI and never change; new ones are appended at either end. */
+/* What a call returns. Values are part of the ABI and never change. New ones are appended at either end. */
 typedef int32_t riis_status;
 /* Values of riis_status. */
 enum {
@@ -100,8 +100,8 @@ enum {
 /* Returns the status's own name, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
 RIIS_API const char *riis_status_name(riis_status status);
 
-/* Returns the message of the calling thread's last failed call, which names the argument and its value. It is ""
- * if no call has failed, never NULL. The library owns it; it is valid until the thread's next failed call. */
+/* Returns the message of the calling thread's last failed call. The message names the argument and its value. It is ""
+ * if no call has failed, and never NULL. It is valid until the thread's next failed call, and the library owns it. */
 RIIS_API const char *riis_last_error(void);
 
 /* Returns the version of the linked library, not of this header, as static text such as "1.0.0". */
@@ -117,12 +117,13 @@ enum {
   RIIS_LOG_INFO = 0,   /* what was built and how large */
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
-/* Sets the log function of the process; NULL, the default, means no log. Any thread may call riis_set_log. A message
- * that another thread is sending may still reach the previous function. With a log function, surfaces are searched
- * for crossings (riis_find_crossings) if the caller chose the valve's parameters, patches or open state. Each such
- * shape is searched at its first opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1,
- * until a warning is logged for the shape. The search takes longer than an update.
- *   user_data  passed to the function; must stay valid as long as the function is set */
+/* Sets the log function of the process. Any thread may call riis_set_log.
+ *   function   receives the messages; NULL, the default, means no log
+ *   user_data  passed to the function; it must stay valid as long as the function is set
+ * A message that another thread is sending may still reach the previous function.
+ * A log function also makes the library search surfaces for crossings (riis_find_crossings). It searches a shape whose
+ * parameters, patches or open state the caller chose. The search takes longer than an update. It runs at the shape's first
+ * opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1. It ends with the shape's first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* Stands for the value of another quantity, which the field's comment names. */
@@ -144,48 +145,51 @@ RIIS_API riis_status riis_points_init(riis_points *points, int64_t struct_size);
 /* A parametric valve: its kind and its parameters' values. riis_surface_create makes the geometry. */
 typedef struct riis_valve riis_valve;
 
-/* Makes a valve with the default parameter values, which are the paper's for "aortic" and "mitral".
- *   kind  "aortic", the paper's three cusps, "mitral", two leaflets, "coapting", three equal cusps with a zone of
- *         coaptation, "trileaflet", three equal cusps that close in straight lines, or "bileaflet", a mechanical
- *         prosthesis (docs/theory.md); any other is RIIS_INVALID_PARAMETER */
+/* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
+ *   kind  one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
+ *         "aortic", the paper's three cusps
+ *         "mitral", two leaflets
+ *         "coapting", three equal cusps with a zone of coaptation
+ *         "trileaflet", three equal cusps that close in straight lines
+ *         "bileaflet", a mechanical prosthesis */
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
 /* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
-/* Sets a parameter by its name in the paper. To move a valve, set "opening" and call riis_surface_update.
- *   name      such as "root_radius" of a valve, "right.leaflet_angle" of one cusp ("right", "left",
- *             "non_coronary"), "leaflet_angle" of all three
+/* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
+ *   name      such as "root_radius". A name such as "right.leaflet_angle" is that of one cusp ("right", "left",
+ *             "non_coronary"), and "leaflet_angle" stands for all three
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
- *   values    (n_values), within the parameter's range; riis_surface_create checks whether the values fit together
- * "skirt_length" gives any valve except "bileaflet" a skirt: a strip outwards from the attachment, which closes the gap
- * to the wall (docs/theory.md, "Skirt"). The open state's own value is ignored. "skirt_length" is 0, the default, or
- * 1e-4 to 10 times the attachment's mean distance from its axis.
- * "opening", 0 to 1, is the coefficient of motion from a closed to an open state. One set of parameters makes
- * both states. The default is 1 (open) for the mitral valve, 0 for others. The aortic valve at 0 has the paper's
- * state, which leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state.
+ *   values    (n_values), within the parameter's range
+ * Two parameters change the whole valve:
+ * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters makes both states. The
+ *   default is 1 (open) for the mitral valve, and 0 for others. The aortic valve at 0 has the paper's state, which
+ *   leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state. To move a valve, set
+ *   "opening" and call riis_surface_update.
+ * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip outwards from the attachment, and
+ *   closes the gap to the wall (docs/theory.md, "Skirt"). The length is 0, the default, or 1e-4 to 10 times the
+ *   attachment's mean distance from its axis. The value of an open state is ignored.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
 /* Sets a parameter that has one value. Arguments and errors as riis_valve_set. */
 RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
-/* Copies a parameter's values to the caller's array; arguments as in riis_valve_set.
+/* Copies a parameter's values to the caller's array. Arguments as riis_valve_set.
  * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
 /* Sizes by a surgeon's names, and sizes that follow from others (docs/theory.md, section 3). Three names stand for
- * parameters in riis_valve_set, riis_valve_get and the two functions below. A kind without such a size refuses its
- * name, and says why:
+ * parameters. A kind without such a size refuses its name, and says why:
  *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
  *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
  *                     (coapting)
  *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). It is a
  *                     parameter of the coapting valve, for the middle of the edges
- * Some parameters have a rule: unless they are set, they follow from other parameters at every time, so the order
- * of calls does not matter. riis_valve_get gives their present values. A value that is set stays. Copies and open
- * states keep the difference between set and not set. A valve whose parameters are all set has the same shape. */
+ * Some parameters have a rule: they follow from other parameters until they are set. The order of calls does not matter.
+ * riis_valve_get gives their present values. Copies and open states keep the difference between set and not set. */
 
 /* Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
  *   name  as in riis_valve_set
@@ -197,20 +201,22 @@ RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
  * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
-/* Gives the valve a second state: opening 0 is then the valve's own state, opening 1 that of the valve `open`.
- * Between them, control points are blended linearly (docs/theory.md, section 5). A bileaflet valve blends lengths and
- * angles instead. The middle of a coapting cusp's free edge hangs as deep as the edge's length requires. A second call
- * replaces the state. No call removes it. A mitral, trileaflet or coapting valve takes its closed shape from its own
- * parameters and its open shape from the parameters of `open`.
- *   open  a valve of the same kind, which is copied. From patches, it has the same curves, sides and degrees (1 may
- *         stand for 2). Either both bileaflet valves have a ring or neither. Opening, leaflet ids, open state: ignored
+/* Gives the valve a second state: opening 0 is then the valve's own state, and opening 1 is the state of the valve `open`.
+ *   open  a valve of the same kind, which is copied. Its opening, leaflet ids and open state are ignored. From patches, it
+ *         has the same curves, sides and degrees (1 may stand for 2). Either both bileaflet valves have a ring or neither
+ * A second call replaces the state. No call removes it. Between the states control points are blended linearly
+ * (docs/theory.md, section 5). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge
+ * hangs as deep as the edge's length requires. A mitral, trileaflet or coapting valve takes its closed shape from its own
+ * parameters, and its open shape from those of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
 /* The caller's own valve, such as a prosthesis: Coons patches, each given by four boundary curves (paper, 3.3).
- * The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1. The sides u = 0 and u = 1 run from the
- * side v = 0 to the side v = 1. Sides must meet at corners to 1e-9 of the valve's size. A side may be a single
- * point. Normals point along S_u x S_v. Patches that name the same curve meet without cracks. */
+ * - The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1.
+ * - The sides u = 0 and u = 1 run from the side v = 0 to the side v = 1.
+ * - Sides must meet at corners to 1e-9 of the valve's size. A side may be a single point.
+ * - Normals point along S_u x S_v.
+ * - Patches that name the same curve meet without cracks. */
 typedef struct riis_patches {
   int64_t struct_size;       /* set by the init function */
   int64_t n_curves;          /* 1 to 4,000,000; each is a side of a patch */
@@ -250,10 +256,35 @@ RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
+/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, the
+ * arrays are those of riis_patches, and make the same shape. Trileaflet and aortic valves and valves from patches have
+ * as many pieces as curves. */
+typedef struct riis_valve_patches {
+  int64_t n_curves;           /* curves; each is a side of a patch */
+  int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
+  const int64_t *first_piece; /* (n_curves + 1): the pieces of curve i are first_piece[i] to first_piece[i + 1] - 1 */
+  const int32_t *degree;      /* (n_pieces): 2 or 3 */
+  const double *control;      /* (3, sum of all degree + 1): control points, piece after piece */
+  int64_t n_patches;          /* the number of patches */
+  const int32_t *curve_id;    /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
+  const int32_t *reversed;    /* (4, n_patches): 1 if the side runs against its curve, else 0 */
+  const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
+  const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
+  const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
+  const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
+                                 v = 1. With the width W and the unit tangent T of the side v = 0, its middle control
+                                 point lies bulge |W| unit(W x T) beside the middle of the straight line */
+} riis_valve_patches;
+/* Gives the curves and patches of a valve at its opening. The arrays are valid until the valve's next call that is not
+ * const. Points of a side are labelled by their share of its length. All normals S_u x S_v point as in riis_surface_create.
+ * A mitral patch has a bulge, so a Coons patch of its sides differs from it.
+ * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
+RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
+
 /* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
-/* Triangles with a half thickness. The first query that needs it builds their Embree scene, also if several threads
- * query at once. A surface borrows nothing from the caller. */
+/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs it builds the
+ * triangles' Embree scene, also if several threads query at once. */
 typedef struct riis_surface riis_surface;
 
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
@@ -277,10 +308,10 @@ enum {
   RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
 };
 
-/* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison
- * with the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
- * e = measure_tolerance * half_thickness (docs/theory.md, section 9). Their closest point has the leaflet_id of
- * its patch, the normal of S (0 0 0 where S has none), triangle_id -1, barycentric 0 and side 0. They refuse arrays
+/* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison with
+ * the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
+ * e = measure_tolerance * half_thickness (docs/theory.md, section 9). Their closest point has the leaflet_id of its patch,
+ * the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. Calls with these measures refuse arrays
  * for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
 enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
@@ -293,16 +324,16 @@ enum {
 /* How the smooth valve is cut into triangles. */
 enum {
   RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
-  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening, chosen by the first
-                                     call with this option. After it only opening and placement may change:
-                                     RIIS_INVALID_PARAMETER names any other parameter that changed, and
-                                     RIIS_LIMIT_EXCEEDED refuses an opening where the tolerance does not hold.
+  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening. The first call with this option
+                                     chooses them. After it only opening and placement may change:
+                                     RIIS_INVALID_PARAMETER names any other parameter that changed.
+                                     RIIS_LIMIT_EXCEEDED refuses an opening at which the tolerance does not hold.
                                      A triangle without area is left out, and its id is not reused. An update
                                      with RIIS_TRIANGULATION_ADAPTED forgets the choice. Vertices of mitral or
                                      warped valves slide along the surface, and velocities leave this slide out */
 };
 
-/* How a surface is made and then placed. The placement, also of arrays, is x -> scale * rotation * x + translation. */
+/* Options of a surface. The placement, also of arrays, is x -> scale * rotation * x + translation. */
 typedef struct riis_surface_options {
   int64_t struct_size;     /* set by the init function */
   double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
@@ -325,11 +356,12 @@ typedef struct riis_surface_options {
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
 
-/* Makes the surface of a valve by curves, polylines, Coons patches, quads and triangles (paper, 3 and 4.1
- * "Triangulation"; docs/theory.md). Normals point downstream: from the ventricular to the sinus face
- * of the cusps, from the atrial to the ventricular face of the mitral valve, and to +z on closed bileaflet
- * leaflets. On the bileaflet ring they point outwards. Triangles of zero area, at the root of each cusp, at the
- * mitral commissures and at the ends of bileaflet middle edges, are skipped.
+/* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles (paper, 3 and 4.1; docs/theory.md).
+ *   valve    its parameters must fit together
+ *   options  accuracy and placement
+ * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
+ * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring they point outwards. Triangles of zero area
+ * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
  * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve too far away;
  * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than
  * the rounding of coordinates. */
@@ -356,9 +388,9 @@ typedef struct riis_surface_arrays {
 /* Fills *arrays with the defaults. */
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
-/* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of
- * quad q have 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if
- * its height over its longest edge is at most 1e-12 of that edge, or that edge is shorter than 1e-60.
+/* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have
+ * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its height over its longest edge
+ * is at most 1e-12 of that edge, or if that edge is shorter than 1e-60.
  * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
@@ -369,101 +401,13 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
-/* Replaces the surface's content by the triangles that riis_surface_update makes, to the last bit, and gives every
- * vertex a velocity: its displacement from the point with the same patch, u and v in an earlier state, divided by
- * the time between the states (docs/theory.md, section 10). For a warped valve, u and v are those before the warp, so
- * the velocity is that of the wall (docs/theory.md, "Warp"). If the valve is at rest, also pass it as valve_before.
- *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
- *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
- *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
- * The velocity, in mesh units per unit of dt, is the mean over the step. It approximates the velocity in the middle
- * of the step to second order, and the velocity at either end to first order.
- * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
- * with parameters that do not fit together. */
-RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
-                                                const riis_valve *valve_before, double dt,
-                                                const riis_surface_options *options,
-                                                const riis_surface_options *options_before);
-/* Replaces the surface's content from arrays; options as in riis_surface_update. With n_faces 0, and
- * vertex_ids and leaflet_id NULL, only the vertices move: the surface keeps the faces of its last arrays.
+/* Replaces the surface's content from arrays.
+ *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move: the surface keeps its last faces
+ *   options  as in riis_surface_update
  * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT for an n_vertices that
  * differs from that of the last arrays, and for a surface that was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
-/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at
- * most 8 * 2^-52 of the largest of time, key and period. */
-enum {
-  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; a key itself has the rate after the jump */
-  RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
-};
-/* A surface that moves by frames, such as a patient's valve: the vertices move, the faces stay the same. */
-typedef struct riis_keyframes riis_keyframes;
-/* The frames of a surface that moves, in the caller's arrays. */
-typedef struct riis_keyframe_arrays {
-  int64_t struct_size;   /* set by the init function */
-  int64_t n_keys;        /* 1 to 1,000,000 */
-  int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
-  const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
-  const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. A last key one
-                            period after the first must have the same frame. 0, the default: the surface rests
-                            before the first key and after the last */
-  int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
-  int32_t real_bits;     /* of xyz */
-} riis_keyframe_arrays;
-/* Fills *frames with the defaults. */
-RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
-/* Makes keyframes from copies of arrays and frames.
- *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL
- * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
-RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
-                                           const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
-/* Destroys the keyframes. Surfaces made from them stay. */
-RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
-/* Makes a surface from the frames around a time, with velocities.
- *   time  finite, magnitude at most 1e30
- *   dt    the velocity is the mean from time - dt to time; if 0, the derivative of the interpolation
- * Errors: as riis_surface_create_from_arrays. */
-RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
-                                                        const riis_surface_options *options,
-                                                        riis_surface **surface);
-/* Replaces the surface's content by the frames around a time. Arguments and errors as
- * riis_surface_create_from_keyframes, options as in riis_surface_update. */
-RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
-                                                        double time, double dt,
-                                                        const riis_surface_options *options);
-/* Adds a direction in which the surface of a valve changes: with a parameter, with a landmark, or with the placement. A
- * marking with RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory.md,
- * "Sensitivities"). The first call makes direction 0, the next call direction 1. An update removes all directions.
- *   valve_after, valve_before  the valve with the parameter a little larger and a little smaller than in the surface: two
- *                   copies of the surface's valve. If only the placement changes, pass the same valve twice
- *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
- *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: those
- *                   of the surface
- * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. If the surface is
- * midway between the states, the error of the derivative is of second order in dp, otherwise of first order. A dp of 1e-5 of
- * the parameter's size suits most parameters. The triangles may have any triangulation, whose limits hold for the surface only.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
- * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000
- * directions. */
-RIIS_API riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *valve_after,
-                                                const riis_valve *valve_before, double dp,
-                                                const riis_surface_options *options_after,
-                                                const riis_surface_options *options_before);
-/* The rates of a surface along one of its directions. */
-typedef struct riis_direction {
-  int64_t n_vertices;  /* as riis_triangles.n_vertices */
-  const double *rate;  /* (3, n_vertices): the derivative of each vertex in riis_triangles.xyz by the parameter, in mesh units
-                          divided by the parameter's unit. Within a triangle the rate is linear */
-  double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it from all triangles */
-} riis_direction;
-/* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction. With
- * them a caller computes derivatives of other numbers that depend on the triangles (docs/theory.md, "Sensitivities"). The
- * rates are those of the triangles with every RIIS_MEASURE_*.
- *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
- * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
-RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
-                                                riis_direction *direction, int64_t struct_size);
 /* Destroys the surface. Marks stay. */
 RIIS_API void riis_surface_destroy(riis_surface **surface);
 
@@ -510,8 +454,8 @@ typedef struct riis_triangles {
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* The attachment of a valve: the edges along the sides at which tissue or a stent holds its leaflets, after
- * placement. The edges are in the order of the patches, and within a side in the order of u or v. */
+/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. They are in the
+ * order of the patches, and within a side in the order of u or v. */
 typedef struct riis_attachment {
   int64_t n_edges;           /* the number of edges; edges of length 0 are left out */
   const double *edges;       /* (3, 2, n_edges): both ends of each edge, in the layout of riis_reaction.edges */
@@ -519,186 +463,76 @@ typedef struct riis_attachment {
   const int32_t *leaflet_id; /* (n_edges): the leaflet that is attached there */
   const int32_t *patch_id;   /* (n_edges): its patch, as in riis_triangles */
 } riis_attachment;
-/* Gives the attachment of a valve's surface, until the surface's next update or its destruction. A cusp is attached
- * at the sinus, u = 1, from the root to the commissures. A mitral leaflet is attached at the annulus, v = 0. Patches
- * are attached at the sides v = 0 that only one patch has. A bileaflet valve has no attachment, because pivots hold
- * its leaflets. A skirt (the parameter "skirt_length") changes nothing, although it continues the leaflets there.
+/* Gives the attachment of a valve's surface, until the surface's next update or its destruction.
+ * - A cusp is attached at the sinus, u = 1, from the root to the commissures.
+ * - A mitral leaflet is attached at the annulus, v = 0.
+ * - Patches are attached at the sides v = 0 that only one patch has.
+ * - A bileaflet valve has no attachment, because pivots hold its leaflets.
+ * A skirt (the parameter "skirt_length") continues the leaflets there, and changes nothing.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because nothing tells which of its edges are attached. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
 
-/* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
+/* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
-/* A smooth map of space: it takes landmarks on a valve to landmarks in a patient. The map is affine plus a term |r|^3 for
- * each landmark (docs/theory.md, "Warp"). Its matrix is factored once, so new targets in each time step cost little. */
-typedef struct riis_warp riis_warp;
+/* Replaces the surface's content by that of a valve, and gives every vertex a velocity. The triangles are those of
+ * riis_surface_update, to the last bit. If the valve is at rest, also pass it as valve_before.
+ *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
+ *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
+ *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
+ * The velocity of a vertex is its displacement from the point with the same patch, u and v in the earlier state, divided by
+ * dt (docs/theory.md, section 10). u and v of a warped valve are those before the warp, so the velocity is that of the wall
+ * (docs/theory.md, "Warp"). The velocity is a mean over the step. It approximates the velocity in the middle of the step to
+ * second order, and the velocity at either end to first order.
+ * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
+ * with parameters that do not fit together. */
+RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
+                                                const riis_valve *valve_before, double dt,
+                                                const riis_surface_options *options,
+                                                const riis_surface_options *options_before);
 
-/* Options of riis_warp_create. */
-typedef struct riis_warp_options {
-  int64_t struct_size; /* set by the init function */
-  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
-                          misses the targets by about that much. Default 0: it meets the targets exactly */
-  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
-                          Otherwise they are in the mesh's: scale, rotation and translation of these options place them.
-                          Use the same options for the surface */
-} riis_warp_options;
-/* Fills *options with the defaults. */
-RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
-
-/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity. If the landmarks
- * lie nearly in a plane, they do not determine the map across that plane. The map then stretches that direction as it
- * stretches the plane, and keeps it at right angles (riis_warp_info.is_planar).
- *   sources  3 to 1000 landmarks
- * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
- * landmarks on a line. */
-RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
-/* Destroys the warp. Valves that have it keep their copies. */
-RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
- *   targets  as many points as the sources, in their order
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
- * landmark to the nearest other one, its determinant is not above 0. */
-RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
-/* Takes the landmarks to their places at a time, from a table of keys in time.
- *   frames  n_vertices is the number of landmarks. The keys are read during the call only
- *   time    magnitude at most 1e30
- * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
-RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
-
-/* A warp's quality, in the units of its landmarks. */
-typedef struct riis_warp_info {
-  int64_t n_landmarks;         /* the number of landmarks */
-  double rms_residual;         /* root mean square of the distances between mapped sources and targets */
-  double largest_residual;     /* the largest distance between a mapped source and its target */
-  int64_t largest_landmark_id; /* its landmark */
-  double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
-  double least_determinant;    /* the least determinant of the map's derivative, half way from a landmark to the
-                                  nearest other one */
-  double least_point[3];       /* the point between the sources where the determinant is least */
-  int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
-  int32_t reserved;            /* 0 */
-} riis_warp_info;
-/* Gives the quality of a warp. */
-RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
-/* Maps points, such as the chords of a mitral valve.
- *   points  in the coordinates of the landmarks
- *   mapped  (3, n_points); may be the array of the points
- * Errors: RIIS_INVALID_ARGUMENT naming the point. */
-RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
-
-/* Warps a valve: its curves are mapped at every opening, before the placement. Its patches stay patches between these
- * curves, so error bounds, fixed triangulations and velocities hold as for any valve. At opening 0 the map is `closed`, at
- * opening 1 `open`, and between them (1 - opening) times the former plus opening times the latter. The valve copies both.
- *   closed  NULL, with `open` NULL, removes the warp
- *   open    NULL: `closed` serves for all openings
- * For an annulus that moves, call riis_warp_set_targets and this function in each step, for two valves in turn, and pass
- * both to riis_surface_update_moving. Both must be warped, or neither. With RIIS_TRIANGULATION_FIXED the warp may move.
- * A disc that is the outline of the orifice is also warped. A surface's call refuses a warp that folds at the valve
- * or turns a part of it over, as RIIS_INVALID_PARAMETER naming the place and the value.
- * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
-RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
-
-/* The curves and patches of a valve at its opening, after a warp and before placement. Where n_pieces equals n_curves, as in
- * trileaflet and aortic valves and valves from patches, the arrays are those of riis_patches, and make the same shape. */
-typedef struct riis_valve_patches {
-  int64_t n_curves;           /* curves; each is a side of a patch */
-  int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
-  const int64_t *first_piece; /* (n_curves + 1): the pieces of curve i are first_piece[i] to first_piece[i + 1] - 1 */
-  const int32_t *degree;      /* (n_pieces): 2 or 3 */
-  const double *control;      /* (3, sum of all degree + 1): control points, piece after piece */
-  int64_t n_patches;          /* the number of patches */
-  const int32_t *curve_id;    /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
-  const int32_t *reversed;    /* (4, n_patches): 1 if the side runs against its curve, else 0 */
-  const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
-  const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
-  const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
-  const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
-                                 v = 1. With the width W and the unit tangent T of the side v = 0, its middle control
-                                 point lies bulge |W| unit(W x T) beside the middle of the straight line */
-} riis_valve_patches;
-/* Gives the curves and patches of a valve at its opening. Points of a side are labelled by their share of its length. All
- * normals S_u x S_v point as in riis_surface_create. The arrays are valid until the valve's next call that is not const.
- * A Coons patch of the sides of a mitral patch, whose bulge is not 0, differs from the valve.
- * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
-RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
-
-/* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
-typedef struct riis_gap {
-  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
-                               wall at any end */
-  double widest_point[3];   /* the end of an edge with the widest gap */
-  int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
-  int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
-} riis_gap;
-/* Measures the gap between a valve's attachment and a wall, such as a patient's vessel. The gap is the distance along
- * the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory.md, "Skirt"). Of all
- * places where that line meets the wall, the nearest counts. The gap is negative if the wall lies inside.
- *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
- *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
- *             misses the wall. NULL if it is not wanted
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for one without an attachment, and for an attachment that
- * encloses no area. */
-RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
-                                          riis_gap *gap, int64_t struct_size);
-/* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt. At each point of the
- * attachment of the closed valve, the length is the gap. These lengths stay while the valve opens. The parameter
- * "skirt_length" becomes the largest of them, before placement. Setting that parameter removes the lengths. Where the gap
- * is below 0.01 of the attachment's mean distance from the axis, the length is that limit.
- *   wall     as in riis_surface_get_gap
- *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
- *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
- * Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest, with the first such point;
- * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
-RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
-                                                  const riis_surface_options *options);
-
-/* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
-
-/* Options of riis_find_crossings. */
-typedef struct riis_crossing_options {
-  int64_t struct_size; /* set by the init function */
-  double depth;        /* half thicknesses, 0 to 1, default 1e-6: pairs up to this depth only touch */
-  int32_t n_threads;   /* default 0 */
-  int32_t reserved;    /* 0 */
-} riis_crossing_options;
-/* Fills *options with the defaults. */
-RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
-
-/* The pairs of triangles that riis_find_crossings found. Make one object and reuse it. */
-typedef struct riis_crossings riis_crossings;
-RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
-RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
-
-/* Finds every pair of the surface's triangles that go through each other. A pair's depth is its penetration
- * depth: the length of the shortest translation of one triangle after which both only touch
- * (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0.
- *   options    a pair crosses if it is deeper than depth. Depths within the rounding error also count as touching:
- *              2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
- *   crossings  its content is replaced
- * Triangles of one leaflet that share a vertex (equal placed coordinates) are neighbours, not a pair. The call
- * uses the triangles with every RIIS_MEASURE_*. So where smooth leaflets touch, triangles may cross by twice
- * riis_surface_info.error_bound. A log function (riis_set_log) gets warnings of deeper crossings without this call.
- * Errors: RIIS_INVALID_ARGUMENT naming the field. */
-RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
-                                         riis_crossings *crossings);
-
-/* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
-typedef struct riis_crossing_list {
-  int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
-  const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
-  const double *point;        /* (3, n_pairs): the middle of the segment in which the two triangles meet */
-  const double *depth;        /* (n_pairs): the penetration depth */
-  const double *length;       /* (n_pairs): the length of this segment */
-  double total_length;        /* the sum of length */
-  double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
-  double deepest_point[3];    /* the point of the deepest pair */
-  int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
-  int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
-  double seconds;             /* wall time of riis_find_crossings */
-} riis_crossing_list;
-/* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
-RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
-                                             int64_t struct_size);
+/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at
+ * most 8 * 2^-52 of the largest of time, key and period. */
+enum {
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; a key itself has the rate after the jump */
+  RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
+};
+/* A surface that moves by frames, such as a patient's valve: the vertices move, the faces stay the same. */
+typedef struct riis_keyframes riis_keyframes;
+/* The frames of a surface that moves, in the caller's arrays. */
+typedef struct riis_keyframe_arrays {
+  int64_t struct_size;   /* set by the init function */
+  int64_t n_keys;        /* 1 to 1,000,000 */
+  int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
+  const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
+  const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
+  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same frame. 0, the default: the surface rests
+                            before the first key and after the last */
+  int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
+  int32_t real_bits;     /* of xyz */
+} riis_keyframe_arrays;
+/* Fills *frames with the defaults. */
+RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
+/* Makes keyframes from copies of arrays and frames.
+ *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
+RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
+                                           const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
+/* Destroys the keyframes. Surfaces made from them stay. */
+RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
+/* Makes a surface from the frames around a time, with velocities.
+ *   time  finite, magnitude at most 1e30
+ *   dt    the velocity is the mean from time - dt to time; if 0, the derivative of the interpolation
+ * Errors: as riis_surface_create_from_arrays. */
+RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
+                                                        const riis_surface_options *options,
+                                                        riis_surface **surface);
+/* Replaces the surface's content by the frames around a time. Arguments and errors as
+ * riis_surface_create_from_keyframes, options as in riis_surface_update. */
+RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
+                                                        double time, double dt,
+                                                        const riis_surface_options *options);
 
 /* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
 
@@ -710,8 +544,8 @@ typedef struct riis_closest {
   double normal[3];       /* unit normal of the triangle, by the right-hand rule */
   int64_t triangle_id;    /* the lowest id of the closest triangles */
   int32_t leaflet_id;     /* of the triangle */
-  int32_t side;           /* +1 where normals point to (downstream), -1 on the other side, 0 on the surface or
-                             level with its rim. At a shared edge or vertex (equal placed coordinates) the
+  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface
+                             or level with its rim. At a shared edge or vertex (equal placed coordinates) the
                              angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
 /* Finds the closest point of the surface at any distance, with the result of a loop over all triangles in double
@@ -720,6 +554,9 @@ typedef struct riis_closest {
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
                                         int64_t struct_size);
+
+/* The default distance of far points. It is finite, so that arithmetic raises no floating-point exceptions. */
+#define RIIS_FAR_DISTANCE 1.0e30
 
 /* Options of queries for many points. */
 typedef struct riis_closest_options {
@@ -757,35 +594,80 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
                                          const riis_closest_options *options,
                                          const riis_closest_arrays *arrays);
 
-/* The default distance of far points. It is finite, so that arithmetic raises no floating-point exceptions. */
-#define RIIS_FAR_DISTANCE 1.0e30
+/* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
+
+/* Options of riis_find_crossings. */
+typedef struct riis_crossing_options {
+  int64_t struct_size; /* set by the init function */
+  double depth;        /* half thicknesses, 0 to 1, default 1e-6: pairs up to this depth only touch */
+  int32_t n_threads;   /* default 0 */
+  int32_t reserved;    /* 0 */
+} riis_crossing_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
+
+/* The pairs of triangles that riis_find_crossings found. Make one object and reuse it. */
+typedef struct riis_crossings riis_crossings;
+RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
+RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
+
+/* Finds every pair of the surface's triangles that go through each other.
+ *   options    a pair crosses if it is deeper than depth. A depth within the rounding error also counts as touching. That
+ *              error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
+ *   crossings  its content is replaced
+ * A pair's depth is its penetration depth: the length of the shortest translation of one triangle after which both only
+ * touch (docs/theory.md, section 16). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that
+ * share a vertex (equal placed coordinates) are neighbours, not a pair. The call uses the triangles with every
+ * RIIS_MEASURE_*. Triangles of smooth leaflets that touch may therefore cross by twice riis_surface_info.error_bound. A log
+ * function (riis_set_log) gets warnings of deeper crossings without this call.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
+                                         riis_crossings *crossings);
+
+/* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
+typedef struct riis_crossing_list {
+  int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
+  const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
+  const double *point;        /* (3, n_pairs): the middle of the segment in which the two triangles meet */
+  const double *depth;        /* (n_pairs): the penetration depth */
+  const double *length;       /* (n_pairs): the length of this segment */
+  double total_length;        /* the sum of length */
+  double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
+  double deepest_point[3];    /* the point of the deepest pair */
+  int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
+  int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
+  double seconds;             /* wall time of riis_find_crossings */
+} riis_crossing_list;
+/* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
+RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
+                                             int64_t struct_size);
 
 /* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
 
 /* The caller's nodes. The coordinates are borrowed or copied, depending on the last call that gave them. */
 typedef struct riis_mesh riis_mesh;
 
-/* Borrows node coordinates, which must stay in place until an update or the destruction, and checks them once.
- * A process without nodes makes the same calls as the other processes.
+/* Borrows node coordinates and checks them once. They must stay in place until an update or the destruction. A process
+ * without nodes makes the same calls as the other processes.
  *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
  * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
 RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
                                       int64_t stride, riis_mesh **mesh);
-/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Call it
- * after every change of coordinates. The adjacency stays if n_nodes is the same; make a new handle for other nodes.
+/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Call it after every
+ * change of coordinates. The adjacency stays if n_nodes is the same. For other nodes make a new handle.
  * Arguments and errors as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
                                       const double *z, int64_t stride);
-/* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision
- * is converted to double once, exactly. The handle keeps 24 bytes per node.
+/* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision is
+ * converted to double once, exactly. The handle keeps 24 bytes per node.
  * Errors: as riis_mesh_create. */
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* As riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
 /* Destroys the handle. The caller's coordinates stay, and so do marks. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
-/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, rather than in the first marking that uses them. Clusters copy
- * the coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made.
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. Clusters copy the
+ * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made.
  * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
 
@@ -875,10 +757,9 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory.md, section 7). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters, except that the exhaustive search is used for distances by sampling or
-                                 minimisation, for the first marking of a mesh without riis_mesh_prepare if the
-                                 distance limit is at most a fifth of the surface's extent, and for a larger
-                                 limit if the mesh has few nodes */
+  RIIS_SEARCH_AUTO = 0,       /* clusters, with three exceptions that take the exhaustive search: distances by sampling or
+                                 minimisation; the first marking of a mesh without riis_mesh_prepare, if the distance
+                                 limit is at most a fifth of the surface's extent; a larger limit with few nodes */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and queries every other node that it cannot prove to be far. The
@@ -950,8 +831,8 @@ typedef struct riis_mark_options {
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
-/* Finds every node whose distance to the surface is at most the half thickness (marked) or the distance
- * limit. The reported distance, in double precision, decides.
+/* Finds every node near the surface: at most the half thickness away (marked), or at most the distance limit. The
+ * reported distance, in double precision, decides.
  *   marks  its content is replaced
  * The log warns if the largest sides of the boxes of mesh and surface differ by more than a factor of 50, or if one is
  * less than the half thickness. It warns once per surface and mesh, at most eight times per mesh, and never for fewer
@@ -1065,9 +946,9 @@ typedef struct riis_flow_arrays {
   const double *weight;      /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_flow_arrays;
 RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
-/* The caller's arrays for the forces and moments of the flow, which are added to them. NULL leaves a sum out. The
- * arrays must not overlap. A node's force is weight K (velocity - u_surface), and acts at the node's closest point. So
- * the power of a rigid surface is force times velocity plus moment times angular velocity. */
+/* The caller's arrays for the forces and moments of the flow, which are added to them. NULL leaves a sum out. The arrays
+ * must not overlap. A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of
+ * a rigid surface is therefore force times velocity plus moment times angular velocity. */
 typedef struct riis_reaction {
   int64_t struct_size;      /* set by the init function */
   double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
@@ -1091,17 +972,16 @@ typedef struct riis_reaction {
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
- * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums.
- * The sums of leaflets add up to the sum of the whole, up to rounding. u_surface is 0 if the marking lacked
- * RIIS_FIELD_VELOCITY.
- * If the valve moves, the force includes the inertia of the blood that the band takes along. A scheme with K at its
- * faces then needs a source in its pressure equation. Cells that are bounded only by walls and by faces with K dt > rho
- * get the flow of u_surface out through these faces. docs/solvers.md has the rule ("The source in the band"). Without
- * the source the force of a moving valve is wrong by newtons. Finite elements have the same fault where K dt > rho, and
- * no source was found for them. The force on a valve at rest is right in either case.
+ *   flow      u and the volumes; u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY
  *   reaction  moments and sums of edges need RIIS_FIELD_POINT
- * The sums of edges are loads for tissue codes. They do not model how a membrane carries loads to its edges. A node
- * takes a time of order log n_edges, or of order n_edges if all edges are equally near.
+ * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums. The sums
+ * of leaflets add up to the sum of the whole, up to rounding. The sums of edges are loads for tissue codes. They do not
+ * model how a membrane carries loads to its edges. A node takes a time of order log n_edges, or of order n_edges if all
+ * edges are equally near.
+ * The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band. A scheme
+ * with K at its faces then needs a source in its pressure equation, or the force is wrong by newtons. Cells that are bounded
+ * only by walls and by faces with K dt > rho get the flow of u_surface out through these faces (docs/solvers.md, "The source
+ * in the band"). Finite elements have the same fault for K dt > rho, and no source was found for them.
  * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small, naming the
  * leaflet id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
@@ -1136,16 +1016,15 @@ typedef struct riis_leaks riis_leaks;
 RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
 RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
 
-/* Finds every edge of the mesh's adjacency that joins two unmarked nodes and crosses or touches a triangle of the
- * surface. The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge
- * may be given in one row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two
- * half thicknesses long do not leak (docs/meshes.md).
+/* Finds every edge of the mesh's adjacency that joins two unmarked nodes and crosses or touches a triangle of the surface.
  *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
  *   marks          marks from riis_mark_nodes
  *   options        the options of the marking. An edge to a node that node_mask leaves out does not leak
  *   leaks          its content is replaced
- * A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges, except by
- * RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
+ * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge may be given in one
+ * row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two half thicknesses long do not
+ * leak (docs/meshes.md). A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges,
+ * except by RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
  * tolerance * half_thickness, so search again after it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
  * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
@@ -1170,15 +1049,15 @@ RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list
 
 /* ---- Open regions and passages: whether the unmarked nodes connect two regions (docs/meshes.md) -------- */
 
-/* Labels the open regions: the connected components of the nodes that a marking left unmarked, along the
- * edges of the mesh's adjacency. An edge may be given in one row or in both. Edges to ghosts are ignored:
- * with MPI, ranks must exchange their labels (examples/mpi_leaks.c).
+/* Labels the open regions: the connected components of the nodes that a marking left unmarked, along mesh edges.
  *   mesh       the mesh of the marking, with an adjacency
  *   marks      marks from riis_mark_nodes
  *   options    the options of the marking; nodes that node_mask leaves out are in no region
  *   n_nodes    the number of nodes of the marking
  *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
  *   n_regions  the number of regions; may be NULL
+ * An edge may be given in one row or in both. Edges to ghosts are ignored: with MPI, ranks must exchange their labels
+ * (examples/mpi_leaks.c).
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
  * have another number of nodes. */
 RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks,
@@ -1213,16 +1092,17 @@ typedef struct riis_passage_ends {
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
+ *   ends     farther from the surface than the passage is wide, because paths include their ends
  *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
- * Paths include their ends, so choose ends farther from the surface than the passage is wide. A new half thickness
- * moves a valve's triangles by up to tolerance * half_thickness: search again after riis_surface_update.
+ * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
+ * riis_surface_update.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
  * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);
 
-/* ---- What a valve means for the flow: leaflets, orifice, leak, first passage, cells across, swept volume */
+/* ---- Measures: what a valve means for the flow --------------------------------------------------------- */
 
 /* A leaflet of a surface. Lengths are in mesh units. */
 typedef struct riis_leaflet {
@@ -1250,9 +1130,9 @@ enum {
   RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges that only one
                                  triangle has */
 };
-/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
- * valve is its z axis, placed, and its skirt does not count. For arrays and keyframes it is the vector area of the
- * outline, towards the side to which normals point. Lengths are in mesh units (docs/theory.md, section 15). */
+/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a valve
+ * is its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the outline, towards
+ * the side to which normals point. Lengths are in mesh units (docs/theory.md, section 15). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
   double outline_area;   /* the area inside the outline */
@@ -1276,6 +1156,10 @@ typedef struct riis_orifice {
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
 
+/* A value for an argument leaflet_id. */
+enum {
+  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
+};
 /* The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units. */
 typedef struct riis_coaptation {
   double area;  /* the area of the points of the leaflet's triangles that lie within reach of another leaflet */
@@ -1286,14 +1170,14 @@ typedef struct riis_coaptation {
  *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
- * Areas are right to 1e-3 of the contact's outline times reach (docs/theory.md, section 15). The extent of a surface
- * is the diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent are lost.
+ * Areas are right to 1e-3 of the contact's outline times reach (docs/theory.md, section 15). The extent of a surface is the
+ * diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent are lost.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);
 
-/* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes.
- * The bileaflet housing does not count in the area. The leak in a solver differs from the ideal (docs/solvers.md).
+/* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
+ * bileaflet housing does not count in the area. The leak in a solver differs from the ideal (docs/solvers.md).
  *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
  *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
  *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units
@@ -1328,12 +1212,13 @@ typedef struct riis_first_passage {
   int32_t n_openings;    /* the number of openings tried */
   int32_t state;         /* RIIS_FIRST_PASSAGE_* */
 } riis_first_passage;
-/* Finds the opening at which riis_find_passage first finds a passage. It tries 0, 1/8, 2/8, ... until a passage is
- * open. It then halves the last step until opening and closed_opening differ by at most the tolerance. A passage may
- * close again as the valve opens further. So the call may miss a passage that ends before the next multiple of 1/8.
+/* Finds the opening at which riis_find_passage first finds a passage.
  *   valve  its own opening is ignored
  *   mesh   must have an adjacency, and need not have been marked
  *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
+ * The call tries 0, 1/8, 2/8, ... until a passage is open. It then halves the last step until opening and closed_opening
+ * differ by at most the tolerance. A passage may close again as the valve opens further. So the call may miss a passage that
+ * ends before the next multiple of 1/8.
  * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
  * valve with only one state. */
 RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,
@@ -1348,8 +1233,8 @@ typedef struct riis_cells_across {
   double half_thickness; /* the half thickness of the marking */
   int64_t n_edges;       /* edges with at least one marked node. If it is 0, only half_thickness differs from 0 */
 } riis_cells_across;
-/* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it.
- * Edges to ghosts and edges of length 0 do not count.
+/* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
+ * ghosts and edges of length 0 do not count.
  *   marks  marks from riis_mark_nodes
  *   mesh   the mesh of the marking, with an adjacency
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
@@ -1357,11 +1242,7 @@ typedef struct riis_cells_across {
 RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
                                                  riis_cells_across *cells, int64_t struct_size);
 
-/* A value for an argument leaflet_id. */
-enum {
-  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
-};
-/* Gives the volume that the valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over
+/* Gives the volume that the valve sweeps between two openings, in mesh units cubed. It is the integral of u_surface . n over
  * surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.
  *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
  *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
@@ -1372,9 +1253,10 @@ enum {
 RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
                                                  const riis_surface_options *options, int32_t leaflet_id,
                                                  double *volume);
+
 /* ---- Landmarks: a valve's sizes and placement from points that a person marks in an image ----------------- */
 
-/* What a landmark marks. Landmarks are those of the closed valve. */
+/* The anatomy that a landmark marks, on the closed valve. */
 enum {
   RIIS_LANDMARK_COMMISSURE = 0,     /* three cusps: the top of the attachment between two of them; exactly 3 */
   RIIS_LANDMARK_NADIR = 1,          /* three cusps: the lowest point of a cusp's attachment; exactly 3 */
@@ -1448,14 +1330,14 @@ typedef struct riis_placement_arrays {
                                 nearest to it */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
-/* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement: least squares of the distances
- * between the landmarks and their places on the closed valve (docs/theory.md, section 17). The valve's own values are
- * the template: lengths that no landmark bears on keep their proportions. translation and opening stay.
- * Of an aortic valve, rotations and leaflet angles follow from the landmarks, and a leaflet_power that would make
- * cusps overlap is lowered. The valve may be a kind with any parameters; a valve from patches has no landmarks.
- *   held            names of parameters that keep the valve's values, separated by blanks or commas; "": none
- *   arrays          its arrays are written; NULL: not wanted
- * The open state of riis_valve_set_open_state stays as it is.
+/* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement.
+ *   valve   the template, a kind with any parameters: lengths that no landmark bears on keep their proportions. Translation
+ *           and opening stay, and so does the open state of riis_valve_set_open_state
+ *   held    names of parameters that keep the valve's values, separated by blanks or commas; "": none
+ *   arrays  its arrays are written; NULL: not wanted
+ * The result has the least squares of the distances between the landmarks and their places on the closed valve
+ * (docs/theory.md, section 17). Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power
+ * that would make its cusps overlap is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, not those
  * of a heart valve at this scale, or that do not show the flow; the message names them. RIIS_INVALID_PARAMETER for a
  * valve from patches, an unknown name in held, and sizes that do not fit together. */
@@ -1463,13 +1345,153 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
                                 const riis_placement_arrays *arrays, riis_placement *placement,
                                 int64_t struct_size);
 
+/* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
+
+/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is affine plus a term |r|^3 for
+ * each landmark (docs/theory.md, "Warp"). Its matrix is factored once, so new targets in each time step cost little. */
+typedef struct riis_warp riis_warp;
+
+/* Options of riis_warp_create. */
+typedef struct riis_warp_options {
+  int64_t struct_size; /* set by the init function */
+  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
+                          misses the targets by about that much. Default 0: it meets the targets exactly */
+  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
+                          Otherwise they are in the mesh's: scale, rotation and translation of these options place them.
+                          Use the same options for the surface */
+} riis_warp_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
+
+/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity.
+ *   sources  3 to 1000 landmarks. If they lie nearly in a plane, they do not determine the map across that plane. The map then
+ *            stretches that direction as it stretches the plane, and keeps it at right angles (riis_warp_info.is_planar)
+ * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
+ * landmarks on a line. */
+RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
+/* Destroys the warp. Valves that have it keep their copies. */
+RIIS_API void riis_warp_destroy(riis_warp **warp);
+/* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
+ *   targets  as many points as the sources, in their order
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
+ * landmark to the nearest other one, its determinant is not above 0. */
+RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
+/* Takes the landmarks to their places at a time, from a table of keys in time.
+ *   frames  n_vertices is the number of landmarks. The keys are read during the call only
+ *   time    magnitude at most 1e30
+ * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
+RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
+
+/* A warp's quality, in the units of its landmarks. */
+typedef struct riis_warp_info {
+  int64_t n_landmarks;         /* the number of landmarks */
+  double rms_residual;         /* root mean square of the distances between mapped sources and targets */
+  double largest_residual;     /* the largest distance between a mapped source and its target */
+  int64_t largest_landmark_id; /* its landmark */
+  double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
+  double least_determinant;    /* the least determinant of the map's derivative, half way from a landmark to the
+                                  nearest other one */
+  double least_point[3];       /* the point between the sources where the determinant is least */
+  int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
+  int32_t reserved;            /* 0 */
+} riis_warp_info;
+/* Gives the quality of a warp. */
+RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
+/* Maps points, such as the chords of a mitral valve.
+ *   points  in the coordinates of the landmarks
+ *   mapped  (3, n_points); may be the array of the points
+ * Errors: RIIS_INVALID_ARGUMENT naming the point. */
+RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
+
+/* Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps.
+ *   closed  the map at opening 0; NULL, with `open` NULL, removes the warp
+ *   open    the map at opening 1; NULL: `closed` serves for all openings
+ * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
+ * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
+ * RIIS_TRIANGULATION_FIXED the warp may move. A disc that is the outline of the orifice is also warped.
+ * An annulus that moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them,
+ * and pass both to riis_surface_update_moving. Both must be warped, or neither. A surface's call refuses a warp that folds at
+ * the valve or turns a part of it over, as RIIS_INVALID_PARAMETER naming the place and the value.
+ * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
+RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
+
+/* ---- Skirt: the gap between the attachment and a wall -------------------------------------------------- */
+
+/* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
+typedef struct riis_gap {
+  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
+                               wall at any end */
+  double widest_point[3];   /* the end of an edge with the widest gap */
+  int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
+  int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
+} riis_gap;
+/* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
+ *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
+ *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
+ *             misses the wall. NULL if it is not wanted
+ * The gap is the distance along the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory.md,
+ * "Skirt"). Of all places at which that line meets the wall, the nearest counts. The gap is negative if the wall lies inside.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for one without an attachment, and for an attachment that
+ * encloses no area. */
+RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
+                                          riis_gap *gap, int64_t struct_size);
+/* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt.
+ *   wall     as in riis_surface_get_gap
+ *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
+ *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
+ * At each point of the attachment of the closed valve, the length is the gap. If the gap is below 0.01 of the attachment's mean
+ * distance from the axis, the length is that limit. These lengths stay while the valve opens. The parameter "skirt_length"
+ * becomes the largest of them, before placement. Setting that parameter removes the lengths.
+ * Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest, with the first such point;
+ * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
+RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
+                                                  const riis_surface_options *options);
+
+/* ---- Gradients: directions in which the surface of a valve changes ------------------------------------- */
+
+/* Adds a direction in which the surface of a valve changes: with a parameter, with a landmark, or with the placement.
+ *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than
+ *                   in the surface. If only the placement changes, pass the same valve twice
+ *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
+ *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: those
+ *                   of the surface
+ * The first call makes direction 0, the next call direction 1. An update removes all directions. A marking with
+ * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory.md, "Sensitivities").
+ * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. The error of the
+ * derivative is of second order in dp if the surface is midway between the states, otherwise of first order. A dp of 1e-5 of
+ * the parameter's size suits most parameters. The limits of a fixed triangulation hold for the surface only.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
+ * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000
+ * directions. */
+RIIS_API riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *valve_after,
+                                                const riis_valve *valve_before, double dp,
+                                                const riis_surface_options *options_after,
+                                                const riis_surface_options *options_before);
+/* The rates of a surface along one of its directions. */
+typedef struct riis_direction {
+  int64_t n_vertices;  /* as riis_triangles.n_vertices */
+  const double *rate;  /* (3, n_vertices): the derivative of each vertex in riis_triangles.xyz by the parameter, in mesh units
+                          divided by the parameter's unit. Within a triangle the rate is linear */
+  double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it from all triangles */
+} riis_direction;
+/* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
+ *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
+ * With the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory.md,
+ * "Sensitivities"). They are those of the triangles with every RIIS_MEASURE_*.
+ * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
+RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
+                                                riis_direction *direction, int64_t struct_size);
+
 /* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
 
-/* These are pure functions: the same arguments give the same bits, and the library keeps nothing. Times, pressures
- * and flows have the solver's units. The pressure difference is the upstream pressure minus the downstream
- * pressure, and flow is positive downstream, so positive values open a valve. `rate` is the time derivative of the
- * opening. A state has no pointers: a solver that restores it from a restart file continues with the same bits.
- * `now` may be the same struct as `before`, and gets its struct_size. To repeat a step, start from `before` again. */
+/* These rules hold for all laws:
+ * - The functions are pure: the same arguments give the same bits, and the library keeps nothing.
+ * - Times, pressures and flows have the solver's units.
+ * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. So
+ *   positive values open a valve.
+ * - `rate` is the time derivative of the opening.
+ * - A state has no pointers: a solver that restores it from a restart file continues with the same bits.
+ * - `now` may be the same struct as `before`, and gets its struct_size. To repeat a step, start from `before` again. */
 
 /* An opening by its values at keys in time. */
 typedef struct riis_opening_table {
@@ -1490,8 +1512,8 @@ RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t 
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by the times of two ramps. For example, every second a mitral valve begins to open at 0.45 s and to close
- * at 0.95 s, and both take 0.05 s. The ramps are of fifth degree, so neither the rate nor its derivative jumps. */
+/* An opening by the times of two ramps. The ramps are of fifth degree, so neither the rate nor its derivative jumps. A mitral
+ * valve may begin to open at 0.45 s and to close at 0.95 s, every second, and take 0.05 s for both. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
@@ -1514,9 +1536,9 @@ enum {
   RIIS_PHASE_OPENING = 1  /* opening or open */
 };
 
-/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one.
- * An aortic valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the
- * flow reverses), filter_time 0.002, dwell_time 0.02. */
+/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An aortic valve
+ * in SI units has opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
+ * filter_time 0.002 and dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
   double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused. So is that of the next field */
@@ -1541,8 +1563,8 @@ typedef struct riis_opening_switch_state {
 } riis_opening_switch_state;
 /* Fills *state with a closed valve at time 0. */
 RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
-/* Advances a switch to a time. Its phase changes at the end of the step in which the condition is met, so the
- * opening is accurate to first order in the length of steps.
+/* Advances a switch to a time. Its phase changes at the end of the step in which the condition is met. So the opening
+ * is accurate to first order in the length of steps.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
@@ -1579,9 +1601,9 @@ typedef struct riis_opening_angle_state {
 } riis_opening_angle_state;
 /* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
-/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step, so the angle is
- * accurate to second order in the length of steps. If `before` has no pressure difference and flow, the present
- * ones are used for the whole step.
+/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step. So the angle is accurate
+ * to second order in the length of steps. If `before` has no pressure difference and flow, the present ones are used for the
+ * whole step.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
  * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so

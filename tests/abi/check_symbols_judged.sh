@@ -31,5 +31,21 @@ version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$header" |
 refused "($version): riis_mesh_create" "$scratch/new.symbols" "$header"
 sed 's/^riis_mesh_create .*/riis_mesh_create 9.0.0/' "$list" >"$scratch/later.symbols"
 refused 'has something since 9.0.0' "$scratch/later.symbols" "$header"
-sed 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$header" >"$scratch/riis.h"
+cp "$(dirname "$header")"/*.h "$scratch"
+sed -i 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$scratch/marks.h"
 refused 'gone or changed: RIIS_SEARCH_PAPER = 3' "$list" "$scratch/riis.h"
+
+# The last header that riis.h includes is read, too: a value and a function that are planted there are refused.
+last=$("$here/headers.sh" "$header" | tail -n 1)
+plant() { sed "s|^/\* The phases of a switch|$1\n&|" "$last" >"$scratch/$(basename "$last")"; }
+cp "$(dirname "$header")"/*.h "$scratch"
+plant 'enum { RIIS_PLANTED = 1 };'
+refused "($version): RIIS_PLANTED = 1" "$list" "$scratch/riis.h"
+! errors=$("$here/check_complete.sh" "$root/tests/abi/test_abi.c" "$scratch/riis.h" 2>&1)
+grep -q -F "RIIS_PLANTED of $scratch/riis.h is not in" <<<"$errors"
+plant 'RIIS_API riis_status riis_planted(int32_t number);'
+! errors=$("$here/check_complete.sh" "$root/tests/abi/test_abi.c" "$scratch/riis.h" 2>&1)
+grep -q -F "riis_planted of $scratch/riis.h is not in" <<<"$errors"
+! errors=$("$root/tests/install/check_exports.sh" "$library" "$(readelf -d "$library" | sed -n -E 's/.*soname: \[(.*)\].*/\1/p')" \
+  "$scratch/riis.h" riis_component_error 2>&1)
+grep -q -F '< riis_planted' <<<"$errors"
