@@ -147,9 +147,17 @@ def texts_of_the_library(root: pathlib.Path) -> list[str]:
     return [text for text in re.findall(r'"((?:[^"\\\n]|\\.)*)"', code) if "riis_" in text or "RIIS_" in text]
 
 
+def header_of(root: pathlib.Path) -> str:
+    """Returns riis.h and the headers that it includes."""
+    path = root / "include/riis/riis.h"
+    text = path.read_text(encoding="utf-8")
+    names = re.findall(r'^#include "(\w+\.h)"', text, re.MULTILINE)
+    return text + "".join((path.parent / name).read_text(encoding="utf-8") for name in names)
+
+
 def check(root: pathlib.Path) -> list[str]:
     """Returns the faults, one per line."""
-    header = (root / "include/riis/riis.h").read_text(encoding="utf-8")
+    header = header_of(root)
     sources = "".join(path.read_text(encoding="utf-8") for path in sorted((root / "python/src").glob("*.[ch]pp")))
     functions = set(re.findall(r"^RIIS_API [^(]*?\b(riis_\w+)\(", header, re.MULTILINE))
     wrong = [] if len(functions) > 70 else ["riis.h was not read"]
