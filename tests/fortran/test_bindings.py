@@ -3,6 +3,7 @@
 right lines, or refuse, name the line and leave the files alone. check_keywords.py is tested in the same way."""
 
 import contextlib
+import glob
 import io
 import os
 import shutil
@@ -12,6 +13,7 @@ import unittest
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(SOURCES, "fortran", "bindings"))
+import calls
 import check_keywords
 import generate
 from header import with_included
@@ -414,6 +416,54 @@ class Words(Planted):
         self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
         self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
                      "riis_patches: degree is in ", "already")
+
+
+class Page(Planted):
+    """The page of all calls in Fortran, by calls.py."""
+
+    def setUp(self):
+        super().setUp()
+        for path in calls.SOURCES:
+            for source in glob.glob(os.path.join(SOURCES, path)):
+                target = os.path.join(self.root, os.path.relpath(source, SOURCES))
+                os.makedirs(os.path.dirname(target), exist_ok=True)
+                shutil.copy(source, target)
+        os.makedirs(os.path.join(self.root, "docs"))
+        for path in (calls.TABLE, calls.PAGE):
+            shutil.copy(os.path.join(SOURCES, path), os.path.join(self.root, path))
+
+    def judge(self, *words):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            return calls.main(["--root", self.root, *words]), out.getvalue()
+
+    def says(self, *messages):
+        status, text = self.judge("--check")
+        self.assertEqual(status, 1, text)
+        for message in messages:
+            self.assertIn(message, text)
+
+    def test_a_call_in_the_last_header_needs_a_line(self):
+        self.assertEqual(self.judge("--check")[0], 0)
+        self.plant(HEADER, IN_LAST_HEADER, "RIIS_API riis_status riis_planted(int32_t n);\n" + IN_LAST_HEADER)
+        self.says("its contents are not the calls of the headers", "-riis_planted", f"{calls.TABLE}: there is no line for riis_planted")
+
+    def test_a_procedure_needs_a_call(self):
+        path = "fortran/generated/riisf.f90"
+        self.plant(path, "    subroutine riisf_warp_destroy(", "    subroutine riisf_planted(n)\n    end subroutine riisf_planted\n"
+                                                              "    subroutine riisf_warp_destroy(")
+        self.says(f"{calls.TABLE}: riisf_planted belongs to no call")
+
+    def test_names_that_nothing_has(self):
+        self.plant(calls.TABLE, "riis_valve%unset riisf_valve_unset", "riis_valve%planted riisf_valve_unset")
+        self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
+
+    def test_a_line_that_changes(self):
+        path = "fortran/generated/riisf.f90"
+        self.plant(path, "    subroutine riisf_valve_unset(valve, name, status)", "    subroutine riisf_valve_unset(valve, planted, status)")
+        self.says("+CALL RIISF_VALVE_UNSET(VALVE, PLANTED, STATUS)", "./run bindings writes it anew")
+        self.assertEqual(self.judge()[0], 0)
+        self.assertEqual(self.judge("--check")[0], 0)
 
 
 class Keywords(Planted):
