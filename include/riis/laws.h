@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * laws.h - laws of opening: a valve's opening from the time, the pressure difference and the flow. riis.h includes this file, and has the rules that hold for every call.
+ * laws.h - laws of opening: a valve's opening from the time, the pressure difference and the flow.
+ * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_LAWS_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * marks.h - marks: the nodes near a surface, with their distances and their resistance K. riis.h includes this file, and has the rules that hold for every call.
+ * marks.h - marks: the nodes near a surface, with their distances and their resistance K.
+ * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MARKS_H

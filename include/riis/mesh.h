@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * mesh.h - meshes: the nodes that are marked, and their neighbours. riis.h includes this file, and has the rules that hold for every call.
+ * mesh.h - meshes: the nodes that are marked, and their neighbours.
+ * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_MESH_H

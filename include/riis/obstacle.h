@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums beside it. riis.h includes this file, and has the rules that hold for every call.
+ * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums beside it.
+ * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_OBSTACLE_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * surface.h - surfaces: triangles of a valve, of the caller or of frames in time, with their sizes, attachment and velocities. riis.h includes this file, and has the rules that hold for every call.
+ * surface.h - surfaces: triangles of a valve, of the caller or of frames in time, with their sizes, attachment and velocities.
+ * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_SURFACE_H

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- *
- * valve.h - valves: a kind and its parameters, or the caller's own patches. riis.h includes this file, and has the rules that hold for every call.
+ * valve.h - valves: a kind and its parameters, or the caller's own patches.
+ * riis.h includes this file, and has the rules that hold for every call.
  */
 /* clang-format off: argument lists in comments are laid out by hand */
 #ifndef RIIS_VALVE_H

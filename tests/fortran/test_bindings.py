@@ -44,8 +44,8 @@ class Planted(unittest.TestCase):
         return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
 
     def plant(self, path, old, new):
-        """Replaces the only occurrence of the old text. Returns its line number. HEADER stands for the header with the text, whose
-        path is in self.planted afterwards."""
+        """Replaces the only occurrence of the old text. Returns its line number. HEADER stands for the header with the text.
+        Afterwards self.planted has its path."""
         if path == HEADER:
             path = next((header for header in HEADERS if old in self.text(header)), HEADER)
             self.planted = path
@@ -138,7 +138,8 @@ class Fields(Planted):
 
     def test_a_pointer_needs_its_shape(self):
         line = self.plant(HEADER, "} riis_patches;", "  const double *planted;\n} riis_patches;")
-        self.refuses(f"{self.planted}:{line}: riis_patches: {TABLE} does not say of 'const double *planted': the shape of the array",
+        place = f"{self.planted}:{line}"
+        self.refuses(f"{place}: riis_patches: {TABLE} does not say of 'const double *planted': the shape of the array",
                      "\nriis_patches\n  planted  ...")
         self.plant(TABLE, "riis_patches\n", "riis_patches\n  planted  (4, n_patches)  or c_null_ptr\n")
         self.writes()
@@ -418,6 +419,9 @@ class Words(Planted):
                      "riis_patches: degree is in ", "already")
 
 
+INTERFACES = "fortran/generated/riisf.f90"
+
+
 class Page(Planted):
     """The page of all calls in Fortran, by calls.py."""
 
@@ -446,12 +450,12 @@ class Page(Planted):
     def test_a_call_in_the_last_header_needs_a_line(self):
         self.assertEqual(self.judge("--check")[0], 0)
         self.plant(HEADER, IN_LAST_HEADER, "RIIS_API riis_status riis_planted(int32_t n);\n" + IN_LAST_HEADER)
-        self.says("its contents are not the calls of the headers", "-riis_planted", f"{calls.TABLE}: there is no line for riis_planted")
+        self.says("its contents are not the calls of the headers", "-riis_planted",
+                  f"{calls.TABLE}: there is no line for riis_planted")
 
     def test_a_procedure_needs_a_call(self):
-        path = "fortran/generated/riisf.f90"
-        self.plant(path, "    subroutine riisf_warp_destroy(", "    subroutine riisf_planted(n)\n    end subroutine riisf_planted\n"
-                                                              "    subroutine riisf_warp_destroy(")
+        before = "    subroutine riisf_warp_destroy("
+        self.plant(INTERFACES, before, "    subroutine riisf_planted(n)\n    end subroutine riisf_planted\n" + before)
         self.says(f"{calls.TABLE}: riisf_planted belongs to no call")
 
     def test_names_that_nothing_has(self):
@@ -459,8 +463,7 @@ class Page(Planted):
         self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
 
     def test_a_line_that_changes(self):
-        path = "fortran/generated/riisf.f90"
-        self.plant(path, "    subroutine riisf_valve_unset(valve, name, status)", "    subroutine riisf_valve_unset(valve, planted, status)")
+        self.plant(INTERFACES, "    subroutine riisf_valve_unset(valve, name,", "    subroutine riisf_valve_unset(valve, planted,")
         self.says("+CALL RIISF_VALVE_UNSET(VALVE, PLANTED, STATUS)", "./run bindings writes it anew")
         self.assertEqual(self.judge()[0], 0)
         self.assertEqual(self.judge("--check")[0], 0)
