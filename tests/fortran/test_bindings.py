@@ -463,7 +463,8 @@ class Page(Planted):
         self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
 
     def test_a_line_that_changes(self):
-        self.plant(INTERFACES, "    subroutine riisf_valve_unset(valve, name,", "    subroutine riisf_valve_unset(valve, planted,")
+        before = "    subroutine riisf_valve_unset(valve, "
+        self.plant(INTERFACES, before + "name,", before + "planted,")
         self.says("+CALL RIISF_VALVE_UNSET(VALVE, PLANTED, STATUS)", "./run bindings writes it anew")
         self.assertEqual(self.judge()[0], 0)
         self.assertEqual(self.judge("--check")[0], 0)

@@ -96,7 +96,6 @@ contains
   end function triangles_from
 
   subroutine test_version_and_texts()
-    character(len=40) :: text
     integer :: i
     integer(riis_status), parameter :: statuses(11) = [RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, &
       RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, &
