@@ -29,8 +29,12 @@ endfunction()
 
 riis_install_library(riis)
 set_target_properties(riis PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
-install(FILES ${PROJECT_SOURCE_DIR}/include/riis/riis.h ${PROJECT_SOURCE_DIR}/include/riis/riis.hpp
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
+# riis.h names the other headers of the library.
+file(STRINGS ${PROJECT_SOURCE_DIR}/include/riis/riis.h riis_headers REGEX "^#include \"")
+list(TRANSFORM riis_headers REPLACE "#include \"(.*)\"" "\\1")
+list(APPEND riis_headers riis.h riis.hpp)
+list(TRANSFORM riis_headers PREPEND ${PROJECT_SOURCE_DIR}/include/riis/)
+install(FILES ${riis_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/riis)
 
 if(RIIS_WITH_VTK)
   riis_install_library(riis_vtk)

@@ -75,7 +75,7 @@ module riis
     RIIS_LANDMARK_ANTERIOR_HORN, RIIS_LANDMARK_POSTERIOR_HORN, RIIS_LANDMARK_TRIGONE, RIIS_LANDMARK_POSTEROMEDIAL, &
     RIIS_LANDMARK_ANTEROLATERAL, RIIS_LANDMARK_HINGE, RIIS_LANDMARK_ATTACHMENT, RIIS_SIZE_KEPT, RIIS_SIZE_DETERMINED, &
     RIIS_SIZE_TIED, RIIS_SIZE_UNDETERMINED, riis_placement, &
-    c_set_log => riis_set_log, c_status_name => riis_status_name, c_version => riis_get_version, &
+    c_set_log => riis_set_log, c_status_name => riis_status_name, &
     c_version_string => riis_version_string
   use riis_warping, only: riis_warp
   use riis_valves, only: riis_valve, riis_parameter_info, riis_valve_patches
@@ -112,7 +112,7 @@ module riis
     RIIS_SIZE_UNDETERMINED
   public :: riis_opening_times, riis_opening_switch, riis_opening_switch_state, riis_opening_angle, riis_opening_angle_state, &
     riis_opening_from_table, riis_opening_from_times, riis_opening_advance
-  public :: riis_error_message, riis_status_name, riis_get_version, riis_version_string, riis_set_log, riis_log_procedure
+  public :: riis_error_message, riis_status_name, riis_version_string, riis_set_log, riis_log_procedure
   public :: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, RIIS_INVALID_PARAMETER, &
     RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, RIIS_FILE_ERROR, RIIS_UNAVAILABLE, &
     RIIS_INTERNAL_ERROR
@@ -139,11 +139,6 @@ module riis
   interface riis_status_name
     module procedure status_name
   end interface riis_status_name
-
-  !> Gives the version of the linked library, as numbers.
-  interface riis_get_version
-    module procedure version
-  end interface riis_get_version
 
   !> Returns the version of the linked library, as text.
   interface riis_version_string
@@ -220,14 +215,6 @@ contains
     character(len=name_length(status)) :: name              !< A copy.
     name = riis_c_text(c_status_name(status))
   end function status_name
-
-  !> Gives the version of the linked library, as numbers.
-  subroutine version(major, minor, patch)
-    integer(int32), intent(out) :: major                    !< The first.
-    integer(int32), intent(out) :: minor                    !< The second.
-    integer(int32), intent(out) :: patch                    !< The third.
-    call c_version(major, minor, patch)
-  end subroutine version
 
   !> Gives the version of the linked library, such as '1.0.0'.
   function version_string() result(text)

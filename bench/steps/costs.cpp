@@ -122,6 +122,20 @@ void add_marking(Table &table, const std::string &name, const Surface &surface, 
   }
 }
 
+void add_moving(Table &table, const char *kind) {
+  const Valve valve = make_valve(kind), before = make_valve(kind);
+  check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
+  check(riis_valve_set_scalar(before.get(), "opening", 0.49));
+  const Surface surface = make_surface(valve.get());
+  const auto move = [&] {
+    check(riis_surface_update_moving(surface.get(), valve.get(), before.get(), 0.01, nullptr, nullptr));
+  };
+  table.add("`riis_surface_update_moving`, from opening 0.49 to 0.5", shortest(move));
+  riis_surface_info info;
+  table.add("`riis_surface_get_info`, the first after it",
+            shortest([&] { check(riis_surface_get_info(surface.get(), &info, sizeof info)); }, move));
+}
+
 void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int64_t about_n_nodes) {
   riis_valve *new_valve = nullptr;
   add_making<riis_valve>(
@@ -136,6 +150,7 @@ void measure(Table &table, const char *kind, const Cylinder &cylinder, std::int6
   const Surface surface(new_surface);
   table.add("`riis_surface_update`",
             shortest([&] { check(riis_surface_update(surface.get(), valve.get(), nullptr)); }));
+  add_moving(table, kind);
 
   const CylinderNodes nodes(cylinder, about_n_nodes);
   const double *xyz = nodes.xyz().data();

@@ -70,7 +70,7 @@ kind == "file" || kind == "before" {
   text = $0
   sub(/ *\*\/ *$/, "", text)
   sub(/^ \* ?/, "", text)
-  if (kind == "file") if (sub(/^riis[a-z_]*\.h - /, "", text)) text = toupper(substr(text, 1, 1)) substr(text, 2)
+  if (kind == "file") if (sub(/^[a-z_]+\.h - /, "", text)) text = toupper(substr(text, 1, 1)) substr(text, 2)
   if (!closes || text !~ /^ *$/) text_line(text)
   if (closes) {
     verbatim(0)

@@ -89,7 +89,7 @@ class Bindings:
     # Entries that the table lacks, and useless ones -----------------------------------------------------------------
 
     def refuse(self, line, message):
-        self.problems.append(f"{self.header.shown}:{line}: {message}")
+        self.problems.append(f"{line}: {message}")
 
     def need(self, line, entry, type_, names, what):
         self.refuse(line, f"{entry}: {self.table.shown} does not say of {in_c(type_, names)}: {what}")

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reads riis.h. A declaration that this reader does not know is reported as an error with its line, and never skipped."""
+"""Reads riis.h and the headers that it includes. A declaration that this reader does not know is reported as an error with its
+place, and never skipped."""
 
+import os
 import re
 from collections import namedtuple
 
@@ -22,9 +24,17 @@ Struct = namedtuple("Struct", "name lines line text")
 Constant = namedtuple("Constant", "name value type line")  # value: as C writes it; type: the integer type, or double
 Section = namedtuple("Section", "title line")
 
+
+class Place(namedtuple("Place", "file line shown")):
+    """A line of one of the headers. Places compare in the order in which riis.h includes the headers."""
+
+    def __str__(self):
+        return f"{self.shown}:{self.line}"
+
+
 COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 # Preprocessor lines that declare nothing.
-KNOWN_LINES = re.compile(r"#(ifndef RIIS_\w+_H|define RIIS_\w+_H|include <stdint\.h>|ifdef __cplusplus"
+KNOWN_LINES = re.compile(r'#(ifndef RIIS_\w+_H|define RIIS_\w+_H|include <stdint\.h>|include "\w+\.h"|ifdef __cplusplus'
                          r"|if defined\(__GNUC__\) && !defined\(RIIS_STATIC\)"
                          r"|define RIIS_API( __attribute__\(\(visibility\(\"default\"\)\)\))?|else|endif)$")
 
@@ -40,29 +50,42 @@ def c_type(words):
     return match and CType(match[2], bool(match[1]), len(match[3]))
 
 
+def with_included(path):
+    """Returns the paths of a header and of the headers that it includes by name, in the order in which a compiler reads them."""
+    with open(path, encoding="utf-8") as file:
+        names = re.findall(r'^#include "(\w+\.h)"', file.read(), re.MULTILINE)
+    return [path, *(os.path.join(os.path.dirname(path), name) for name in names)]
+
+
 class Header:
-    """All declarations of a header, in order."""
+    """All declarations of a header and of the headers that it includes, in order."""
 
     def __init__(self, path, shown):
-        with open(path, encoding="utf-8") as file:
-            self.raw = file.read()
-        self.shown = shown  # the file's name in messages
+        self.shown = shown  # the header's name in messages
         self.problems = []
         self.functions, self.structs, self.enums, self.macros, self.sections = [], [], [], [], []
         self.typedefs, self.handles, self.callbacks = {}, set(), []
+        for number, file in enumerate(with_included(path)):
+            self.file = number, os.path.join(os.path.dirname(shown), os.path.basename(file))
+            self.read(file)
+        if self.problems:
+            raise Problem(*self.problems)
+
+    def read(self, path):
+        with open(path, encoding="utf-8") as file:
+            self.raw = file.read()
         # Comments become blanks, so that everything else keeps its position.
         self.code = COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), self.raw)
         self.read_sections()
         self.read_macros()
         self.read_declarations()
-        if self.problems:
-            raise Problem(*self.problems)
 
     def line(self, place):
-        return self.raw.count("\n", 0, place) + 1
+        number, shown = self.file
+        return Place(number, self.raw.count("\n", 0, place) + 1, shown)
 
     def refuse(self, place, message):
-        self.problems.append(f"{self.shown}:{self.line(place)}: {message}")
+        self.problems.append(f"{self.line(place)}: {message}")
 
     def read_sections(self):
         for match in re.finditer(r"^/\* ---- (.*?) -* ?\*/$", self.raw, re.MULTILINE):

@@ -117,12 +117,12 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_OUTLINE_ATTACHMENT = 2
   integer(c_int32_t), parameter :: RIIS_OUTLINE_BOUNDARY = 3
 
+  integer(c_int32_t), parameter :: RIIS_ALL_LEAFLETS = -1
+
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_FOUND = 0
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_ALWAYS = 1
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_NEVER = 2
   integer(c_int32_t), parameter :: RIIS_FIRST_PASSAGE_NONE = 3
-
-  integer(c_int32_t), parameter :: RIIS_ALL_LEAFLETS = -1
 
   integer(c_int32_t), parameter :: RIIS_LANDMARK_COMMISSURE = 0
   integer(c_int32_t), parameter :: RIIS_LANDMARK_NADIR = 1
@@ -187,6 +187,21 @@ module riis_c
     real(c_double) :: other_factor
   end type riis_parameter
 
+  type, bind(c) :: riis_valve_patches
+    integer(c_int64_t) :: n_curves
+    integer(c_int64_t) :: n_pieces
+    type(c_ptr) :: first_piece !< integer(c_int64_t), (n_curves + 1), from 0
+    type(c_ptr) :: degree      !< integer(c_int32_t), (n_pieces)
+    type(c_ptr) :: control     !< real(c_double), (3, sum(degree + 1))
+    integer(c_int64_t) :: n_patches
+    type(c_ptr) :: curve_id    !< integer(c_int32_t), (4, n_patches), from 0
+    type(c_ptr) :: reversed    !< integer(c_int32_t), (4, n_patches)
+    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_patches)
+    type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_patches)
+    type(c_ptr) :: attached    !< integer(c_int32_t), (n_patches)
+    type(c_ptr) :: bulge       !< real(c_double), (n_patches)
+  end type riis_valve_patches
+
   type, bind(c) :: riis_surface_options
     integer(c_int64_t) :: struct_size
     real(c_double) :: half_thickness
@@ -221,23 +236,6 @@ module riis_c
     integer(c_int32_t) :: real_bits       !< storage_size(xyz)
   end type riis_surface_arrays
 
-  type, bind(c) :: riis_keyframe_arrays
-    integer(c_int64_t) :: struct_size
-    integer(c_int64_t) :: n_keys
-    integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: time             !< real(c_double), (n_keys)
-    type(c_ptr) :: xyz              !< real(c_double) or (c_float), (3, n_vertices, n_keys)
-    real(c_double) :: period
-    integer(c_int32_t) :: interpolation
-    integer(c_int32_t) :: real_bits !< storage_size(xyz)
-  end type riis_keyframe_arrays
-
-  type, bind(c) :: riis_direction
-    integer(c_int64_t) :: n_vertices
-    type(c_ptr) :: rate !< real(c_double), (3, n_vertices)
-    real(c_double) :: area_rate
-  end type riis_direction
-
   !> The size of a surface, and the seconds that its last create or update took.
   type, bind(c) :: riis_surface_info
     integer(c_int64_t) :: n_vertices         !< as riis_triangles.n_vertices
@@ -253,10 +251,6 @@ module riis_c
     real(c_double) :: error_bound            !< the most by which a point's distances to the triangles and to the smooth
                                              !! valve can differ; at most tolerance * half_thickness. 0 for a surface
                                              !! from arrays
-    real(c_double) :: velocity_error_bound   !< the most by which a velocity on a triangle can differ from the smooth
-                                             !! valve's at the same patch, u and v. The first call after a moving update
-                                             !! computes it, which takes about as long as the update. 0 without a
-                                             !! motion, and for arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
   end type riis_surface_info
 
@@ -281,71 +275,16 @@ module riis_c
     type(c_ptr) :: patch_id   !< integer(c_int32_t), (n_edges)
   end type riis_attachment
 
-  type, bind(c) :: riis_warp_options
+  type, bind(c) :: riis_keyframe_arrays
     integer(c_int64_t) :: struct_size
-    real(c_double) :: noise
-    type(c_ptr) :: placement !< type(riis_surface_options), (*), or c_null_ptr; c_loc of a riis_surface_options
-  end type riis_warp_options
-
-  !> A warp's quality, in the units of its landmarks.
-  type, bind(c) :: riis_warp_info
-    integer(c_int64_t) :: n_landmarks         !< the number of landmarks
-    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets
-    real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
-    integer(c_int64_t) :: largest_landmark_id !< its landmark
-    real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
-    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, half way from a landmark
-                                              !! to the nearest other one
-    real(c_double) :: least_point(3)          !< the point between the sources where the determinant is least
-    integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
-    integer(c_int32_t) :: reserved            !< 0
-  end type riis_warp_info
-
-  type, bind(c) :: riis_valve_patches
-    integer(c_int64_t) :: n_curves
-    integer(c_int64_t) :: n_pieces
-    type(c_ptr) :: first_piece !< integer(c_int64_t), (n_curves + 1), from 0
-    type(c_ptr) :: degree      !< integer(c_int32_t), (n_pieces)
-    type(c_ptr) :: control     !< real(c_double), (3, sum(degree + 1))
-    integer(c_int64_t) :: n_patches
-    type(c_ptr) :: curve_id    !< integer(c_int32_t), (4, n_patches), from 0
-    type(c_ptr) :: reversed    !< integer(c_int32_t), (4, n_patches)
-    type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_patches)
-    type(c_ptr) :: patch_id    !< integer(c_int32_t), (n_patches)
-    type(c_ptr) :: attached    !< integer(c_int32_t), (n_patches)
-    type(c_ptr) :: bulge       !< real(c_double), (n_patches)
-  end type riis_valve_patches
-
-  !> The gap between the attachment of a valve and a wall. Lengths are in mesh units.
-  type, bind(c) :: riis_gap
-    real(c_double) :: least, mean, most  !< the gap at the ends of the edges; the mean is weighted by the edges'
-                                         !! lengths. 0 without a wall at any end
-    real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
-    integer(c_int64_t) :: n_ends         !< number of ends of edges: 2 * riis_attachment.n_edges
-    integer(c_int64_t) :: n_without_wall !< the ends whose line misses the wall. They count in no other field
-  end type riis_gap
-
-  type, bind(c) :: riis_crossing_options
-    integer(c_int64_t) :: struct_size
-    real(c_double) :: depth
-    integer(c_int32_t) :: n_threads
-    integer(c_int32_t) :: reserved
-  end type riis_crossing_options
-
-  !> c_null_ptr for arrays without pairs
-  type, bind(c) :: riis_crossing_list
-    integer(c_int64_t) :: n_pairs
-    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs), from 0, the lower id first
-    type(c_ptr) :: point       !< real(c_double), (3, n_pairs)
-    type(c_ptr) :: depth       !< real(c_double), (n_pairs)
-    type(c_ptr) :: length      !< real(c_double), (n_pairs)
-    real(c_double) :: total_length
-    real(c_double) :: deepest_depth
-    real(c_double) :: deepest_point(3)
-    integer(c_int64_t) :: deepest_triangle_id(2)
-    integer(c_int32_t) :: deepest_leaflet_id(2)
-    real(c_double) :: seconds
-  end type riis_crossing_list
+    integer(c_int64_t) :: n_keys
+    integer(c_int64_t) :: n_vertices
+    type(c_ptr) :: time             !< real(c_double), (n_keys)
+    type(c_ptr) :: xyz              !< real(c_double) or (c_float), (3, n_vertices, n_keys)
+    real(c_double) :: period
+    integer(c_int32_t) :: interpolation
+    integer(c_int32_t) :: real_bits !< storage_size(xyz)
+  end type riis_keyframe_arrays
 
   !> The closest point of the surface to one point. For other measures than triangles see RIIS_MEASURE_*.
   type, bind(c) :: riis_closest
@@ -355,9 +294,10 @@ module riis_c
     real(c_double) :: normal(3)       !< unit normal of the triangle, by the right-hand rule
     integer(c_int64_t) :: triangle_id !< the lowest id of the closest triangles
     integer(c_int32_t) :: leaflet_id  !< of the triangle
-    integer(c_int32_t) :: side        !< +1 where normals point to (downstream), -1 on the other side, 0 on the surface
-                                      !! or level with its rim. At a shared edge or vertex (equal placed coordinates)
-                                      !! the angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005)
+    integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side, 0 on
+                                      !! the surface or level with its rim. At a shared edge or vertex (equal placed
+                                      !! coordinates) the angle-weighted normal of its triangles decides (Baerentzen,
+                                      !! Aanaes 2005)
   end type riis_closest
 
   type, bind(c) :: riis_closest_options
@@ -382,6 +322,28 @@ module riis_c
     type(c_ptr) :: leaflet_id  !< integer(c_int32_t), (n_points)
     type(c_ptr) :: side        !< integer(c_int32_t), (n_points)
   end type riis_closest_arrays
+
+  type, bind(c) :: riis_crossing_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: depth
+    integer(c_int32_t) :: n_threads
+    integer(c_int32_t) :: reserved
+  end type riis_crossing_options
+
+  !> c_null_ptr for arrays without pairs
+  type, bind(c) :: riis_crossing_list
+    integer(c_int64_t) :: n_pairs
+    type(c_ptr) :: triangle_id !< integer(c_int64_t), (2, n_pairs), from 0, the lower id first
+    type(c_ptr) :: point       !< real(c_double), (3, n_pairs)
+    type(c_ptr) :: depth       !< real(c_double), (n_pairs)
+    type(c_ptr) :: length      !< real(c_double), (n_pairs)
+    real(c_double) :: total_length
+    real(c_double) :: deepest_depth
+    real(c_double) :: deepest_point(3)
+    integer(c_int64_t) :: deepest_triangle_id(2)
+    integer(c_int32_t) :: deepest_leaflet_id(2)
+    real(c_double) :: seconds
+  end type riis_crossing_list
 
   type, bind(c) :: riis_csr
     integer(c_int64_t) :: struct_size
@@ -589,7 +551,7 @@ module riis_c
   end type riis_leaflet
 
   !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
-  !! valve is its z axis, placed, and its skirt does not count. For arrays and keyframes it is the vector area of the
+  !! valve is its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the
   !! outline, towards the side to which normals point. Lengths are in mesh units (docs/theory/measures.md).
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline only axis and rim_reach differ from
@@ -691,6 +653,41 @@ module riis_c
     type(c_ptr) :: place          !< real(c_double), (3, n_landmarks)
   end type riis_placement_arrays
 
+  type, bind(c) :: riis_warp_options
+    integer(c_int64_t) :: struct_size
+    real(c_double) :: noise
+    type(c_ptr) :: placement !< type(riis_surface_options), (*), or c_null_ptr; c_loc of a riis_surface_options
+  end type riis_warp_options
+
+  !> A warp's quality, in the units of its landmarks.
+  type, bind(c) :: riis_warp_info
+    integer(c_int64_t) :: n_landmarks         !< the number of landmarks
+    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets
+    real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
+    integer(c_int64_t) :: largest_landmark_id !< its landmark
+    real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
+    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, half way from a landmark
+                                              !! to the nearest other one
+    real(c_double) :: least_point(3)          !< the point between the sources where the determinant is least
+    integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
+    integer(c_int32_t) :: reserved            !< 0
+  end type riis_warp_info
+
+  !> The gap between the attachment of a valve and a wall. Lengths are in mesh units.
+  type, bind(c) :: riis_gap
+    real(c_double) :: least, mean, most  !< the gap at the ends of the edges; the mean is weighted by the edges'
+                                         !! lengths. 0 without a wall at any end
+    real(c_double) :: widest_point(3)    !< the end of an edge with the widest gap
+    integer(c_int64_t) :: n_ends         !< number of ends of edges: 2 * riis_attachment.n_edges
+    integer(c_int64_t) :: n_without_wall !< the ends whose line misses the wall. They count in no other field
+  end type riis_gap
+
+  type, bind(c) :: riis_direction
+    integer(c_int64_t) :: n_vertices
+    type(c_ptr) :: rate !< real(c_double), (3, n_vertices)
+    real(c_double) :: area_rate
+  end type riis_direction
+
   type, bind(c) :: riis_opening_table
     integer(c_int64_t) :: struct_size
     integer(c_int64_t) :: n_keys
@@ -785,12 +782,6 @@ module riis_c
       implicit none
       type(c_ptr) :: text
     end function riis_last_error
-
-    subroutine riis_get_version(major, minor, patch) bind(c, name='riis_get_version')
-      import :: c_int32_t
-      implicit none
-      integer(c_int32_t), intent(out), optional :: major, minor, patch
-    end subroutine riis_get_version
 
     !> For riis_c_text.
     function riis_version_string() result(text) bind(c, name='riis_version_string')
@@ -940,6 +931,16 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_get_parameter
 
+    !>   struct_size  c_sizeof(patches)
+    function riis_valve_get_patches(valve, patches, struct_size) result(status) bind(c, name='riis_valve_get_patches')
+      import :: c_int64_t, c_ptr, riis_status, riis_valve_patches
+      implicit none
+      type(c_ptr), value :: valve
+      type(riis_valve_patches), intent(inout) :: patches
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_valve_get_patches
+
     ! -----------------------------------------------------------------------------------------------------------------
     ! Surface
     ! -----------------------------------------------------------------------------------------------------------------
@@ -993,6 +994,59 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update
 
+    !>   options  if left out: the surface's own options
+    function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
+        bind(c, name='riis_surface_update_from_arrays')
+      import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_surface_arrays), intent(in) :: arrays
+      type(riis_surface_options), intent(in), optional :: options
+      integer(riis_status) :: status
+    end function riis_surface_update_from_arrays
+
+    subroutine riis_surface_destroy(surface) bind(c, name='riis_surface_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: surface
+    end subroutine riis_surface_destroy
+
+    !>   struct_size  c_sizeof(info)
+    function riis_surface_get_info(surface, info, struct_size) result(status) bind(c, name='riis_surface_get_info')
+      import :: c_int64_t, c_ptr, riis_status, riis_surface_info
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_surface_info), intent(inout) :: info
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_info
+
+    !>   struct_size  c_sizeof(triangles)
+    function riis_surface_get_triangles(surface, triangles, struct_size) result(status) &
+        bind(c, name='riis_surface_get_triangles')
+      import :: c_int64_t, c_ptr, riis_status, riis_triangles
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_triangles), intent(inout) :: triangles
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_triangles
+
+    !>   struct_size  c_sizeof(attachment)
+    function riis_surface_get_attachment(surface, attachment, struct_size) result(status) &
+        bind(c, name='riis_surface_get_attachment')
+      import :: c_int64_t, c_ptr, riis_attachment, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      type(riis_attachment), intent(inout) :: attachment
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_attachment
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Motion
+    ! -----------------------------------------------------------------------------------------------------------------
+
     !>   options         if left out: the surface's own options
     !!   options_before  if left out: the present options
     function riis_surface_update_moving(surface, valve, valve_before, dt, options, options_before) result(status) &
@@ -1005,17 +1059,6 @@ module riis_c
       type(riis_surface_options), intent(in), optional :: options, options_before
       integer(riis_status) :: status
     end function riis_surface_update_moving
-
-    !>   options  if left out: the surface's own options
-    function riis_surface_update_from_arrays(surface, arrays, options) result(status) &
-        bind(c, name='riis_surface_update_from_arrays')
-      import :: c_ptr, riis_status, riis_surface_arrays, riis_surface_options
-      implicit none
-      type(c_ptr), value :: surface
-      type(riis_surface_arrays), intent(in) :: arrays
-      type(riis_surface_options), intent(in), optional :: options
-      integer(riis_status) :: status
-    end function riis_surface_update_from_arrays
 
     !>   struct_size  c_sizeof(frames)
     function riis_keyframe_arrays_init(frames, struct_size) result(status) bind(c, name='riis_keyframe_arrays_init')
@@ -1065,177 +1108,50 @@ module riis_c
       integer(riis_status) :: status
     end function riis_surface_update_from_keyframes
 
-    !>   options_after   if left out: the surface's own options
-    !!   options_before  if left out: the surface's own options
-    function riis_surface_add_direction(surface, valve_after, valve_before, dp, options_after, options_before) &
-        result(status) bind(c, name='riis_surface_add_direction')
-      import :: c_double, c_ptr, riis_status, riis_surface_options
-      implicit none
-      type(c_ptr), value :: surface
-      type(c_ptr), value :: valve_after, valve_before
-      real(c_double), value :: dp
-      type(riis_surface_options), intent(in), optional :: options_after, options_before
-      integer(riis_status) :: status
-    end function riis_surface_add_direction
-
-    !>   direction_id  from 0
-    !!   struct_size   c_sizeof(direction)
-    function riis_surface_get_direction(surface, direction_id, direction, struct_size) result(status) &
-        bind(c, name='riis_surface_get_direction')
-      import :: c_int64_t, c_ptr, riis_direction, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      integer(c_int64_t), value :: direction_id
-      type(riis_direction), intent(inout) :: direction
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_surface_get_direction
-
-    subroutine riis_surface_destroy(surface) bind(c, name='riis_surface_destroy')
-      import :: c_ptr
-      implicit none
-      type(c_ptr), intent(inout) :: surface
-    end subroutine riis_surface_destroy
-
-    !>   struct_size  c_sizeof(info)
-    function riis_surface_get_info(surface, info, struct_size) result(status) bind(c, name='riis_surface_get_info')
-      import :: c_int64_t, c_ptr, riis_status, riis_surface_info
-      implicit none
-      type(c_ptr), value :: surface
-      type(riis_surface_info), intent(inout) :: info
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_surface_get_info
-
-    !>   struct_size  c_sizeof(triangles)
-    function riis_surface_get_triangles(surface, triangles, struct_size) result(status) &
-        bind(c, name='riis_surface_get_triangles')
-      import :: c_int64_t, c_ptr, riis_status, riis_triangles
-      implicit none
-      type(c_ptr), value :: surface
-      type(riis_triangles), intent(inout) :: triangles
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_surface_get_triangles
-
-    !>   struct_size  c_sizeof(attachment)
-    function riis_surface_get_attachment(surface, attachment, struct_size) result(status) &
-        bind(c, name='riis_surface_get_attachment')
-      import :: c_int64_t, c_ptr, riis_attachment, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      type(riis_attachment), intent(inout) :: attachment
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_surface_get_attachment
-
     ! -----------------------------------------------------------------------------------------------------------------
-    ! Warp
+    ! Closest points
     ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(closest)
+    function riis_closest_point(surface, point, closest, struct_size) result(status) bind(c, name='riis_closest_point')
+      import :: c_double, c_int64_t, c_ptr, riis_closest, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      real(c_double), intent(in) :: point(3)
+      type(riis_closest), intent(inout) :: closest
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_closest_point
 
     !>   struct_size  c_sizeof(options)
-    function riis_warp_options_init(options, struct_size) result(status) bind(c, name='riis_warp_options_init')
-      import :: c_int64_t, riis_status, riis_warp_options
+    function riis_closest_options_init(options, struct_size) result(status) bind(c, name='riis_closest_options_init')
+      import :: c_int64_t, riis_closest_options, riis_status
       implicit none
-      type(riis_warp_options), intent(inout) :: options
+      type(riis_closest_options), intent(inout) :: options
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
-    end function riis_warp_options_init
+    end function riis_closest_options_init
+
+    !>   struct_size  c_sizeof(arrays)
+    function riis_closest_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_closest_arrays_init')
+      import :: c_int64_t, riis_closest_arrays, riis_status
+      implicit none
+      type(riis_closest_arrays), intent(inout) :: arrays
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_closest_arrays_init
 
     !>   options  if left out: all defaults
-    function riis_warp_create(sources, options, warp) result(status) bind(c, name='riis_warp_create')
-      import :: c_ptr, riis_points, riis_status, riis_warp_options
+    !!   arrays   its arrays are written
+    function riis_closest_points(surface, points, options, arrays) result(status) bind(c, name='riis_closest_points')
+      import :: c_ptr, riis_closest_arrays, riis_closest_options, riis_points, riis_status
       implicit none
-      type(riis_points), intent(in) :: sources
-      type(riis_warp_options), intent(in), optional :: options
-      type(c_ptr), intent(inout) :: warp
-      integer(riis_status) :: status
-    end function riis_warp_create
-
-    subroutine riis_warp_destroy(warp) bind(c, name='riis_warp_destroy')
-      import :: c_ptr
-      implicit none
-      type(c_ptr), intent(inout) :: warp
-    end subroutine riis_warp_destroy
-
-    function riis_warp_set_targets(warp, targets) result(status) bind(c, name='riis_warp_set_targets')
-      import :: c_ptr, riis_points, riis_status
-      implicit none
-      type(c_ptr), value :: warp
-      type(riis_points), intent(in) :: targets
-      integer(riis_status) :: status
-    end function riis_warp_set_targets
-
-    function riis_warp_set_targets_at(warp, frames, time) result(status) bind(c, name='riis_warp_set_targets_at')
-      import :: c_double, c_ptr, riis_keyframe_arrays, riis_status
-      implicit none
-      type(c_ptr), value :: warp
-      type(riis_keyframe_arrays), intent(in) :: frames
-      real(c_double), value :: time
-      integer(riis_status) :: status
-    end function riis_warp_set_targets_at
-
-    !>   struct_size  c_sizeof(info)
-    function riis_warp_get_info(warp, info, struct_size) result(status) bind(c, name='riis_warp_get_info')
-      import :: c_int64_t, c_ptr, riis_status, riis_warp_info
-      implicit none
-      type(c_ptr), value :: warp
-      type(riis_warp_info), intent(inout) :: info
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_warp_get_info
-
-    function riis_warp_map(warp, points, mapped) result(status) bind(c, name='riis_warp_map')
-      import :: c_double, c_ptr, riis_points, riis_status
-      implicit none
-      type(c_ptr), value :: warp
+      type(c_ptr), value :: surface
       type(riis_points), intent(in) :: points
-      real(c_double), intent(inout) :: mapped(*)
+      type(riis_closest_options), intent(in), optional :: options
+      type(riis_closest_arrays), intent(in) :: arrays
       integer(riis_status) :: status
-    end function riis_warp_map
-
-    function riis_valve_set_warp(valve, closed, open) result(status) bind(c, name='riis_valve_set_warp')
-      import :: c_ptr, riis_status
-      implicit none
-      type(c_ptr), value :: valve
-      type(c_ptr), value :: closed, open
-      integer(riis_status) :: status
-    end function riis_valve_set_warp
-
-    !>   struct_size  c_sizeof(patches)
-    function riis_valve_get_patches(valve, patches, struct_size) result(status) bind(c, name='riis_valve_get_patches')
-      import :: c_int64_t, c_ptr, riis_status, riis_valve_patches
-      implicit none
-      type(c_ptr), value :: valve
-      type(riis_valve_patches), intent(inout) :: patches
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_valve_get_patches
-
-    !>   distance     (2, riis_attachment%n_edges)
-    !!   struct_size  c_sizeof(gap)
-    function riis_surface_get_gap(surface, wall, distance, gap, struct_size) result(status) &
-        bind(c, name='riis_surface_get_gap')
-      import :: c_double, c_int64_t, c_ptr, riis_gap, riis_status
-      implicit none
-      type(c_ptr), value :: surface, wall
-      real(c_double), intent(inout), optional :: distance(*)
-      type(riis_gap), intent(inout) :: gap
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_surface_get_gap
-
-    !>   options  if left out: all defaults
-    function riis_valve_set_skirt_to_wall(valve, wall, longest, options) result(status) &
-        bind(c, name='riis_valve_set_skirt_to_wall')
-      import :: c_double, c_ptr, riis_status, riis_surface_options
-      implicit none
-      type(c_ptr), value :: valve
-      type(c_ptr), value :: wall
-      real(c_double), value :: longest
-      type(riis_surface_options), intent(in), optional :: options
-      integer(riis_status) :: status
-    end function riis_valve_set_skirt_to_wall
+    end function riis_closest_points
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Crossings
@@ -1283,51 +1199,6 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_crossings_get_list
-
-    ! -----------------------------------------------------------------------------------------------------------------
-    ! Closest points
-    ! -----------------------------------------------------------------------------------------------------------------
-
-    !>   struct_size  c_sizeof(closest)
-    function riis_closest_point(surface, point, closest, struct_size) result(status) bind(c, name='riis_closest_point')
-      import :: c_double, c_int64_t, c_ptr, riis_closest, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      real(c_double), intent(in) :: point(3)
-      type(riis_closest), intent(inout) :: closest
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_closest_point
-
-    !>   struct_size  c_sizeof(options)
-    function riis_closest_options_init(options, struct_size) result(status) bind(c, name='riis_closest_options_init')
-      import :: c_int64_t, riis_closest_options, riis_status
-      implicit none
-      type(riis_closest_options), intent(inout) :: options
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_closest_options_init
-
-    !>   struct_size  c_sizeof(arrays)
-    function riis_closest_arrays_init(arrays, struct_size) result(status) bind(c, name='riis_closest_arrays_init')
-      import :: c_int64_t, riis_closest_arrays, riis_status
-      implicit none
-      type(riis_closest_arrays), intent(inout) :: arrays
-      integer(c_int64_t), value :: struct_size
-      integer(riis_status) :: status
-    end function riis_closest_arrays_init
-
-    !>   options  if left out: all defaults
-    !!   arrays   its arrays are written
-    function riis_closest_points(surface, points, options, arrays) result(status) bind(c, name='riis_closest_points')
-      import :: c_ptr, riis_closest_arrays, riis_closest_options, riis_points, riis_status
-      implicit none
-      type(c_ptr), value :: surface
-      type(riis_points), intent(in) :: points
-      type(riis_closest_options), intent(in), optional :: options
-      type(riis_closest_arrays), intent(in) :: arrays
-      integer(riis_status) :: status
-    end function riis_closest_points
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Mesh
@@ -1721,7 +1592,7 @@ module riis_c
     end function riis_find_passage
 
     ! -----------------------------------------------------------------------------------------------------------------
-    ! What a valve means for the flow
+    ! Measures
     ! -----------------------------------------------------------------------------------------------------------------
 
     function riis_surface_get_n_leaflets(surface, n_leaflets) result(status) bind(c, name='riis_surface_get_n_leaflets')
@@ -1830,19 +1701,6 @@ module riis_c
       integer(riis_status) :: status
     end function riis_valve_get_swept_volume
 
-    !>   options  if left out: all defaults
-    function riis_keyframes_get_swept_volume(keyframes, time_from, time_to, options, leaflet_id, volume) &
-        result(status) bind(c, name='riis_keyframes_get_swept_volume')
-      import :: c_double, c_int32_t, c_ptr, riis_status, riis_surface_options
-      implicit none
-      type(c_ptr), value :: keyframes
-      real(c_double), value :: time_from, time_to
-      type(riis_surface_options), intent(in), optional :: options
-      integer(c_int32_t), value :: leaflet_id
-      real(c_double), intent(inout) :: volume
-      integer(riis_status) :: status
-    end function riis_keyframes_get_swept_volume
-
     ! -----------------------------------------------------------------------------------------------------------------
     ! Landmarks
     ! -----------------------------------------------------------------------------------------------------------------
@@ -1880,6 +1738,138 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_place
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Warp
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   struct_size  c_sizeof(options)
+    function riis_warp_options_init(options, struct_size) result(status) bind(c, name='riis_warp_options_init')
+      import :: c_int64_t, riis_status, riis_warp_options
+      implicit none
+      type(riis_warp_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_warp_options_init
+
+    !>   options  if left out: all defaults
+    function riis_warp_create(sources, options, warp) result(status) bind(c, name='riis_warp_create')
+      import :: c_ptr, riis_points, riis_status, riis_warp_options
+      implicit none
+      type(riis_points), intent(in) :: sources
+      type(riis_warp_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: warp
+      integer(riis_status) :: status
+    end function riis_warp_create
+
+    subroutine riis_warp_destroy(warp) bind(c, name='riis_warp_destroy')
+      import :: c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: warp
+    end subroutine riis_warp_destroy
+
+    function riis_warp_set_targets(warp, targets) result(status) bind(c, name='riis_warp_set_targets')
+      import :: c_ptr, riis_points, riis_status
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_points), intent(in) :: targets
+      integer(riis_status) :: status
+    end function riis_warp_set_targets
+
+    function riis_warp_set_targets_at(warp, frames, time) result(status) bind(c, name='riis_warp_set_targets_at')
+      import :: c_double, c_ptr, riis_keyframe_arrays, riis_status
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_keyframe_arrays), intent(in) :: frames
+      real(c_double), value :: time
+      integer(riis_status) :: status
+    end function riis_warp_set_targets_at
+
+    !>   struct_size  c_sizeof(info)
+    function riis_warp_get_info(warp, info, struct_size) result(status) bind(c, name='riis_warp_get_info')
+      import :: c_int64_t, c_ptr, riis_status, riis_warp_info
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_warp_info), intent(inout) :: info
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_warp_get_info
+
+    function riis_warp_map(warp, points, mapped) result(status) bind(c, name='riis_warp_map')
+      import :: c_double, c_ptr, riis_points, riis_status
+      implicit none
+      type(c_ptr), value :: warp
+      type(riis_points), intent(in) :: points
+      real(c_double), intent(inout) :: mapped(*)
+      integer(riis_status) :: status
+    end function riis_warp_map
+
+    function riis_valve_set_warp(valve, closed, open) result(status) bind(c, name='riis_valve_set_warp')
+      import :: c_ptr, riis_status
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), value :: closed, open
+      integer(riis_status) :: status
+    end function riis_valve_set_warp
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Skirt
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   distance     (2, riis_attachment%n_edges)
+    !!   struct_size  c_sizeof(gap)
+    function riis_surface_get_gap(surface, wall, distance, gap, struct_size) result(status) &
+        bind(c, name='riis_surface_get_gap')
+      import :: c_double, c_int64_t, c_ptr, riis_gap, riis_status
+      implicit none
+      type(c_ptr), value :: surface, wall
+      real(c_double), intent(inout), optional :: distance(*)
+      type(riis_gap), intent(inout) :: gap
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_gap
+
+    !>   options  if left out: all defaults
+    function riis_valve_set_skirt_to_wall(valve, wall, longest, options) result(status) &
+        bind(c, name='riis_valve_set_skirt_to_wall')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: valve
+      type(c_ptr), value :: wall
+      real(c_double), value :: longest
+      type(riis_surface_options), intent(in), optional :: options
+      integer(riis_status) :: status
+    end function riis_valve_set_skirt_to_wall
+
+    ! -----------------------------------------------------------------------------------------------------------------
+    ! Gradients
+    ! -----------------------------------------------------------------------------------------------------------------
+
+    !>   options_after   if left out: the surface's own options
+    !!   options_before  if left out: the surface's own options
+    function riis_surface_add_direction(surface, valve_after, valve_before, dp, options_after, options_before) &
+        result(status) bind(c, name='riis_surface_add_direction')
+      import :: c_double, c_ptr, riis_status, riis_surface_options
+      implicit none
+      type(c_ptr), value :: surface
+      type(c_ptr), value :: valve_after, valve_before
+      real(c_double), value :: dp
+      type(riis_surface_options), intent(in), optional :: options_after, options_before
+      integer(riis_status) :: status
+    end function riis_surface_add_direction
+
+    !>   direction_id  from 0
+    !!   struct_size   c_sizeof(direction)
+    function riis_surface_get_direction(surface, direction_id, direction, struct_size) result(status) &
+        bind(c, name='riis_surface_get_direction')
+      import :: c_int64_t, c_ptr, riis_direction, riis_status
+      implicit none
+      type(c_ptr), value :: surface
+      integer(c_int64_t), value :: direction_id
+      type(riis_direction), intent(inout) :: direction
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_direction
 
     ! -----------------------------------------------------------------------------------------------------------------
     ! Laws of opening

@@ -209,27 +209,6 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
   status = riis_valve_get_swept_volume(c_handle_of(valve), opening_from, opening_to, options, leaflet_id, volume)
 end subroutine riisf_valve_swept_volume
 
-!> Gives the volume that keyframes sweep between two times. Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has;
-!! RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys between the times.
-subroutine riisf_keyframes_swept_volume(keyframes, time_from, time_to, scale, leaflet_id, volume, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
-  use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_keyframes_get_swept_volume, riis_surface_options_init
-  use riis_support, only: c_handle_of
-  implicit none
-  integer(int64), intent(in) :: keyframes                 !< Must be created.
-  real(c_double), intent(in) :: time_from                 !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: time_to                   !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
-  integer(int32), intent(in) :: leaflet_id                !< A leaflet id of the faces, or RIIS_ALL_LEAFLETS.
-  real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
-  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_surface_options) :: options
-  status = riis_surface_options_init(options, c_sizeof(options))
-  if (status /= RIIS_OK) return
-  options%scale = scale
-  status = riis_keyframes_get_swept_volume(c_handle_of(keyframes), time_from, time_to, options, leaflet_id, volume)
-end subroutine riisf_keyframes_swept_volume
 
 !> Finds the opening at which riisf_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
 !! halves the last step. Errors: those of riisf_surface_create and riisf_find_passage, with the opening.

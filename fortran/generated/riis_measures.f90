@@ -8,7 +8,6 @@ module riis_measures
   use riis_c, c_find_first_passage => riis_find_first_passage
   use riis_support
   use riis_valves, only: riis_valve
-  use riis_frames, only: riis_keyframes
   use riis_surfaces, only: riis_surface
   use riis_meshes, only: riis_mesh
   use riis_marking, only: riis_marks
@@ -16,12 +15,6 @@ module riis_measures
   private
   public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
     riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, riis_get_swept_volume, riis_find_first_passage
-
-  !> Gives the volume that a valve or keyframes sweep.
-  interface riis_get_swept_volume
-    module procedure swept_volume_of_valve
-    module procedure swept_volume_of_keyframes
-  end interface riis_get_swept_volume
 
   !> Finds the opening at which a valve first leaves a passage through a mesh.
   interface riis_find_first_passage
@@ -184,26 +177,10 @@ contains
     call finish(code, status)
   end subroutine riis_get_cells_across
 
-  ! Makes the options of a swept volume. Does nothing after an error.
-  subroutine get_sweep(leaflet_id, scale, flip_normals, n_threads, options, id, code)
-    class(*), intent(in), optional :: leaflet_id, n_threads
-    real(c_double), intent(in), optional :: scale
-    logical, intent(in), optional :: flip_normals
-    type(riis_surface_options), intent(inout) :: options
-    integer(int32), intent(inout) :: id
-    integer(riis_status), intent(inout) :: code
-    id = RIIS_ALL_LEAFLETS
-    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
-    if (present(scale)) options%scale = scale
-    if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
-    call get_integer(leaflet_id, 'leaflet_id', id, code)
-    call get_integer(n_threads, 'n_threads', options%n_threads, code)
-  end subroutine get_sweep
-
   !> Gives the volume that a valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over surface
   !! and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that the
   !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both are 0.
-  subroutine swept_volume_of_valve(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
+  subroutine riis_get_swept_volume(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.
     real(c_double), intent(in) :: opening_to                !< 0 to 1.
@@ -216,33 +193,17 @@ contains
     type(riis_surface_options) :: options
     integer(int32) :: id
     integer(riis_status) :: code
+    id = RIIS_ALL_LEAFLETS
     code = check_created(valve%c_handle(), 'the valve')
-    call get_sweep(leaflet_id, scale, flip_normals, n_threads, options, id, code)
+    if (code == RIIS_OK) code = riis_surface_options_init(options, c_sizeof(options))
+    if (present(scale)) options%scale = scale
+    if (present(flip_normals)) options%flip_normals = merge(1, 0, flip_normals)
+    call get_integer(leaflet_id, 'leaflet_id', id, code)
+    call get_integer(n_threads, 'n_threads', options%n_threads, code)
     if (code == RIIS_OK) &
       code = riis_valve_get_swept_volume(valve%c_handle(), opening_from, opening_to, options, id, volume)
     call finish(code, status)
-  end subroutine swept_volume_of_valve
-
-  !> Gives the volume that keyframes sweep between two times. Errors: RIIS_INVALID_ARGUMENT for a leaflet that no face has;
-  !! RIIS_LIMIT_EXCEEDED for more than 1,000,000 keys between the times.
-  subroutine swept_volume_of_keyframes(keyframes, time_from, time_to, volume, leaflet_id, scale, flip_normals, status)
-    class(riis_keyframes), intent(in) :: keyframes          !< Must be created.
-    real(c_double), intent(in) :: time_from                 !< Magnitude at most 1e30.
-    real(c_double), intent(in) :: time_to                   !< Magnitude at most 1e30.
-    real(c_double), intent(inout) :: volume                 !< Unchanged on an error.
-    class(*), intent(in), optional :: leaflet_id            !< integer, the caller's. Default RIIS_ALL_LEAFLETS.
-    real(c_double), intent(in), optional :: scale           !< 1e-12 to 1e12. Default 1.
-    logical, intent(in), optional :: flip_normals           !< .true. changes the sign. Default .false.
-    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
-    type(riis_surface_options) :: options
-    integer(int32) :: id
-    integer(riis_status) :: code
-    code = check_created(keyframes%c_handle(), 'keyframes')
-    call get_sweep(leaflet_id, scale, flip_normals, options=options, id=id, code=code)
-    if (code == RIIS_OK) &
-      code = riis_keyframes_get_swept_volume(keyframes%c_handle(), time_from, time_to, options, id, volume)
-    call finish(code, status)
-  end subroutine swept_volume_of_keyframes
+  end subroutine riis_get_swept_volume
 
   !> Finds the opening at which riis_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
   !! halves the last step. Errors: those of riis_surface%create and riis_find_passage, with the opening.

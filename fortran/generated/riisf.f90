@@ -98,7 +98,6 @@ module riisf
   public :: riisf_surface_leak
   public :: riisf_cells_across
   public :: riisf_valve_swept_volume
-  public :: riisf_keyframes_swept_volume
   public :: riisf_find_first_passage
   public :: riisf_find_first_passage_64
   public :: riisf_surface_vertices
@@ -1355,20 +1354,6 @@ module riisf
       real(c_double), intent(inout) :: volume
       integer(riis_status), intent(out) :: status
     end subroutine riisf_valve_swept_volume
-
-    subroutine riisf_keyframes_swept_volume(keyframes, time_from, time_to, scale, leaflet_id, volume, status)
-      use, intrinsic :: iso_c_binding, only: c_double
-      use, intrinsic :: iso_fortran_env, only: int32, int64
-      use riis_c, only: riis_status
-      implicit none
-      integer(int64), intent(in) :: keyframes
-      real(c_double), intent(in) :: time_from
-      real(c_double), intent(in) :: time_to
-      real(c_double), intent(in) :: scale
-      integer(int32), intent(in) :: leaflet_id
-      real(c_double), intent(inout) :: volume
-      integer(riis_status), intent(out) :: status
-    end subroutine riisf_keyframes_swept_volume
 
     subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, &
       scale, rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, &

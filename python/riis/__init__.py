@@ -75,7 +75,6 @@ from riis._riis import (
     mark,
     set_log,
     status_name,
-    version,
     version_string,
 )
 from riis.laws import (
@@ -169,6 +168,5 @@ __all__ = [
     "read_placed",
     "set_log",
     "status_name",
-    "version",
     "version_string",
 ]

@@ -99,16 +99,6 @@ double swept_by_valve(Valve &self, nb::handle from_, nb::handle to_, nb::handle 
   return volume;
 }
 
-double swept_by_keyframes(Keyframes &self, nb::handle from_, nb::handle to_, nb::handle leaflet_id, nb::handle scale) {
-  const Reading reading(self.usage, "keyframes");
-  const riis_surface_options options = sweep_options(scale, nb::int_(0));
-  const double from = number(from_, "time_from"), to = number(to_, "time_to");
-  const std::int32_t id = leaflet_or_all(leaflet_id);
-  double volume = 0;
-  call_library([&] { return riis_keyframes_get_swept_volume(self.handle, from, to, &options, id, &volume); });
-  return volume;
-}
-
 nb::object cells_across(Marks &self, nb::handle mesh_) {
   Mesh &mesh = object<Mesh>(mesh_, "mesh");
   const Reading reading_marks(self.usage, "marks"), reading_mesh(mesh.usage, "mesh");
@@ -211,11 +201,6 @@ half_thickness  eps of the resistance; None: the surface's half thickness)");
 
 leaflet_id  the leaflet; None: all leaflets
 scale       converts lengths to the mesh's unit)");
-  add_method(module, "Keyframes", "swept_volume", &swept_by_keyframes, nb::arg("time_from").none(),
-             nb::arg("time_to").none(), nb::kw_only(), nb::arg("leaflet_id").none() = nb::none(),
-             nb::arg("scale").none() = 1.0,
-             nb::sig("def swept_volume(self, time_from: float, time_to: float, *, " RIIS_SWEEP ") -> float"),
-             "Returns the volume that the frames sweep between two times, positive along the normals.");
   add_method(module, "Marks", "cells_across", &cells_across, nb::arg("mesh").none(),
              nb::sig("def cells_across(self, mesh: Mesh) -> riis._records.CellsAcross"),
              R"(Computes the number of mesh edges across the band, from the lengths of the edges with a marked node.

@@ -11,14 +11,6 @@ NB_MODULE(_riis, module) {
   module.def("version_string", &riis_version_string, nb::sig("def version_string() -> str"),
              "Returns the version of the C library, such as '1.0.0'.");
   module.def(
-      "version",
-      [] {
-        std::int32_t major = 0, minor = 0, patch = 0;
-        riis_get_version(&major, &minor, &patch);
-        return nb::make_tuple(major, minor, patch);
-      },
-      nb::sig("def version() -> tuple[int, int, int]"), "Returns the version of the C library as three numbers.");
-  module.def(
       "status_name", [](nb::handle status) { return riis_status_name(integer32(status, "status")); },
       nb::arg("status").none(), nb::sig("def status_name(status: int) -> str"),
       "Returns the name of a status of the C library.");

@@ -163,7 +163,7 @@ nb::object info(Surface &surface) {
   return record("SurfaceInfo")(found.n_vertices, found.n_triangles, found.n_zero_area, found.half_thickness, found.area,
                                array_of(found.lower, "float64"), array_of(found.upper, "float64"),
                                found.seconds_triangles, found.seconds_scene, found.error_bound,
-                               found.velocity_error_bound, found.largest_leaflet_id);
+                               found.largest_leaflet_id);
 }
 
 riis_triangles triangles_of(const Surface &surface) {

@@ -13,7 +13,6 @@ import sys
 # Functions of riis.h, and the names through which the package calls them.
 BOUND = {
     "riis_status_name": "status_name",
-    "riis_get_version": "version",
     "riis_version_string": "version_string",
     "riis_set_log": "set_log",
     "riis_last_error": "Error",
@@ -93,7 +92,6 @@ BOUND = {
     "riis_find_first_passage": "find_first_passage",
     "riis_marks_get_cells_across": "Marks.cells_across",
     "riis_valve_get_swept_volume": "Valve.swept_volume",
-    "riis_keyframes_get_swept_volume": "Keyframes.swept_volume",
     "riis_place": "place",
     "riis_opening_from_table": "OpeningTable.opening_and_rate",
     "riis_opening_from_times": "OpeningTimes.opening_and_rate",
@@ -149,9 +147,17 @@ def texts_of_the_library(root: pathlib.Path) -> list[str]:
     return [text for text in re.findall(r'"((?:[^"\\\n]|\\.)*)"', code) if "riis_" in text or "RIIS_" in text]
 
 
+def header_of(root: pathlib.Path) -> str:
+    """Returns riis.h and the headers that it includes."""
+    path = root / "include/riis/riis.h"
+    text = path.read_text(encoding="utf-8")
+    names = re.findall(r'^#include "(\w+\.h)"', text, re.MULTILINE)
+    return text + "".join((path.parent / name).read_text(encoding="utf-8") for name in names)
+
+
 def check(root: pathlib.Path) -> list[str]:
     """Returns the faults, one per line."""
-    header = (root / "include/riis/riis.h").read_text(encoding="utf-8")
+    header = header_of(root)
     sources = "".join(path.read_text(encoding="utf-8") for path in sorted((root / "python/src").glob("*.[ch]pp")))
     functions = set(re.findall(r"^RIIS_API [^(]*?\b(riis_\w+)\(", header, re.MULTILINE))
     wrong = [] if len(functions) > 70 else ["riis.h was not read"]

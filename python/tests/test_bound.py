@@ -5,6 +5,7 @@ import ast
 import inspect
 import pathlib
 import re
+import shutil
 
 import bound
 import numpy
@@ -32,8 +33,17 @@ def test_the_check_finds_what_is_missing(monkeypatch):
     assert "riis_nothing is not called in python/src" in wrong
 
 
+def test_a_function_in_the_last_header_is_seen(monkeypatch, tmp_path):
+    shutil.copytree(ROOT / "include", tmp_path / "include")
+    with (tmp_path / "include/riis/laws.h").open("a", encoding="utf-8") as file:
+        file.write("RIIS_API riis_status riis_planted(int32_t number);\n")
+    planted = bound.header_of(tmp_path)
+    monkeypatch.setattr(bound, "header_of", lambda root: planted)
+    assert "riis_planted is not in python/tests/bound.py" in bound.check(ROOT)
+
+
 def test_options_of_surfaces_are_the_fields_of_their_struct():
-    header = (ROOT / "include/riis/riis.h").read_text(encoding="utf-8")
+    header = bound.header_of(ROOT)
     struct = re.search(r"typedef struct riis_surface_options \{(.*?)\n\}", header, re.DOTALL)[1]
     code = re.sub(r"/\*.*?\*/", "", struct, flags=re.DOTALL)
     fields = set(re.findall(r"(\w+)(?:\[3\])?;", code)) - {"struct_size", "reserved"}
@@ -45,7 +55,7 @@ def test_options_of_surfaces_are_the_fields_of_their_struct():
 
 
 def test_words_of_numbers_are_those_of_the_header():
-    header = (ROOT / "include/riis/riis.h").read_text(encoding="utf-8")
+    header = bound.header_of(ROOT)
     for name, words in _errors.WORDS.items():
         values = re.findall(rf"^ +RIIS_{name.upper()}_(\w+) = (\d+)", header, re.MULTILINE)
         assert [(word.lower(), int(value)) for word, value in values] == [(word, i) for i, word in enumerate(words)]

@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def test_the_programs_of_the_document_run(xyz):
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
     programs = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    assert len(programs) == 6  # test_plot.py, test_place.py and test_fit.py cover the last three programs
+    assert len(programs) == 7  # test_plot.py, test_place.py and test_fit.py cover the last three programs
     assert programs[0] in (ROOT / "README.md").read_text(encoding="utf-8")
     names = {"xyz": xyz, "n_steps": 6, "dt": 0.125}
     exec(programs[0], names)
@@ -29,6 +29,9 @@ def test_the_programs_of_the_document_run(xyz):
     exec(programs[2], names)
     slopes = names["marks"].K_gradient[:, 0]
     assert len(slopes) == len(names["marks"]) > 100 and slopes.min() < 0.0 < slopes.max()
+    exec(programs[3], names)
+    assert numpy.allclose(names["loads"].sum(axis=0), names["force"]) and names["force"].all() and names["moment"].any()
+    assert names["n_pieces"].min() >= 1 and not names["quality"].is_planar
 
 
 @pytest.mark.parametrize("name, n_least, used", [("tutorial", 10, {"Mesh", "mark", "animate", "fit"}), ("inverse", 4, set())])

@@ -148,9 +148,6 @@ def test_what_a_valve_means_for_the_flow():
     volume = valve.swept_volume(0.0, 1.0)
     assert numpy.isclose(valve.swept_volume(0.0, 1.0, leaflet_id=1, scale=2.0), 8 * volume / 3)
     assert valve.swept_volume(1.0, 0.0, n_threads=2) == -volume
-    frames = numpy.array([numpy.eye(3), numpy.eye(3) + [1.0, 2.0, 3.0]])
-    prism = riis.Keyframes(numpy.array([0.0, 1.0]), frames, numpy.array([[0, 1, 2]]))
-    assert numpy.isclose(prism.swept_volume(0.0, 0.5), 0.5 * 0.5 * 6)
 
     sides = [numpy.arange(-8, 9) / 10, numpy.arange(-8, 9) / 10, numpy.arange(-20, 21) / 10]
     z, y, x = numpy.meshgrid(sides[2], sides[1], sides[0], indexing="ij")

@@ -378,10 +378,6 @@ REFUSED = {
                            lambda o: riis.Valve().swept_volume(0.0, 1.0, leaflet_id=9)),
     "type of a leaflet": (TypeError, "leaflet_id: must be an integer",
                           lambda o: riis.Valve().swept_volume(0.0, 1.0, leaflet_id="right")),
-    "time of a sweep": (Argument, "^time_to is inf", lambda o: riis.Keyframes(
-        numpy.zeros(1), o.triangle[None], o.faces).swept_volume(0.0, math.inf)),
-    "leaflet of moving frames": (Argument, "^leaflet_id is 9, .*; None stands for all$", lambda o: riis.Keyframes(
-        numpy.zeros(1), o.triangle[None], o.faces).swept_volume(0.0, 1.0, leaflet_id=9)),
     "scale of a sweep": (Argument, "^scale is 0", lambda o: riis.Valve().swept_volume(0.0, 1.0, scale=0.0)),
     "cells without adjacency": (Argument, "^mesh has no adjacency, .* see Mesh.set_adjacency$",
                                 lambda o: riis.mark(o.surface, two_nodes()).cells_across(riis.Mesh(o.triangle[:2]))),

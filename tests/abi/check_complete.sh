@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_complete.sh TEST_SOURCE HEADER...
 # Every function, enum constant, struct and field of the headers must appear in the test, also if it was appended
-# after a release.
+# after a release. The headers that a header includes by name count with it.
 set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
 test_source=$1
 shift
 # Joins each signature into one line.
 signatures=$(tr '\n' ' ' <"$test_source" | sed 's/SIGNATURE( */\nSIGNATURE(/g')
 missing=0 n=0
 for header in "$@"; do
-  functions=$(grep -o '^RIIS_API [^(]*(' "$header" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
-  constants=$(grep -o -E '\bRIIS_[A-Z0-9_]+ = -?[0-9]+' "$header" | cut -d ' ' -f 1)
+  mapfile -t files < <("$here/headers.sh" "$header")
+  functions=$(grep -h -o '^RIIS_API [^(]*(' "${files[@]}" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
+  constants=$(grep -h -o -E '\bRIIS_[A-Z0-9_]+ = -?[0-9]+' "${files[@]}" | cut -d ' ' -f 1)
   [ -n "$functions" ] && [ -n "$constants" ]
   for name in $functions; do
     n=$((n + 1))
@@ -28,7 +30,7 @@ for header in "$@"; do
     }
   done
   # Prints "struct" or "struct, field". A comment may span several lines.
-  layouts=$(sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' "$header" | awk '
+  layouts=$(cat "${files[@]}" | sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' | awk '
     /^typedef struct riis_[a-z_]* \{/ { struct = $3; print struct; next }
     /^\}/ { struct = "" }
     struct != "" && /;/ {

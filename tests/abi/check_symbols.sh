@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # The list has a line "NAME VERSION" for every released function, and a line "NAME = VALUE VERSION" for every constant. VERSION is
 # the release that introduced the name. Compiled callers contain these names and values. So the list must equal the names of the
-# library and the header.
+# library and of the header, with the headers that it includes by name.
 set -euo pipefail
 list=$1 header=$2 library=$3
+mapfile -t headers < <("$(dirname "$0")/headers.sh" "$header")
 version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$(dirname "$header")/riis.h" | paste -s -d .)
 failed=0
 
@@ -27,7 +28,7 @@ fi
 listed=$(grep -v '^#' "$list" | sed 's/ [^ ]*$//' | sort)
 there=$({
   nm -D --defined-only "$library" | awk '$2 != "A" { sub(/@.*/, "", $3); print $3 }'
-  grep -o -E '\bRIIS_[A-Z0-9_]+ = -?[0-9]+' "$header"
+  grep -h -o -E '\bRIIS_[A-Z0-9_]+ = -?[0-9]+' "${headers[@]}"
 } | sort)
 gone=$(comm -23 <(echo "$listed") <(echo "$there"))
 new=$(comm -13 <(echo "$listed") <(echo "$there"))

@@ -9,18 +9,21 @@ root=$here/../.. library=$1 scratch=$2
 rm -rf "$scratch"
 mkdir -p "$scratch"
 
-# refused TEXT LIST HEADER: check_symbols.sh must fail with an error that has the text.
-refused() {
-  local errors
-  if errors=$("$here/check_symbols.sh" "$2" "$3" "$library" 2>&1); then
-    echo "accepted, though: $1" >&2
+# fails TEXT COMMAND...: the command must fail with an error that has the text.
+fails() {
+  local text=$1 errors
+  shift
+  if errors=$("$@" 2>&1); then
+    echo "accepted, though: $text" >&2
     exit 1
   fi
-  if ! grep -q -F -- "$1" <<<"$errors"; then
-    printf 'refused without "%s": %s\n' "$1" "$errors" >&2
+  if ! grep -q -F -- "$text" <<<"$errors"; then
+    printf 'refused without "%s": %s\n' "$text" "$errors" >&2
     exit 1
   fi
 }
+# refused TEXT LIST HEADER: check_symbols.sh must fail with an error that has the text.
+refused() { fails "$1" "$here/check_symbols.sh" "$2" "$3" "$library"; }
 list=$root/abi/riis.symbols header=$root/include/riis/riis.h
 "$here/check_symbols.sh" "$list" "$header" "$library"
 # gone.symbols has a function that the library lacks, as if a later library had dropped it.
@@ -31,5 +34,20 @@ version=$(sed -n -E 's/^#define RIIS_VERSION_[A-Z]+ ([0-9]+).*/\1/p' "$header" |
 refused "($version): riis_mesh_create" "$scratch/new.symbols" "$header"
 sed 's/^riis_mesh_create .*/riis_mesh_create 9.0.0/' "$list" >"$scratch/later.symbols"
 refused 'has something since 9.0.0' "$scratch/later.symbols" "$header"
-sed 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$header" >"$scratch/riis.h"
+cp "$(dirname "$header")"/*.h "$scratch"
+sed -i 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$scratch/marks.h"
 refused 'gone or changed: RIIS_SEARCH_PAPER = 3' "$list" "$scratch/riis.h"
+
+# The last header that riis.h includes is read, too: a value and a function that are planted there are refused.
+last=$("$here/headers.sh" "$header" | tail -n 1)
+plant() { sed "s|^/\* The phases of a switch|$1\n&|" "$last" >"$scratch/$(basename "$last")"; }
+cp "$(dirname "$header")"/*.h "$scratch"
+plant 'enum { RIIS_PLANTED = 1 };'
+refused "($version): RIIS_PLANTED = 1" "$list" "$scratch/riis.h"
+complete=("$here/check_complete.sh" "$here/test_abi.c" "$scratch/riis.h")
+fails "RIIS_PLANTED of $scratch/riis.h is not in" "${complete[@]}"
+plant 'RIIS_API riis_status riis_planted(int32_t number);'
+fails "riis_planted of $scratch/riis.h is not in" "${complete[@]}"
+soname=$(readelf -d "$library" | sed -n -E 's/.*soname: \[(.*)\].*/\1/p')
+fails '< riis_planted' "$root/tests/install/check_exports.sh" "$library" "$soname" "$scratch/riis.h" riis_component_error
+fails ' riis_planted' "$root/tests/fortran/check_called.sh" "$scratch/riis.h" "$library"

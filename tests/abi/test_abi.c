@@ -98,7 +98,7 @@ TEST(test_structs) {
   FIELD(riis_keyframe_arrays, interpolation, 48, 4);
   FIELD(riis_keyframe_arrays, real_bits, 52, 4);
 
-  SIZE(riis_surface_info, 128);
+  SIZE(riis_surface_info, 120);
   FIELD(riis_surface_info, n_vertices, 0, 8);
   FIELD(riis_surface_info, n_triangles, 8, 8);
   FIELD(riis_surface_info, n_zero_area, 16, 8);
@@ -109,8 +109,7 @@ TEST(test_structs) {
   FIELD(riis_surface_info, seconds_triangles, 88, 8);
   FIELD(riis_surface_info, seconds_scene, 96, 8);
   FIELD(riis_surface_info, error_bound, 104, 8);
-  FIELD(riis_surface_info, velocity_error_bound, 112, 8);
-  FIELD(riis_surface_info, largest_leaflet_id, 120, 8);
+  FIELD(riis_surface_info, largest_leaflet_id, 112, 8);
 
   SIZE(riis_attachment, 40);
   FIELD(riis_attachment, n_edges, 0, 8);
@@ -653,7 +652,6 @@ TEST(test_signatures) {
   assert_true(_Generic((riis_log_function)0, void (*)(void *, int32_t, const char *) : 1, default : 0));
   SIGNATURE(riis_status_name, const char *, (int32_t));
   SIGNATURE(riis_last_error, const char *, (void));
-  SIGNATURE(riis_get_version, void, (int32_t *, int32_t *, int32_t *));
   SIGNATURE(riis_version_string, const char *, (void));
   SIGNATURE(riis_set_log, void, (riis_log_function, void *));
   SIGNATURE(riis_points_init, int32_t, (riis_points *, int64_t));
@@ -779,8 +777,6 @@ TEST(test_signatures) {
             (const riis_marks *, const riis_mesh *, riis_cells_across *, int64_t));
   SIGNATURE(riis_valve_get_swept_volume, int32_t,
             (const riis_valve *, double, double, const riis_surface_options *, int32_t, double *));
-  SIGNATURE(riis_keyframes_get_swept_volume, int32_t,
-            (const riis_keyframes *, double, double, const riis_surface_options *, int32_t, double *));
   SIGNATURE(riis_landmarks_init, int32_t, (riis_landmarks *, int64_t));
   SIGNATURE(
       riis_place, int32_t,

@@ -13,7 +13,7 @@ cd "$source"
 # names HEADER...: prints "name" or "struct.field", one per line.
 names() {
   cat "$@" | sed -z -E 's,/\*([^*]|\*+[^*/])*\*+/,,g' | awk '
-    /^#define RIIS_RIIS/ { next } # include guards
+    /^#define RIIS_[A-Z_]*_H$/ { next } # include guards
     /^#define RIIS_/ { print $2 }
     /^RIIS_API / { match($0, /riis_[a-z_0-9]*\(/); print substr($0, RSTART, RLENGTH - 1) }
     /^typedef struct riis_[a-z_]* \{/ { struct = $3; print struct }
@@ -72,7 +72,7 @@ undocumented() {
   grep '^the enum of' "$to/documented" || true
 }
 
-headers=(include/riis/riis.h include/riis/riis_vtk.h)
+mapfile -t headers < <(tests/abi/headers.sh include/riis/riis.h include/riis/riis_vtk.h)
 n=$(names "${headers[@]}" | wc -l)
 missing=$(undocumented "$scratch/all" "${headers[@]}")
 if [ -n "$missing" ]; then
@@ -80,31 +80,33 @@ if [ -n "$missing" ]; then
   exit 1
 fi
 
-# without BEFORE AFTER NAME: removes the comment between BEFORE and AFTER from the header. The check must then report NAME.
+# without HEADER BEFORE AFTER NAME: removes the comment between BEFORE and AFTER from the header. The check must then report NAME.
 without() {
-  local before=$1 after=$2 expected=$3 to=$scratch/mutated found
+  local header=include/riis/$1 before=$2 after=$3 expected=$4 to=$scratch/mutated found
   rm -rf "$to"
   mkdir -p "$to"
-  sed -z -E "s~($before)/\*([^*]|\*+[^*/])*\*+/($after)~\1\3~" include/riis/riis.h >"$to/riis.h"
-  if cmp -s include/riis/riis.h "$to/riis.h"; then
-    echo "there is no comment between '$before' and '$after' any more: this script is out of date" >&2
+  sed -z -E "s~($before)/\*([^*]|\*+[^*/])*\*+/($after)~\1\3~" "$header" >"$to/${header##*/}"
+  if cmp -s "$header" "$to/${header##*/}"; then
+    echo "$header has no comment between '$before' and '$after' any more: this script is out of date" >&2
     exit 1
   fi
-  found=$(undocumented "$to" "$to/riis.h")
+  found=$(undocumented "$to" "$to/${header##*/}")
   if [ "$found" != "$expected" ]; then
     printf 'without its comment only %s should have been found, but this was:\n%s\n' "$expected" "$found" >&2
     exit 1
   fi
 }
-without '\n' '\nRIIS_API riis_status riis_mesh_create\(' riis_mesh_create
-without '\n' '\ntypedef struct riis_csr \{' riis_csr
-without 'double \*control; *' '\n' riis_patches.control
-without 'void \*vx, \*vy, \*vz; *' '\n' 'riis_surface_arrays.vx
+without mesh.h '\n' '\nRIIS_API riis_status riis_mesh_create\(' riis_mesh_create
+without mesh.h '\n' '\ntypedef struct riis_csr \{' riis_csr
+without valve.h 'double \*control; *' '\n' riis_patches.control
+without surface.h 'void \*vx, \*vy, \*vz; *' '\n' 'riis_surface_arrays.vx
 riis_surface_arrays.vy
 riis_surface_arrays.vz'
-without 'RIIS_INVALID_MESH = 5, *' '\n' RIIS_INVALID_MESH
-without '\n' '\nenum \{\n  RIIS_SEARCH_AUTO' 'the enum of RIIS_SEARCH_AUTO'
-without '\n' '\n#define RIIS_FAR_DISTANCE' RIIS_FAR_DISTANCE
-without '\n' '\ntypedef void \(\*riis_log_function' riis_log_function
-without '\n' '\ntypedef struct riis_mesh riis_mesh' riis_mesh
+without base.h 'RIIS_INVALID_MESH = 5, *' '\n' RIIS_INVALID_MESH
+without marks.h '\n' '\nenum \{\n  RIIS_SEARCH_AUTO' 'the enum of RIIS_SEARCH_AUTO'
+without queries.h '\n' '\n#define RIIS_FAR_DISTANCE' RIIS_FAR_DISTANCE
+without base.h '\n' '\ntypedef void \(\*riis_log_function' riis_log_function
+without mesh.h '\n' '\ntypedef struct riis_mesh riis_mesh' riis_mesh
+# The last header is read, too.
+without laws.h '\n' '\nRIIS_API riis_status riis_opening_angle_advance\(' riis_opening_angle_advance
 echo "$n names"

@@ -54,6 +54,15 @@ class Recipes(unittest.TestCase):
         self.assertEqual(answer.returncode, 0, answer.stderr)
         return [(self.folder / name).read_text(encoding="utf-8") for name in ("conda/recipe.yaml", "spack/riis/package.py")]
 
+    def test_packages_have_every_header(self):
+        headers = ["riis.h", *re.findall(r'^#include "(\w+\.h)"', text_of("include/riis/riis.h"), re.MULTILINE)]
+        self.assertEqual(headers[-1], "laws.h")
+        for place in ("packaging/conda/recipe.yaml", "debian/libriis-dev.install"):
+            if (ROOT / place).exists():  # the source archive lacks debian/
+                lines = text_of(place).split()
+                missing = [name for name in headers if not any(line.endswith("riis/" + name) for line in lines)]
+                self.assertEqual(missing, [], place)
+
     def test_recipes_are_filled(self):
         for text in self.filled():
             self.assertIn(self.url, text)

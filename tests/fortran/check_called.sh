@@ -1,13 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
-# The Fortran tests and the modules that they use must call every function of the header.
+# The Fortran tests and the modules that they use must call every function of the header and of those that it includes by name.
 set -euo pipefail
 header=$1
+mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")
 shift
 
-functions=$(grep -o '^RIIS_API [^(]*(' "$header" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
-if [ "$(wc -l <<<"$functions")" -ne "$(grep -v '^#define' "$header" | grep -c '\bRIIS_API\b')" ]; then
+functions=$(grep -h -o '^RIIS_API [^(]*(' "${headers[@]}" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
+if [ "$(wc -l <<<"$functions")" -ne "$(grep -h -v '^#define' "${headers[@]}" | grep -c '\bRIIS_API\b')" ]; then
   echo "$header has declarations that this script does not understand" >&2
   exit 1
 fi

@@ -3,6 +3,7 @@
 right lines, or refuse, name the line and leave the files alone. check_keywords.py is tested in the same way."""
 
 import contextlib
+import glob
 import io
 import os
 import shutil
@@ -12,12 +13,16 @@ import unittest
 
 SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 sys.path.insert(0, os.path.join(SOURCES, "fortran", "bindings"))
+import calls
 import check_keywords
 import generate
+from header import with_included
 
 HEADER, TABLE = generate.HEADER, generate.TABLE
+HEADERS = [os.path.relpath(path, SOURCES) for path in with_included(os.path.join(SOURCES, HEADER))]
 MODULE, FIXED, LAYOUTS = generate.WIDTHS
-BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of riis.h; functions are planted before it
+BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of a header; functions are planted before it
+IN_LAST_HEADER = "/* The phases of a switch. */"
 FUNCTION = "RIIS_API riis_status riis_valve_planted(const riis_valve *valve, {});\n"
 
 
@@ -26,7 +31,7 @@ class Planted(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = folder.name
-        for path in (HEADER, TABLE, *generate.TEMPLATES, MODULE, FIXED, LAYOUTS):
+        for path in (*HEADERS, TABLE, *generate.TEMPLATES, MODULE, FIXED, LAYOUTS):
             os.makedirs(os.path.dirname(os.path.join(self.root, path)), exist_ok=True)
             shutil.copy(os.path.join(SOURCES, path), os.path.join(self.root, path))
         self.before = self.generated()
@@ -39,7 +44,11 @@ class Planted(unittest.TestCase):
         return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
 
     def plant(self, path, old, new):
-        """Replaces the only occurrence of the old text. Returns its line number."""
+        """Replaces the only occurrence of the old text. Returns its line number. HEADER stands for the header with the text.
+        Afterwards self.planted has its path."""
+        if path == HEADER:
+            path = next((header for header in HEADERS if old in self.text(header)), HEADER)
+            self.planted = path
         text = self.text(path)
         self.assertEqual(text.count(old), 1, f"{path} does not have {old!r} once: this test is out of date")
         with open(os.path.join(self.root, path), "w", encoding="utf-8") as file:
@@ -129,7 +138,8 @@ class Fields(Planted):
 
     def test_a_pointer_needs_its_shape(self):
         line = self.plant(HEADER, "} riis_patches;", "  const double *planted;\n} riis_patches;")
-        self.refuses(f"{HEADER}:{line}: riis_patches: {TABLE} does not say of 'const double *planted': the shape of the array",
+        place = f"{self.planted}:{line}"
+        self.refuses(f"{place}: riis_patches: {TABLE} does not say of 'const double *planted': the shape of the array",
                      "\nriis_patches\n  planted  ...")
         self.plant(TABLE, "riis_patches\n", "riis_patches\n  planted  (4, n_patches)  or c_null_ptr\n")
         self.writes()
@@ -162,7 +172,7 @@ class Fields(Planted):
                       "struct riis_csr *planted;"):
             self.setUp()
             line = self.plant(HEADER, "} riis_csr;", f"  {field}\n}} riis_csr;")
-            self.refuses(f"{HEADER}:{line}: riis_csr: ", "lanted", "is not understood")
+            self.refuses(f"{self.planted}:{line}: riis_csr: ", "lanted", "is not understood")
 
     def test_a_new_struct(self):
         self.plant(
@@ -220,7 +230,7 @@ class Constants(Planted):
                          ("#define RIIS_AUTO (-1.0)", "#ifdef RIIS_PLANTED\n#endif\n#define RIIS_AUTO (-1.0)")):
             self.setUp()
             self.plant(HEADER, old, new)
-            self.refuses(f"{HEADER}:", "RIIS_PLANTED", "is not understood")
+            self.refuses(f"{self.planted}:", "RIIS_PLANTED", "is not understood")
 
     def test_a_name_too_long_for_fixed_form(self):
         name = "RIIS_PLANTED_" + 30 * "X"
@@ -252,10 +262,18 @@ class Functions(Planted):
 """)
         self.assertRegex(self.text(MODULE), r"(?s)end function riis_valve_create\n.* riis_valve_planted.* riis_valve_destroy\(")
 
+    def test_the_last_header_is_read(self):
+        self.assertIn(IN_LAST_HEADER, self.text(HEADERS[-1]))
+        line = self.plant(HEADER, IN_LAST_HEADER, "RIIS_API riis_status riis_planted(int64_t *n);\n" + IN_LAST_HEADER)
+        self.refuses(f"{HEADERS[-1]}:{line}: riis_planted: {TABLE} does not say of 'int64_t *n'")
+        self.plant(TABLE, "riis_valve_get\n", "riis_planted\n  n  required scalar\n\nriis_valve_get\n")
+        self.writes()
+        self.assertIn("function riis_planted(n)", self.text(MODULE))
+
     def test_what_c_leaves_open_is_asked_for(self):
         """If riis.h leaves something open, the refusal names all gaps at once, with the lines to fill in."""
         line = self.plant_function("int64_t *n, const double *x,\n    const int64_t **ids, const riis_csr *csr, int32_t k")
-        place = f"{HEADER}:{line}: riis_valve_planted: {TABLE} does not say of"
+        place = f"{self.planted}:{line}: riis_valve_planted: {TABLE} does not say of"
         pointer = "'required', or 'optional' where it may be NULL, with 'scalar', (*) or (3); or else 'borrowed'"
         self.refuses(f"{place} 'int64_t *n': {pointer}", f"{place} 'const double *x': {pointer}",
                      f"{place} 'const int64_t **ids': 'required', or 'optional' where it may be NULL, with the array's shape",
@@ -322,7 +340,7 @@ riis_valve_planted  What it does not say elsewhere.
                          "double *restrict planted", "double Planted", "double *"):
             self.setUp()
             line = self.plant_function(argument)
-            self.refuses(f"{HEADER}:{line}: riis_valve_planted: ", argument[:6], "is not understood")
+            self.refuses(f"{self.planted}:{line}: riis_valve_planted: ", argument[:6], "is not understood")
         for declaration in ("RIIS_API int riis_planted(void);", "RIIS_API double *riis_planted(void);", "int riis_planted(void);",
                             "static inline int riis_planted(void) { return 0; }",
                             "typedef union riis_planted { int a; } riis_planted;",
@@ -331,7 +349,7 @@ riis_valve_planted  What it does not say elsewhere.
                             "typedef int (*riis_planted)(int32_t a);", "RIIS_API extern const int riis_planted;"):
             self.setUp()
             line = self.plant(HEADER, BEFORE_FUNCTION, declaration + "\n" + BEFORE_FUNCTION)
-            self.refuses(f"{HEADER}:{line}: ", "lanted", "is not understood")
+            self.refuses(f"{self.planted}:{line}: ", "lanted", "is not understood")
 
     def test_an_argument_named_as_the_result(self):
         self.plant_function("int32_t status")
@@ -399,6 +417,57 @@ class Words(Planted):
         self.refused("riis_valve_get\n", "riis_csr\n\nriis_valve_get\n", "TABLE: riis_csr is in ", "already")
         self.refused("  degree       (n_curves)\n", "  degree  (n_curves)\n  degree  (n_curves)\n",
                      "riis_patches: degree is in ", "already")
+
+
+INTERFACES = "fortran/generated/riisf.f90"
+
+
+class Page(Planted):
+    """The page of all calls in Fortran, by calls.py."""
+
+    def setUp(self):
+        super().setUp()
+        for path in calls.SOURCES:
+            for source in glob.glob(os.path.join(SOURCES, path)):
+                target = os.path.join(self.root, os.path.relpath(source, SOURCES))
+                os.makedirs(os.path.dirname(target), exist_ok=True)
+                shutil.copy(source, target)
+        os.makedirs(os.path.join(self.root, "docs"))
+        for path in (calls.TABLE, calls.PAGE):
+            shutil.copy(os.path.join(SOURCES, path), os.path.join(self.root, path))
+
+    def judge(self, *words):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+            return calls.main(["--root", self.root, *words]), out.getvalue()
+
+    def says(self, *messages):
+        status, text = self.judge("--check")
+        self.assertEqual(status, 1, text)
+        for message in messages:
+            self.assertIn(message, text)
+
+    def test_a_call_in_the_last_header_needs_a_line(self):
+        self.assertEqual(self.judge("--check")[0], 0)
+        self.plant(HEADER, IN_LAST_HEADER, "RIIS_API riis_status riis_planted(int32_t n);\n" + IN_LAST_HEADER)
+        self.says("its contents are not the calls of the headers", "-riis_planted",
+                  f"{calls.TABLE}: there is no line for riis_planted")
+
+    def test_a_procedure_needs_a_call(self):
+        before = "    subroutine riisf_warp_destroy("
+        self.plant(INTERFACES, before, "    subroutine riisf_planted(n)\n    end subroutine riisf_planted\n" + before)
+        self.says(f"{calls.TABLE}: riisf_planted belongs to no call")
+
+    def test_names_that_nothing_has(self):
+        self.plant(calls.TABLE, "riis_valve%unset riisf_valve_unset", "riis_valve%planted riisf_valve_unset")
+        self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
+
+    def test_a_line_that_changes(self):
+        before = "    subroutine riisf_valve_unset(valve, "
+        self.plant(INTERFACES, before + "name,", before + "planted,")
+        self.says("+CALL RIISF_VALVE_UNSET(VALVE, PLANTED, STATUS)", "./run bindings writes it anew")
+        self.assertEqual(self.judge()[0], 0)
+        self.assertEqual(self.judge("--check")[0], 0)
 
 
 class Keywords(Planted):

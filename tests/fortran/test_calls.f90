@@ -96,8 +96,6 @@ contains
   end function triangles_from
 
   subroutine test_version_and_texts()
-    integer(c_int32_t) :: major, minor, patch
-    character(len=40) :: text
     integer :: i
     integer(riis_status), parameter :: statuses(11) = [RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_STRUCT_SIZE, &
       RIIS_INVALID_PARAMETER, RIIS_INVALID_SURFACE, RIIS_INVALID_MESH, RIIS_LIMIT_EXCEEDED, RIIS_OUT_OF_MEMORY, &
@@ -106,12 +104,7 @@ contains
       'RIIS_INVALID_STRUCT_SIZE', 'RIIS_INVALID_PARAMETER', 'RIIS_INVALID_SURFACE', 'RIIS_INVALID_MESH', &
       'RIIS_LIMIT_EXCEEDED', 'RIIS_OUT_OF_MEMORY', 'RIIS_FILE_ERROR', 'RIIS_UNAVAILABLE', 'RIIS_INTERNAL_ERROR']
 
-    call riis_get_version(major, minor, patch)
-    write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
-    call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
-    patch = -1
-    call riis_get_version(patch=patch) ! an argument that is left out is passed as NULL
-    call check(patch >= 0, 'the patch version alone')
+    call check(verify(riis_c_text(riis_version_string()), '0123456789.') == 0, 'the version')
     do i = 1, size(statuses)
       call check(riis_c_text(riis_status_name(statuses(i))) == names(i), 'the name of ' // names(i))
     end do

@@ -84,7 +84,7 @@ program test_layout
   call compare('riis_surface_info', c_sizeof(sis), c_loc(sis), [at(c_loc(sis%n_vertices)), &
     at(c_loc(sis%n_triangles)), at(c_loc(sis%n_zero_area)), at(c_loc(sis%half_thickness)), at(c_loc(sis%area)), &
     at(c_loc(sis%lower)), at(c_loc(sis%upper)), at(c_loc(sis%seconds_triangles)), at(c_loc(sis%seconds_scene)), &
-    at(c_loc(sis%error_bound)), at(c_loc(sis%velocity_error_bound)), &
+    at(c_loc(sis%error_bound)), &
     at(c_loc(sis%largest_leaflet_id))])
   call compare('riis_attachment', c_sizeof(as), c_loc(as), [at(c_loc(as%n_edges)), at(c_loc(as%edges)), &
     at(c_loc(as%vertex_id)), at(c_loc(as%leaflet_id)), at(c_loc(as%patch_id))])

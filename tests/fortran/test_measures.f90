@@ -133,8 +133,7 @@ contains
   ! The halves of a disc turn, and a triangle translates.
   subroutine test_swept_volumes()
     type(riis_valve) :: valve, empty
-    type(riis_keyframes) :: keyframes, none
-    real(c_double) :: whole, half, back, frames(3, 3, 2)
+    real(c_double) :: whole, half, back
     call valve%create('bileaflet')
     call riis_get_swept_volume(valve, 0d0, 1d0, whole)
     call riis_get_swept_volume(valve, 0d0, 1d0, half, RIIS_LEAFLET_POSITIVE, n_threads=2)
@@ -149,19 +148,6 @@ contains
     call riis_get_swept_volume(empty, 0d0, 1d0, back, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the valve was not created')
     call valve%destroy()
-
-    frames(:, :, 1) = reshape([0d0, 0d0, 0d0, 1d0, 0d0, 0d0, 0d0, 1d0, 0d0], [3, 3])
-    frames(:, :, 2) = frames(:, :, 1) + spread([5d0, 6d0, 3d0], 2, 3)
-    call keyframes%create([0d0, 2d0], frames, reshape([1, 2, 3], [3, 1]), [4])
-    call riis_get_swept_volume(keyframes, 0.5d0, 1.5d0, half)
-    call check(abs(half - 0.75d0) < 1d-14, 'a prism')
-    call riis_get_swept_volume(keyframes, 0.5d0, 1.5d0, half, 4, scale=2d0, flip_normals=.true.)
-    call check(abs(half + 6) < 1d-13, 'a larger one')
-    call riis_get_swept_volume(keyframes, 0d0, 1d0, half, 3, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'leaflet_id is 3')
-    call riis_get_swept_volume(none, 0d0, 1d0, half, status=status)
-    call check_refused(status, RIIS_INVALID_ARGUMENT, 'keyframes was not created')
-    call keyframes%destroy()
   end subroutine test_swept_volumes
 
   ! The valve reaches the walls of this box, so the closed valve parts the box.

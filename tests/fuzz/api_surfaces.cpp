@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/velocity_bound.h"
 #include "api_state.hpp"
 #include "geometry/point_triangle.hpp"
 
@@ -164,6 +165,8 @@ void move_surface(Input &in, State &state) {
   const std::vector<double> made = velocities_of(slot);
   EXPECT(!made.empty(), "no velocities");
   for (const double v : made) EXPECT(std::isfinite(v), "velocity %g", v);
+  const double bound = velocity_error_bound(slot, valve.handle, before.handle, seconds, how_before);
+  EXPECT(bound >= 0, "bound of the velocities %g", bound);
 }
 
 void make_surface_of_arrays(Input &in, State &state) {
@@ -234,8 +237,6 @@ void read_surface(Input &in, State &state) {
     EXPECT(info->n_triangles == 0x5a5a5a5a5a5a5a5a, "a refused info was written");
   } else {
     EXPECT(info->error_bound >= 0, "%g", info->error_bound);
-    if (size >= static_cast<std::int64_t>(sizeof *info))
-      EXPECT(info->velocity_error_bound >= 0, "%g", info->velocity_error_bound);
     const riis_triangles t = triangles_of(surface.handle);
     EXPECT(info->n_triangles == t.n_triangles && info->n_vertices == t.n_vertices && t.n_triangles > 0, "%lld",
            static_cast<long long>(t.n_triangles));

@@ -40,10 +40,8 @@ void *State::handle_of_another_kind(Input &in, Kind but) const {
 void call_status_functions(Input &in) {
   const auto status = in.raw<riis_status>();
   EXPECT(riis_status_name(status) != nullptr, "%d", status);
+  EXPECT(riis_version_string() != nullptr, "no version");
   EXPECT(riis_status_name(in.below(16) - 2)[0] != '\0', "no name");
-  std::int32_t major = -7, minor = -7, patch = -7;
-  riis_get_version(in.one_in(2) ? nullptr : &major, &minor, in.one_in(2) ? nullptr : &patch);
-  EXPECT(minor == RIIS_VERSION_MINOR && riis_version_string() != nullptr, "%d", minor);
 }
 
 namespace {

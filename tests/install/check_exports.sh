@@ -1,14 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_exports.sh LIBRARY SONAME HEADER [MORE_NAMES...]
-# The shared library must export the header's functions and the given names, and nothing else.
+# The shared library must export the functions of the header and of the headers that it includes by name, and the given names,
+# and nothing else.
 set -euo pipefail
 library=$1 soname=$2 header=$3
+mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")
 shift 3
 
-declared=$(grep -o '^RIIS_API [^(]*(' "$header" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
+declared=$(grep -h -o '^RIIS_API [^(]*(' "${headers[@]}" | grep -o 'riis_[a-z0-9_]*($' | tr -d '(')
 n_declared=$(wc -l <<<"$declared")
-n_api=$(grep -c '\bRIIS_API\b' <(grep -v '^#define' "$header"))
+n_api=$(grep -c '\bRIIS_API\b' <(grep -h -v '^#define' "${headers[@]}"))
 if [ "$n_declared" -ne "$n_api" ]; then
   echo "$header: $n_api declarations but $n_declared names: this script does not understand one of them" >&2
   exit 1

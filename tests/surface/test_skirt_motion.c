@@ -9,6 +9,7 @@
 #include "moving_surfaces.h"
 #include "shapes.h"
 #include "smooth_motion.h"
+#include "velocity_bound.h"
 
 static random_source rng;
 
@@ -241,7 +242,8 @@ TEST(skirts_have_the_velocity_of_their_points) {
         read_inner_sides(&t, smooth);
         make_outer_sides(kind, 0, 0.15 * then.size[2]);
         make_outer_sides(kind, 1, 0.15 * now.size[2]);
-        const double fastest = fastest_of_skirt(&t), bound = info_of(surface).velocity_error_bound;
+        const double fastest = fastest_of_skirt(&t),
+                     bound = velocity_error_bound(surface, valve, before, seconds, &then.placed);
         double inside = 0;
         for (int64_t i = 0; i < t.n_triangles; ++i)
           for (int k = 0; k < 4 && is_skirt(&t, i); ++k) { /* the corners and a place between them */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests swept volumes. They are compared with sums over moving updates, with closed forms for leaflets that turn and patches that
- * translate, and with the volume inside closed frames. Volumes of parts must add up. */
+ * Tests swept volumes. They are compared with sums over moving updates, and with closed forms for leaflets that turn and patches
+ * that translate. Volumes of parts must add up. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -189,79 +189,6 @@ TEST(volumes_are_conserved) {
   }
 }
 
-/* --- Keyframes ----------------------------------------------------------------------------------------------------------- */
-
-enum { n_keys = 4 };
-static const int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}; /* a tetrahedron, seen from outside */
-
-static double volume_of(const double *x) {
-  double e[3][3];
-  for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < 3; ++c) e[k][c] = x[3 * (k + 1) + c] - x[c];
-  return (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) + e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-         6;
-}
-
-static riis_keyframes *random_keyframes(double xyz[n_keys][12], const double *time, int32_t interpolation,
-                                        double period) {
-  for (int k = 0; k < n_keys; ++k)
-    for (int i = 0; i < 12; ++i) xyz[k][i] = (i / 3 == i % 3 + 1) + between(-0.2, 0.2);
-  if (period > 0) memcpy(xyz[n_keys - 1], xyz[0], sizeof xyz[0]);
-  riis_surface_arrays arrays = triangle_arrays(4, NULL, 4, faces);
-  const int32_t leaflet_id[4] = {5, 5, 5, 8};
-  arrays.leaflet_id = leaflet_id;
-  riis_keyframe_arrays frames;
-  riis_keyframes *keyframes = NULL;
-  CHECK_OK(riis_keyframe_arrays_init(&frames, sizeof frames));
-  frames.n_keys = n_keys;
-  frames.n_vertices = 4;
-  frames.time = time;
-  frames.xyz = xyz;
-  frames.interpolation = interpolation;
-  frames.period = period;
-  CHECK_OK(riis_keyframes_create(&arrays, &frames, &keyframes));
-  return own(keyframes);
-}
-
-static double swept_by(const riis_keyframes *keyframes, double from, double to, const riis_surface_options *options,
-                       int32_t leaflet_id) {
-  double volume = -7;
-  CHECK_OK(riis_keyframes_get_swept_volume(keyframes, from, to, options, leaflet_id, &volume));
-  return volume;
-}
-
-/* Returns the volume of the tetrahedron at a time. */
-static double volume_at(const riis_keyframes *keyframes, double time) {
-  riis_surface *surface = NULL;
-  CHECK_OK(riis_surface_create_from_keyframes(keyframes, time, 0, NULL, &surface));
-  const double volume = volume_of(triangles_of(surface).xyz);
-  riis_surface_destroy(&surface);
-  return volume;
-}
-
-/* The volume that a closed surface sweeps is the change of the volume inside it. */
-TEST(closed_frames_sweep_what_they_gain) {
-  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
-    const double time[n_keys] = {-1, 0.5, 2, 3};
-    double xyz[n_keys][12];
-    const int is_cubic = trial % 2, repeats = trial / 2 % 2;
-    riis_keyframes *keyframes =
-        random_keyframes(xyz, time, is_cubic ? RIIS_INTERPOLATION_CUBIC : RIIS_INTERPOLATION_LINEAR, repeats ? 4 : 0);
-    riis_surface_options options = surface_options();
-    random_placement(&options);
-    const double from = between(-9, 9), to = between(-9, 9), size = pow(options.scale, 3);
-    const double gained = volume_at(keyframes, to) - volume_at(keyframes, from);
-    const double tolerance = is_cubic ? 1e-3 : 1e-13;
-    CHECK_NEAR(swept_by(keyframes, from, to, NULL, RIIS_ALL_LEAFLETS), gained, tolerance);
-    CHECK_NEAR(swept_by(keyframes, from, to, &options, RIIS_ALL_LEAFLETS), size * gained, size * tolerance);
-    CHECK_NEAR(swept_by(keyframes, from, to, NULL, 5) + swept_by(keyframes, from, to, NULL, 8), gained, tolerance);
-    CHECK_NEAR(swept_by(keyframes, to, from, NULL, 5), -swept_by(keyframes, from, to, NULL, 5), 0);
-    if (repeats) CHECK_NEAR(swept_by(keyframes, from, from + 4, NULL, RIIS_ALL_LEAFLETS), 0, 1e-12);
-    free_one_owned(keyframes);
-  }
-}
-
 /* --- Refusals -------------------------------------------------------------------------------------------------------------- */
 
 TEST(wrong_calls_are_refused) {
@@ -288,22 +215,6 @@ TEST(wrong_calls_are_refused) {
   set(tall, "leaflet_height", 30);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "leaflet_height is 30",
                 riis_valve_get_swept_volume(tall, 0, 1, NULL, -1, &volume));
-
-  const double time[n_keys] = {0, 1e-30, 2e-30, 1};
-  double xyz[n_keys][12];
-  riis_keyframes *keyframes = random_keyframes(xyz, time, RIIS_INTERPOLATION_LINEAR, 1);
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "keyframes is NULL",
-                riis_keyframes_get_swept_volume(NULL, 0, 1, NULL, -1, &volume));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "volume is NULL",
-                riis_keyframes_get_swept_volume(keyframes, 0, 1, NULL, -1, NULL));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time_from is inf",
-                riis_keyframes_get_swept_volume(keyframes, INFINITY, 1, NULL, -1, &volume));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "time_to is 2e+30",
-                riis_keyframes_get_swept_volume(keyframes, 0, 2e30, NULL, -1, &volume));
-  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "leaflet_id is 7|faces of the keyframes lack",
-                riis_keyframes_get_swept_volume(keyframes, 0, 1, NULL, 7, &volume));
-  CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "time_to, 1e+20|1000000 keys",
-                riis_keyframes_get_swept_volume(keyframes, 0, 1e20, NULL, -1, &volume));
   CHECK_NEAR(volume, -7, 0);
 }
 

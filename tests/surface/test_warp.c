@@ -12,6 +12,7 @@
 #include "random_meshes.h"
 #include "sanitized.h"
 #include "shapes.h"
+#include "velocity_bound.h"
 
 static random_source rng;
 
@@ -689,7 +690,7 @@ TEST(a_moving_annulus_has_its_velocities) {
       CHECK_AT_MOST(opens ? moving : still, with_warp[kind].largest * largest);
       CHECK_AT_MOST(rms, with_warp[kind].rms * largest);
       if (is_fixed) continue;
-      const double bound = info_of(surface).velocity_error_bound;
+      const double bound = velocity_error_bound(surface, step.now, step.before, step.seconds, NULL);
       riis_surface_options fine = options;
       fine.tolerance = 0.01;
       riis_surface *finer = new_surface(step.now, &fine);

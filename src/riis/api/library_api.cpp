@@ -37,12 +37,6 @@ const char *riis_status_name(riis_status status) {
   }
 }
 
-void riis_get_version(int32_t *major, int32_t *minor, int32_t *patch) {
-  if (major) *major = RIIS_VERSION_MAJOR;
-  if (minor) *minor = RIIS_VERSION_MINOR;
-  if (patch) *patch = RIIS_VERSION_PATCH;
-}
-
 riis_status riis_points_init(riis_points *points, int64_t struct_size) {
   return riis::guarded([&] { riis::init_struct(points, struct_size, "points", riis::default_points); });
 }

@@ -131,15 +131,15 @@ riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
 }
 
 // Returns the volume of one leaflet, or the sum of all leaflets without the skirt, after the placement. `skirt` is -1 without a
-// skirt. A message about a missing leaflet names `owner`.
-double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, std::int32_t skirt, const char *owner,
+// skirt.
+double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, std::int32_t skirt,
                      const riis_surface_options &options) {
   double sum = 0;
   for (const auto &[id, volume] : volumes)
     if (leaflet_id == RIIS_ALL_LEAFLETS ? id != skirt : id == leaflet_id) sum += volume;
   if (leaflet_id != RIIS_ALL_LEAFLETS && volumes.count(leaflet_id) == 0)
-    riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id, ", which the ", owner,
-               " lack; RIIS_ALL_LEAFLETS, -1, stands for all");
+    riis::fail(RIIS_INVALID_ARGUMENT, "leaflet_id is ", leaflet_id,
+               ", which the patches of the valve lack; RIIS_ALL_LEAFLETS, -1, stands for all");
   const double scale = options.scale;
   return (options.flip_normals ? -1 : 1) * (scale * scale * scale) * sum;
 }
@@ -149,8 +149,6 @@ riis_surface_options checked_options(const riis_surface_options *options) {
   riis::check_options(whole);
   return whole;
 }
-
-void check_time(const char *name, double time) { check_range("", name, time, -1e30, 1e30); }
 
 }  // namespace
 
@@ -296,20 +294,7 @@ riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_
     const int n_threads =
         riis::threads_for(whole.n_threads, "options.n_threads", triangles_at_all_openings, riis::triangles_per_thread);
     *volume = placed_volume(riis::swept_volumes(content, opening_from, opening_to, n_threads), leaflet_id,
-                            content.skirt_leaflet(), "patches of the valve", whole);
-  });
-}
-
-riis_status riis_keyframes_get_swept_volume(const riis_keyframes *keyframes, double time_from, double time_to,
-                                            const riis_surface_options *options, int32_t leaflet_id, double *volume) {
-  return guarded([&] {
-    const riis::Keyframes &frames = require_handle(keyframes, "keyframes")->keyframes;
-    check_time("time_from", time_from);
-    check_time("time_to", time_to);
-    const riis_surface_options whole = checked_options(options);
-    require(volume, "volume");
-    *volume =
-        placed_volume(riis::swept_volumes(frames, time_from, time_to), leaflet_id, -1, "faces of the keyframes", whole);
+                            content.skirt_leaflet(), whole);
   });
 }
 }

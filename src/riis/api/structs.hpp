@@ -24,7 +24,7 @@ constexpr std::int64_t first_size_of(const riis_parameter *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_surface_options *) { return 120; }
 constexpr std::int64_t first_size_of(const riis_surface_arrays *) { return 120; }
 constexpr std::int64_t first_size_of(const riis_keyframe_arrays *) { return 56; }
-constexpr std::int64_t first_size_of(const riis_surface_info *) { return 128; }
+constexpr std::int64_t first_size_of(const riis_surface_info *) { return 120; }
 constexpr std::int64_t first_size_of(const riis_triangles *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_attachment *) { return 40; }
 constexpr std::int64_t first_size_of(const riis_warp_options *) { return 24; }

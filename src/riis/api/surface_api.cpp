@@ -282,7 +282,6 @@ riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info
                                          surface->updatable.seconds().triangles,
                                          surface->updatable.seconds().scene,
                                          set.error_bound,
-                                         content.velocity_error_bound(),
                                          content.leaflet_ids().back()});
   });
 }

@@ -61,23 +61,6 @@ Keyframes::Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arra
   keys_ = {"frames", frames.n_keys, time_.data(), frames.period, frames.interpolation};
 }
 
-std::vector<double> Keyframes::steps_between(double time_from, double time_to) const {
-  constexpr std::size_t max_keys = 1'000'000;
-  const int n_parts = keys_.is_cubic() ? 32 : 1;
-  std::vector<double> ends;
-  std::size_t n_keys = 0;
-  for (double time = time_from; time < time_to;) {
-    const double end = std::min(keys_.next(time), time_to);
-    for (int i = 1; i < n_parts; ++i) ends.push_back(time + (end - time) * i / n_parts);
-    ends.push_back(end);
-    if (++n_keys > max_keys || !(end > time))
-      fail(RIIS_LIMIT_EXCEEDED, "from time_from, ", time_from, ", to time_to, ", time_to, ", there are more than ",
-           static_cast<std::int64_t>(max_keys), " keys");
-    time = end;
-  }
-  return ends;
-}
-
 void Keyframes::at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const {
   if (!(dt == 0 || (std::abs(dt) >= 1e-30 && std::abs(dt) <= 1e30)))
     fail(RIIS_INVALID_ARGUMENT, "dt is ", dt, "; it must be 0, or from 1e-30 to 1e+30 in magnitude");

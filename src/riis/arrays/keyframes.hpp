@@ -24,11 +24,6 @@ class Keyframes {
   // linear key it is the derivative after the key. Otherwise the velocity is the mean from time - dt to time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
-  // Returns the ends of the steps from one time to a later one, ascending. The last is the later time. Within a step, all
-  // vertices move along nearly straight lines. With linear interpolation, the lines are exactly straight. Fails with
-  // RIIS_LIMIT_EXCEEDED for more than a million keys.
-  std::vector<double> steps_between(double time_from, double time_to) const;
-
   const UserFaces &faces() const { return faces_; }
 
  private:

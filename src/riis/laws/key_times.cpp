@@ -93,12 +93,6 @@ KeyTimes::KeysAround KeyTimes::around(double time, const char *name) const {
           false};
 }
 
-double KeyTimes::next(double time) const {
-  const KeysAround around = this->around(time);
-  if (!around.is_at_rest) return time + (around.width[1] - around.since);
-  return period_ == 0 && n() > 1 && time < time_[0] ? time_[0] : infinity;
-}
-
 ValueAndRate KeyTimes::between(const KeysAround &around, const std::array<double, 4> &values) const {
   const double from = values[1], to = values[2];
   if (around.is_at_rest) return {from, 0};

@@ -21,7 +21,6 @@ class KeyTimes {
   // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  bool is_cubic() const { return is_cubic_; }
   // Returns whether the last key is one period after the first. Then the values of the two keys must be equal.
   bool is_closed() const { return is_closed_; }
 
@@ -37,10 +36,6 @@ class KeyTimes {
   // first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for
   // a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
-
-  // Returns the first time after this one at which the interpolation changes. This is the time of a key, except for rounding.
-  // Returns infinity if the interpolation does not change any more.
-  double next(double time) const;
 
   // Returns the value and the rate at the time, from the values at these four keys.
   ValueAndRate between(const KeysAround &around, const std::array<double, 4> &values) const;

@@ -9,7 +9,6 @@
 #include <optional>
 #include <vector>
 
-#include "arrays/keyframes.hpp"
 #include "geometry/placement.hpp"
 #include "marks/marks.hpp"
 #include "mesh/adjacency.hpp"
@@ -105,7 +104,7 @@ SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, co
 
 // Computes the volume that a surface sweeps. The volume is the integral of u . n over the surface and time, so motion along the
 // normals counts as positive.
-// In: a valve and two openings, or keyframes and two times. Out: the volume of each leaflet.
+// In: a valve and two openings. Out: the volume of each leaflet.
 
 // Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
 using SweptVolumes = std::map<std::int32_t, double>;
@@ -113,9 +112,6 @@ using SweptVolumes = std::map<std::int32_t, double>;
 // Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are swapped,
 // only the sign of the result changes.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
-
-// Computes the volumes between two times. Fails with RIIS_LIMIT_EXCEEDED for more than a million keys between them.
-SweptVolumes swept_volumes(const Keyframes &frames, double time_from, double time_to);
 
 // Estimates how many mesh edges fit across the band: the band's thickness divided by the shortest, the mean and the longest
 // length of the mesh edges that have a marked node.

@@ -141,33 +141,4 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
   return sums;
 }
 
-SweptVolumes swept_volumes(const Keyframes &frames, double time_from, double time_to) {
-  if (time_from > time_to) {
-    SweptVolumes back = swept_volumes(frames, time_to, time_from);
-    for (auto &[id, volume] : back) volume = -volume;
-    return back;
-  }
-  const UserFaces &faces = frames.faces();
-  SweptVolumes sums;
-  for (const std::int32_t id : faces.leaflet_id) sums[id] = 0;
-  std::vector<double> from, to, velocity;
-  frames.at(time_from, 0, from, velocity);
-  const auto vertex = [](const std::vector<double> &xyz, std::int64_t id) {
-    return Vec3{view(xyz)[3 * id], view(xyz)[3 * id + 1], view(xyz)[3 * id + 2]};
-  };
-  for (const double time : frames.steps_between(time_from, time_to)) {
-    frames.at(time, 0, to, velocity);
-    for (std::int64_t face = 0; face < view(faces.leaflet_id).size(); ++face)
-      for (std::int64_t half = 0; half < faces.corners_per_face - 2; ++half) {
-        const std::int64_t first = face * faces.corners_per_face;
-        const auto id = [&](std::int64_t corner) { return view(faces.vertex_id)[first + corner]; };
-        const std::int64_t a = id(0), b = id(half + 1), c = id(half + 2);
-        sums[view(faces.leaflet_id)[face]] +=
-            swept({vertex(from, a), vertex(from, b), vertex(from, c)}, {vertex(to, a), vertex(to, b), vertex(to, c)});
-      }
-    std::swap(from, to);
-  }
-  return sums;
-}
-
 }  // namespace riis

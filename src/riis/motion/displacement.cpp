@@ -22,9 +22,6 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 namespace {
 
-double size_of(double x) { return std::abs(x); }
-double size_of(Vec3 x) { return length(x); }
-
 // The material points of a side in its own direction.
 class PointsOfSide {
  public:
@@ -55,35 +52,6 @@ bool has_material(const PatchSet &set, const Side &side) {
 }
 
 }  // namespace
-
-template <class T>
-typename Through<T>::Bounds Through<T>::bounds() const {
-  constexpr std::size_t n = n_material - 1;
-  // From Newton's form to powers of x, and from there to the control points of a Bézier curve, which bound it.
-  std::array<T, n_material> power{}, control{};
-  power[0] = factors_[n];
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = n; k > 0; --k) power[k] = power[k - 1] - nodes_[i] * power[k];
-    power[0] = factors_[i] - nodes_[i] * power[0];
-  }
-  Bounds made{0, 0, 0};
-  for (std::size_t j = 0; j <= n; ++j) {
-    double share = 1;  // binomial(j, k) / binomial(n, k)
-    for (std::size_t k = 0; k <= j; ++k) {
-      control[j] = control[j] + share * power[k];
-      share *= static_cast<double>(j - k) / static_cast<double>(n - k);
-    }
-    made.size = std::max(made.size, size_of(control[j]));
-    if (j > 0) made.slope = std::max(made.slope, static_cast<double>(n) * size_of(control[j] - control[j - 1]));
-    if (j > 1)
-      made.bend = std::max(made.bend, static_cast<double>(n * (n - 1)) *
-                                          size_of((control[j] - control[j - 1]) - (control[j - 1] - control[j - 2])));
-  }
-  return made;
-}
-
-template class Through<double>;
-template class Through<Vec3>;
 
 SideMaterial::SideMaterial(const MovedPatch &moved, Side Patch::*side) {
   const Side &now = moved.now.patches[moved.patch].*side, &before = moved.before.patches[moved.patch].*side;
@@ -248,12 +216,6 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
     rest_[i] = mapped[i] - mapped_before[i] - steps.u * move.along_u(at_u, at_v) - steps.v * move.along_v(at_u, at_v) -
                move.combined(at_u, at_v);
   }
-}
-
-double RestInside::size() const {
-  double largest = 0;
-  for (const Vec3 &rest : rest_) largest = std::max(largest, length(rest));
-  return largest;
 }
 
 PatchMaterial::PatchMaterial(const MovedPatch &moved)
@@ -477,10 +439,7 @@ ImageVelocity::AffineMap ImageVelocity::map_of(const PatchImage &image, const Pl
 
 ImageVelocity::ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                              const EarlierState &earlier)
-    : now_(map_of(now, placement_now)),
-      difference_(now_),
-      seconds_(earlier.seconds),
-      scale_before_(earlier.placement_before.scale) {
+    : now_(map_of(now, placement_now)), difference_(now_), seconds_(earlier.seconds) {
   const AffineMap then = map_of(before, earlier.placement_before);
   difference_.linear.row_x = now_.linear.row_x - then.linear.row_x;
   difference_.linear.row_y = now_.linear.row_y - then.linear.row_y;

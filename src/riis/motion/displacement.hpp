@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "base/recycled.hpp"
@@ -47,12 +46,6 @@ class Through {
     return value;
   }
 
-  // Bounds the sizes of the value and of the first two derivatives on [0, 1].
-  struct Bounds {
-    double size, slope, bend;
-  };
-  Bounds bounds() const;
-
  private:
   std::array<double, n_material> nodes_{};
   std::array<T, n_material> factors_{};
@@ -71,8 +64,6 @@ class SideMaterial {
   Vector<double> shares_before(const Vector<double> &shares) const;
   Vec3 rest(double share) const { return rest_.at(share); }
 
-  Through<double>::Bounds slide_bounds() const { return slide_.bounds(); }
-  Through<Vec3>::Bounds rest_bounds() const { return rest_.bounds(); }
   // Returns the current share of the material point k of the side.
   const std::array<double, n_material> &nodes() const { return nodes_; }
 
@@ -105,17 +96,13 @@ class RestInside {
   RestInside(const MovedPatch &moved, const PatchMaterial &material);
 
   bool is_warped() const { return is_warped_; }
-  double size() const;
   Vec3 at(double u, double v) const {
     return first(u) * (first(v) * rest_[0] + second(v) * rest_[2]) +
            second(u) * (first(v) * rest_[1] + second(v) * rest_[3]);
   }
-  // Bounds the distance from linear on a range of u or of v.
-  double off_linear(double width) const { return 0.125 * width * width * 106 * size(); }
 
  private:
-  // They are 1 at one third and two thirds, and 0 at the other and at the ends. On [0, 1], the sum of their sizes is at most 1.3,
-  // and that of their second derivatives at most 81.
+  // They are 1 at one third and two thirds, and 0 at the other and at the ends.
   static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
   static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
 
@@ -143,13 +130,6 @@ class PatchDisplacement {
   // quad also has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
-  // Returns how far the offset O of a patch of arcs (geometry/bulge.hpp) has moved on each of its lines.
-  Vector<Vec3> offset_moves() const {
-    Vector<Vec3> made;
-    for (const std::size_t i : column_) made.push_back(offsets_[i]);
-    return made;
-  }
-
  private:
   Vec3 at(std::size_t i, std::size_t j) const;
 
@@ -176,14 +156,6 @@ class ImageVelocity {
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
   }
 
-  // Bounds the error of a velocity from velocity(). The arguments bound the errors of the displacement and of p.
-  double velocity_error(double of_displacement, double of_point) const {
-    const auto norm = [](const Rotation &a) {  // the Frobenius norm
-      return std::sqrt(dot(a.row_x, a.row_x) + dot(a.row_y, a.row_y) + dot(a.row_z, a.row_z));
-    };
-    return (scale_before_ * of_displacement + norm(difference_.linear) * of_point) / std::abs(seconds_);
-  }
-
  private:
   struct AffineMap {
     Rotation linear;  // a matrix with any scale, perhaps mirrored
@@ -192,7 +164,7 @@ class ImageVelocity {
   static AffineMap map_of(const PatchImage &image, const Placement &placement);
 
   AffineMap now_, difference_;
-  double seconds_, scale_before_;
+  double seconds_;
 };
 
 // Returns the offsets O of a patch of arcs (geometry/bulge.hpp) at the ascending u of these points. Returns 0 for other patches.

@@ -69,11 +69,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
   surface.is_of_valve(
       {placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(), valve.is_warped()});
-  if (earlier)
-    surface.moved_between(
-        {std::move(patches), std::move(*patches_before), placement, moved->placement_before, moved->seconds});
-  else
-    surface.is_of_patches(std::move(patches));
+  surface.is_of_patches(std::move(patches));
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);
     surface.measure_by(std::move(distance), difference);

@@ -65,10 +65,8 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   pseudonormals_owner_.reset();
   other_distance_.reset();
   source_valve_.reset();
-  states_.reset();
   patches_.reset();
   n_directions_ = 0;
-  velocity_error_bound_.store(not_known, std::memory_order_relaxed);
   scene_.make(triangles_, n_threads);
 }
 
@@ -90,15 +88,6 @@ double Surface::area_rate(std::int64_t direction) const {
   const double *const rates_here = rates(direction).data();
   return sum_over_triangles(triangles_.n_triangles(),
                             [&](std::int64_t i) { return area_rate_of(triangles_, rates_here, i); });
-}
-
-double Surface::velocity_error_bound() const {
-  double bound = velocity_error_bound_.load(std::memory_order_relaxed);
-  if (bound == not_known) {
-    bound = states_ ? riis::velocity_error_bound(*states_, triangles_.grids) : 0;
-    velocity_error_bound_.store(bound, std::memory_order_relaxed);
-  }
-  return bound;
 }
 
 void Surface::add_direction(const Direction &direction, int n_threads) {

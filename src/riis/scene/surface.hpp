@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "geometry/placement.hpp"
-#include "motion/velocity_bound.hpp"
 #include "motion/vertex_rates.hpp"
 #include "paper_distances/patch_distance.hpp"
 #include "scene/edges.hpp"
@@ -49,12 +48,10 @@ class Surface {
   void is_of_valve(const SourceValve &source) { source_valve_.emplace(source); }
   const std::optional<SourceValve> &source() const { return source_valve_; }
 
-  // Takes the two states that the velocities were computed from.
-  void moved_between(TwoStates states) { states_.emplace(std::move(states)); }
-  // Takes the patches of a valve at rest.
+  // Takes the patches that the triangles come from.
   void is_of_patches(PatchSet patches) { patches_.emplace(std::move(patches)); }
   // Returns the patches that the triangles come from, or null for a surface from arrays.
-  const PatchSet *patches() const { return states_ ? &states_->now : patches_ ? &*patches_ : nullptr; }
+  const PatchSet *patches() const { return patches_ ? &*patches_ : nullptr; }
 
   // Adds a direction in which the patches change. Both of its states must have the build of patches() (check_same_build).
   void add_direction(const Direction &direction, int n_threads);
@@ -71,10 +68,6 @@ class Surface {
   const std::vector<std::int32_t> &leaflet_ids() const { return leaflet_ids_; }
   // Returns the area of all triangles. The first call computes it. Several threads may call this function at once.
   double area() const;
-
-  // Bounds the difference between a velocity and the smooth valve's velocity at the same patch, u and v. The bound is 0 if the
-  // velocities do not come from patches. The first call computes it. Several threads may call this function at once.
-  double velocity_error_bound() const;
 
   // Returns the sides at which leaflets are attached. A surface from arrays has none. The first call makes them. Several threads
   // may call this function at once.
@@ -106,11 +99,9 @@ class Surface {
   // The area is computed on demand, because marking never needs it. Threads that compute it at the same time get the same bits.
   mutable std::atomic<double> area_{not_known};
   std::optional<SourceValve> source_valve_;
-  std::optional<TwoStates> states_;
-  std::optional<PatchSet> patches_;         // without an earlier state; otherwise states_ has them
+  std::optional<PatchSet> patches_;
   std::vector<std::vector<double>> rates_;  // of the directions; later entries only keep their memory
   std::int64_t n_directions_ = 0;
-  mutable std::atomic<double> velocity_error_bound_{not_known};
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
   // The pseudonormals are made when a side is first queried, because marking alone does not need them.

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "motion/velocity_bound.hpp"
+#include "velocity_bound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <utility>
 
-#include "common/array_view.hpp"
+#include "api/handles.hpp"
+#include "api/surface_options.hpp"
 #include "geometry/curve.hpp"
 #include "motion/displacement.hpp"
 
 namespace riis {
 namespace {
+
+// The two states that the velocities were computed from.
+struct TwoStates {
+  const PatchSet &now;
+  PatchSet before;
+  Placement placement, placement_before;
+  double seconds;
+};
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -75,9 +85,9 @@ double off_line(const Vector<Slope> &slopes) {
   return largest;
 }
 
-// A part of one Bézier span of a curve, on a range of u.
+// A part of one Bézier piece of a curve, on a range of u.
 struct CurvePart {
-  const Bezier *span;
+  const Bezier *piece;
   double t[2];
   double length;  // the length of the whole curve
 };
@@ -96,14 +106,14 @@ struct Derivatives {
   double first, least_first, second, third;
 };
 
-Derivatives sizes_on(const Bezier &span, double from, double to) {
-  const auto start = derivatives(span, from), end = derivatives(span, to);
+Derivatives sizes_on(const Bezier &piece, double from, double to) {
+  const auto start = derivatives(piece, from), end = derivatives(piece, to);
   const double bend = off_line(to - from, length(start[2]));
   return {larger_of(start[0], end[0]) + bend, least_on_segment(start[0], end[0]) - bend, larger_of(start[1], end[1]),
           length(start[2])};
 }
 
-// Bounds the differences between the derivatives of two spans at the same parameter.
+// Bounds the differences between the derivatives of two pieces at the same parameter.
 Derivatives changes_on(const Bezier &now, const Bezier &before, double from, double to) {
   const auto start = derivatives(now, from), end = derivatives(now, to);
   const auto start_before = derivatives(before, from), end_before = derivatives(before, to);
@@ -115,7 +125,7 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
 // Bounds a curve on a range. The bounds are infinite if the curve's tangent may vanish in one of the two states.
 AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double width) {
   const double from = std::min(at_now.t[0], at_before.t[0]), to = std::max(at_now.t[1], at_before.t[1]);
-  const Derivatives now = sizes_on(*at_now.span, from, to), before = sizes_on(*at_before.span, from, to);
+  const Derivatives now = sizes_on(*at_now.piece, from, to), before = sizes_on(*at_before.piece, from, to);
   const double least = std::min(now.least_first, before.least_first), first = larger(now.first, before.first),
                second = larger(now.second, before.second), third = larger(now.third, before.third);
   const double whole = larger(at_now.length, at_before.length);
@@ -126,7 +136,7 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
   }
   // At the same u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
   // growth in between that the rates dt/du = length / |B'| allow.
-  const Derivatives change = changes_on(*at_now.span, *at_before.span, from, to);
+  const Derivatives change = changes_on(*at_now.piece, *at_before.piece, from, to);
   const double at_ends = larger(std::abs(at_now.t[0] - at_before.t[0]), std::abs(at_now.t[1] - at_before.t[1]));
   const double half = 0.5 * width, rate_change = length.change / least + whole * change.first / (least * least);
   const double by_itself = half * whole * second / (least * least);
@@ -152,7 +162,7 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds from each state by itself. They serve a range on which the states lie on different spans and cannot be
+// Returns bounds from each state by itself. They serve a range on which the states lie on different pieces and cannot be
 // compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
@@ -165,11 +175,11 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if `curve` has one span more than `other`, and the additional span is at the start. The shorter one of its two end
-// spans counts as the additional span.
+// Returns 1 if `curve` has one piece more than `other`, and the additional piece is at the start. The shorter one of its two end
+// pieces counts as the additional piece.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
-  const std::size_t n = curve.spans().size();
-  return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
+  const std::size_t n = curve.pieces().size();
+  return n == other.pieces().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
 }
 
 // A side of a patch in both states, at ascending shares. The shares include its joints.
@@ -194,13 +204,13 @@ class SideInBoth {
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
   // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or
-  // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short span at a curve's end, whose
+  // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short piece at a curve's end, whose
   // length changes many times over as a joint approaches the end.
-  bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
+  bool is_compared(std::size_t i) const { return are_on_one_piece(i) && (width(i) > narrow || compared(i).is_tight); }
 
-  // Returns whether a span of one of the states begins at share i.
+  // Returns whether a piece of one of the states begins at share i.
   bool is_joint(std::size_t i) const {
-    return at_now_.span(i) != at_now_.span(i - 1) || at_before_.span(i) != at_before_.span(i - 1);
+    return at_now_.piece(i) != at_now_.piece(i - 1) || at_before_.piece(i) != at_before_.piece(i - 1);
   }
 
   AlongCurve between(std::size_t i) const {
@@ -208,7 +218,7 @@ class SideInBoth {
       const Both none{0, 0};
       return {none, none, none, none, 0, 0, true};
     }
-    if (are_on_one_span(i)) {
+    if (are_on_one_piece(i)) {
       const AlongCurve made = compared(i);
       if (width(i) > narrow || made.is_tight) return made;
     }
@@ -217,25 +227,27 @@ class SideInBoth {
   }
 
  private:
-  // Returns whether both states lie on the same span on the range after share i.
-  bool are_on_one_span(std::size_t i) const { return at_now_.span(i) + more_before_ == at_before_.span(i) + more_now_; }
+  // Returns whether both states lie on the same piece on the range after share i.
+  bool are_on_one_piece(std::size_t i) const {
+    return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_;
+  }
 
   AlongCurve compared(std::size_t i) const {
     return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
   }
 
-  // Returns the part of a Bézier span that is the range after share i.
+  // Returns the part of a Bézier piece that is the range after share i.
   CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
-    const std::size_t span = points.span(i);
-    return {&curve.spans()[span],
-            {points.parameter(i), points.span(i + 1) == span ? points.parameter(i + 1) : 1.0},
+    const std::size_t piece = points.piece(i);
+    return {&curve.pieces()[piece],
+            {points.parameter(i), points.piece(i + 1) == piece ? points.parameter(i + 1) : 1.0},
             curve.length()};
   }
 
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // For each state, 1 if it has one span more at the start, because a joint passed that end of the curve. Otherwise 0.
+  // For each state, 1 if it has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -299,12 +311,71 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
 // Bounds the largest curvature of a curve. The bound is infinite if the curve may turn on the spot.
 double largest_curvature(const Curve &curve) {
   double largest = 0;
-  for (const Bezier &span : curve.spans()) largest = larger(largest, largest_curvature(span));
+  for (const Bezier &piece : curve.pieces()) largest = larger(largest, largest_curvature(piece));
   return largest;
 }
 
+double size_of(double x) { return std::abs(x); }
+double size_of(Vec3 x) { return length(x); }
+
+// Bounds the sizes of a value and of its first two derivatives on [0, 1].
+struct Sizes {
+  double size = 0, slope = 0, bend = 0;
+};
+
+// Returns the sizes of the polynomial through values at n_material nodes.
+template <class T>
+Sizes sizes_of(const std::array<double, n_material> &nodes, std::array<T, n_material> factors) {
+  constexpr std::size_t n = n_material - 1;
+  // From the values to Newton's form, to powers of x, and from there to the control points of a Bézier curve, which bound it.
+  for (std::size_t order = 1; order <= n; ++order)
+    for (std::size_t i = n; i >= order; --i)
+      factors[i] = (1 / (nodes[i] - nodes[i - order])) * (factors[i] - factors[i - 1]);
+  std::array<T, n_material> power{}, control{};
+  power[0] = factors[n];
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = n; k > 0; --k) power[k] = power[k - 1] - nodes[i] * power[k];
+    power[0] = factors[i] - nodes[i] * power[0];
+  }
+  Sizes made;
+  for (std::size_t j = 0; j <= n; ++j) {
+    double share = 1;  // binomial(j, k) / binomial(n, k)
+    for (std::size_t k = 0; k <= j; ++k) {
+      control[j] = control[j] + share * power[k];
+      share *= static_cast<double>(j - k) / static_cast<double>(n - k);
+    }
+    made.size = std::max(made.size, size_of(control[j]));
+    if (j > 0) made.slope = std::max(made.slope, static_cast<double>(n) * size_of(control[j] - control[j - 1]));
+    if (j > 1)
+      made.bend = std::max(made.bend, static_cast<double>(n * (n - 1)) *
+                                          size_of((control[j] - control[j - 1]) - (control[j - 1] - control[j - 2])));
+  }
+  return made;
+}
+
+// Returns the sizes of a polynomial of this degree that is given as a function.
+template <class Rest>
+Sizes sizes_of(const Rest &rest) {
+  std::array<double, n_material> nodes{};
+  std::array<Vec3, n_material> values{};
+  for (std::size_t k = 0; k < n_material; ++k) {
+    nodes[k] = static_cast<double>(k) / static_cast<double>(n_material - 1);
+    values[k] = rest(nodes[k]);
+  }
+  return sizes_of(nodes, values);
+}
+
+// Returns the sizes of a side's slide: the share before minus the share now.
+Sizes sizes_of_slide(const SideMaterial &material) {
+  const std::array<double, n_material> &nodes = material.nodes();
+  const Vector<double> before = material.shares_before(Vector<double>(nodes.begin(), nodes.end()));
+  std::array<double, n_material> slide{};
+  for (std::size_t k = 0; k < n_material; ++k) slide[k] = before[k] - nodes[k];
+  return sizes_of(nodes, slide);
+}
+
 // Bounds the distance from linear on a range of a function whose value and derivatives are bounded.
-double off_line(double width, const Through<Vec3>::Bounds &of) {
+double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
@@ -314,15 +385,15 @@ class AddedByMaterial {
   // `third` bounds the third derivative of C by the share. It may be infinite.
   AddedByMaterial(const SideMaterial &material, const Curve &before, double third) {
     if (!material.is_warped()) return;
-    const auto slide = material.slide_bounds();
+    const Sizes slide = sizes_of_slide(material);
     const double length = before.length(), shift = length * slide.size;
     const double second = length > 0 ? length * length * largest_curvature(before) : 0;
     const double turn = length > 0 ? std::min(2 * length, second * slide.size) : 0;
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
-    rest_ = material.rest_bounds();
-    // Between a joint and its slid place, the second derivatives are those of two spans.
-    of_joints_ = static_cast<double>(before.spans().size() - 1) * 0.25 * 2 * second * slide.size;
+    rest_ = sizes_of([&](double share) { return material.rest(share); });
+    // Between a joint and its slid place, the second derivatives are those of two pieces.
+    of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
   }
 
   double slope() const { return bounds_.slope + rest_.slope; }
@@ -334,7 +405,7 @@ class AddedByMaterial {
   }
 
  private:
-  Through<Vec3>::Bounds bounds_{0, 0, 0}, rest_{0, 0, 0};
+  Sizes bounds_, rest_;
   double of_joints_ = 0;
 };
 
@@ -447,8 +518,8 @@ class SlidOffset {
  public:
   SlidOffset(const SideMaterial &on_base, const SideMaterial &on_edge, const Curve &base, const Curve &edge) {
     if (!on_base.is_warped() || !on_edge.is_warped()) return;
-    const double shift = base.length() * on_base.slide_bounds().size;
-    width_ = shift + edge.length() * on_edge.slide_bounds().size;
+    const double shift = base.length() * sizes_of_slide(on_base).size;
+    width_ = shift + edge.length() * sizes_of_slide(on_edge).size;
     turn_ = base.length() > 0 ? std::min(2.0, shift * largest_curvature(base)) : 0;
   }
 
@@ -469,7 +540,8 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
   const MovedPatch moved{states.now, states.before, patch};
   const SideMaterial material_of_base(moved, &Patch::v0), material_of_edge(moved, &Patch::v1);
   const SlidOffset slid(material_of_base, material_of_edge, base.before, edge.before);
-  const auto rest = rest_of_offsets(moved, material_of_base, material_of_edge).bounds();
+  const Through<Vec3> rest_of = rest_of_offsets(moved, material_of_base, material_of_edge);
+  const Sizes rest = sizes_of([&](double share) { return rest_of.at(share); });
   const double factor = states.now.patches[patch].bulge, factor_before = states.before.patches[patch].bulge;
   const Both of_factor{larger(std::abs(factor), std::abs(factor_before)), std::abs(factor - factor_before)};
   const Vector<double> at_lines = shares_of(lines, &GridLine::middle);
@@ -499,7 +571,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
           {on_base.width(i), is_compared ? (of_factor * on.first).change : 2 * of_factor.size * on.first.size});
     }
     // O' jumps at a joint, so the bound for such a range uses the first derivative. Beside a joint near a curve's end, bounds on
-    // the short span are far larger than the true derivatives.
+    // the short piece are far larger than the true derivatives.
     double error = is_smooth ? off_line(width, second) : off_line(slopes);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
@@ -507,6 +579,33 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
     made.push_back(error);
   }
   return made;
+}
+
+// Returns how far the offset O of a patch of arcs moves at these u.
+Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoCurves &base, const TwoCurves &edge,
+                          const Vector<double> &u) {
+  const MovedPatch moved{states.now, states.before, patch};
+  const SideMaterial on_base(moved, &Patch::v0), on_edge(moved, &Patch::v1);
+  const bool is_warped = on_base.is_warped() && on_edge.is_warped();
+  const Vector<double> u_base = is_warped ? on_base.shares_before(u) : u,
+                       u_edge = is_warped ? on_edge.shares_before(u) : u;
+  Vector<Vec3> made = arc_offsets(states.now, states.now.patches[patch], CurvePoints(base.now, false, u),
+                                  CurvePoints(edge.now, false, u));
+  const Vector<Vec3> before =
+      arc_offsets(states.before, states.before.patches[patch], CurvePoints(base.before, false, u_base),
+                  CurvePoints(edge.before, false, u_edge));
+  const Through<Vec3> rest = rest_of_offsets(moved, on_base, on_edge);
+  for (std::size_t i = 0; i < made.size(); ++i) made[i] = made[i] - before[i] + rest.at(u[i]);
+  return made;
+}
+
+// Bounds the distance from linear, on a range of u or of v, of the part that a map adds inside a warped Coons patch. On [0, 1],
+// the sum of the sizes of the second derivatives of its polynomials is at most 81, and that of their values at most 1.3.
+double off_linear(const RestInside &rest, double width) {
+  double size = 0;
+  for (const double u : {1. / 3, 2. / 3})
+    for (const double v : {1. / 3, 2. / 3}) size = std::max(size, length(rest.at(u, v)));
+  return 0.125 * width * width * 106 * size;
 }
 
 // Bounds of the errors of a patch's displacements and points, at equal (u, v), before any image is placed.
@@ -517,7 +616,7 @@ struct PatchErrors {
 PatchErrors errors_of(const TwoStates &states, std::size_t patch, const LevelledGrid &levelled) {
   const QuadGrid &grid = levelled.grid;
   const MovedPatch moved{states.now, states.before, patch};
-  const PatchDisplacement displacement(moved, levelled);
+  const PatchDisplacement motion(moved, levelled);
   const bool has_arcs = states.now.patches[patch].bulge != 0 || states.before.patches[patch].bulge != 0;
   const TwoCurves v0 = curves_of(states, patch, &Patch::v0), v1 = curves_of(states, patch, &Patch::v1);
   const Vector<double> at_v0 = off_linear(v0, {moved, &Patch::v0}, grid.lines.u, &GridLine::t0),
@@ -525,7 +624,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   Vector<double> at_u0(grid.v.size() - 1, 0), at_u1 = at_u0, offset(grid.u.size() - 1, 0), rows = offset;
   if (has_arcs) {
     offset = offset_off_linear(states, patch, v0, v1, grid.lines.u);
-    const Vector<Vec3> moves = displacement.offset_moves();
+    const Vector<Vec3> moves = offset_moves(states, patch, v0, v1, shares_of(grid.lines.u, &GridLine::middle));
     for (std::size_t i = 0; i + 1 < grid.u.size(); ++i) rows[i] = larger_of(moves[i], moves[i + 1]);
   } else {
     at_u0 = off_linear(curves_of(states, patch, &Patch::u0), {moved, &Patch::u0}, grid.lines.v, &GridLine::t0);
@@ -542,11 +641,11 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
     double error = larger_mix(at_v0[i], at_v1[i], grid.v[j], grid.v[j + 1]) +
                    larger_mix(at_u0[j], at_u1[j], grid.u[i], grid.u[i + 1]) +
                    largest_arc_weight(grid.v[j], grid.v[j + 1]) * offset[i] + 0.5 * row * row * rows[i] +
-                   rest.off_linear(width) + rest.off_linear(row);
+                   off_linear(rest, width) + off_linear(rest, row);
     double twist = 0;
     for (int k = 0; k < n * n; ++k) {
       const int column = k % n, at_row = k / n;
-      const auto at = [&](int du, int dv) { return displacement.in_quad(i, j, level, column + du, at_row + dv); };
+      const auto at = [&](int du, int dv) { return motion.in_quad(i, j, level, column + du, at_row + dv); };
       twist = larger(twist, quad_flatness({at(0, 0), at(1, 0), at(1, 1), at(0, 1)}));
     }
     // If a neighbour is subdivided less, vertices on the common side are interpolated linearly between the neighbour's vertices.
@@ -562,20 +661,38 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
   return made;
 }
 
-}  // namespace
+// Bounds the error of a velocity of an image, from the errors of its displacement and of its point.
+double velocity_error(const ImageVelocity &image, const TwoStates &states, const PatchErrors &errors) {
+  const auto of_rest = [&](Vec3 p) { return image.velocity(p, {0, 0, 0}); };
+  const Vec3 offset = of_rest({0, 0, 0});
+  double square = 0;  // of the Frobenius norm of the map that takes a point at rest to its velocity
+  for (const Vec3 &unit : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+    const Vec3 column = of_rest(unit) - offset;
+    square += dot(column, column);
+  }
+  return states.placement_before.scale * errors.displacement / std::abs(states.seconds) +
+         std::sqrt(square) * (errors.point + states.now.deviation);
+}
 
-double velocity_error_bound(const TwoStates &states, const Vector<LevelledGrid> &grids) {
-  const EarlierState earlier{states.before, states.placement_before, states.seconds};
+}  // namespace
+}  // namespace riis
+
+double velocity_error_bound(const riis_surface *surface, const riis_valve *valve, const riis_valve *before,
+                            double seconds, const riis_surface_options *options_before) {
+  const riis::Surface &content = riis::content_of(surface);
+  const riis::Placement &placement = content.frame()->placement;
+  const riis::TwoStates states{*content.patches(), valve->valve.make_patches_before(before->valve, nullptr), placement,
+                               options_before ? riis::placement_of(*options_before) : placement, seconds};
+  const riis::EarlierState motion{states.before, states.placement_before, states.seconds};
+  const auto &grids = content.triangles().grids;
   double bound = 0;
   for (std::size_t i = 0; i < grids.size(); ++i) {
-    const PatchErrors errors = errors_of(states, i, grids[i]);
-    const Patch &patch = states.now.patches[i];
+    const riis::PatchErrors errors = riis::errors_of(states, i, grids[i]);
+    const riis::Patch &patch = states.now.patches[i];
     for (std::size_t k = 0; k < patch.images.size(); ++k) {
-      const ImageVelocity image(patch.images[k], states.before.patches[i].images[k], states.placement, earlier);
-      bound = larger(bound, image.velocity_error(errors.displacement, errors.point + states.now.deviation));
+      const riis::ImageVelocity image(patch.images[k], states.before.patches[i].images[k], placement, motion);
+      bound = riis::larger(bound, riis::velocity_error(image, states, errors));
     }
   }
   return bound * (1 + 1e-9);
 }
-
-}  // namespace riis

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes docs/fortran_calls.md: the calls of riis.h in Fortran and Fortran 77, from riis.h, calls.table and the Fortran sources.
+
+    python3 calls.py                writes the page
+    python3 calls.py --check        writes nothing; fails and shows the difference if the page is out of date
+    python3 calls.py --root FOLDER  does one or the other in another copy of the sources
+"""
+
+import argparse
+import difflib
+import glob
+import os
+import re
+import sys
+import textwrap
+
+sys.dont_write_bytecode = True
+from header import Header, Problem
+
+HEADER, TABLE, PAGE = "include/riis/riis.h", "fortran/bindings/calls.table", "docs/fortran_calls.md"
+SOURCES = "fortran/riis*.f90", "fortran/generated/riis*.f90"
+HEAD = """<!-- SPDX-License-Identifier: Apache-2.0 -->
+<!-- Written by ./run bindings (fortran/bindings/calls.py); edit fortran/bindings/calls.table. -->
+# Calls in Fortran
+
+This page lists the calls of `riis.h` in its order. The lines below a C call make the same call in
+Fortran (`use riis`) and in Fortran 77. Arguments in brackets are optional. A Fortran 77 call with
+`*` has a variant for INTEGER*8, whose name ends in `_64`. With `use riisf` the compiler checks the
+arguments of Fortran 77 calls ([building.md](building.md)). The comments of the procedures explain
+the arguments.
+"""
+WIDTH = 100
+
+
+def read(root, path):
+    with open(os.path.join(root, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def statements(text):
+    """Yields the statements of a Fortran source, each in one line and without comments."""
+    whole = ""
+    for line in text.splitlines():
+        line = re.sub(r"!.*", "", line).rstrip()
+        whole += line.strip().lstrip("&")
+        if whole.endswith("&"):
+            whole = whole[:-1].rstrip() + " "
+        elif whole:
+            yield whole
+            whole = ""
+
+
+class Procedure:
+    def __init__(self, kind, name, arguments):
+        self.kind, self.name, self.arguments, self.optional = kind, name, arguments, set()
+
+    def line(self, call, arguments):
+        """Returns the line of use. Optional arguments stand last, in brackets."""
+        needed = [name for name in arguments if name not in self.optional]
+        rest = [name for name in arguments if name in self.optional]
+        text = ", ".join(needed) + (f" [, {', '.join(rest)}]" if needed else f"[{', '.join(rest)}]") * bool(rest)
+        return f"call {call}({text})" if self.kind == "subroutine" else f"value = {call}({text})"
+
+
+class Fortran:
+    """The procedures, generic names and bound procedures of the Fortran sources."""
+
+    def __init__(self, root):
+        self.procedures, self.generics, self.bound, self.specific = {}, {}, {}, {}
+        self.public = set()
+        for pattern in SOURCES:
+            for path in sorted(glob.glob(os.path.join(root, pattern))):
+                if os.path.basename(path) not in ("riis_c.f90", "riis_support.f90", "riis_calls.f90"):
+                    self.read(read(root, path), os.path.basename(path))
+
+    def read(self, text, file):
+        procedure = type_ = generic = None
+        for line in statements(text):
+            if match := re.match(r"(?:pure |recursive )*(subroutine|function) (\w+)\((.*?)\)", line):
+                if file == "riisf.f90" or not match[2].startswith("riisf_"):
+                    names = [name.strip() for name in match[3].split(",") if name.strip()]
+                    procedure = self.procedures[match[2]] = Procedure(match[1], match[2], names)
+            elif procedure and "optional" in line.split("::")[0]:
+                procedure.optional |= set(re.findall(r"\w+", re.sub(r"\(.*?\)", "", line.split("::")[1])))
+            elif match := re.match(r"type(?:, \w+)? :: (riis_\w+)", line):
+                type_ = match[1]
+            elif line.startswith("end type"):
+                type_ = None
+            elif match := re.match(r"interface (riis_\w+)", line):
+                generic = match[1]
+            elif generic and (match := re.match(r"module procedure (\w+)", line)):
+                self.generics.setdefault(generic, match[1])
+            elif line.startswith("end interface"):
+                generic = None
+            elif type_ and (match := re.match(r"procedure, private, non_overridable :: (\w+) => (\w+)", line)):
+                self.specific[type_, match[1]] = match[2]
+            elif type_ and (match := re.match(r"procedure, non_overridable :: (\w+) => (\w+)", line)):
+                self.bound[f"{type_}%{match[1]}"] = match[2]
+            elif type_ and (match := re.match(r"generic :: (\w+) => (\w+)", line)):
+                self.bound.setdefault(f"{type_}%{match[1]}", match[2])
+            elif file == "riis.f90" and line.startswith("public ::"):
+                self.public |= set(re.findall(r"\briis_\w+", line))
+
+    def procedure(self, name):
+        """Returns the procedure of a name in the table, or None."""
+        if "%" in name:
+            found = self.bound.get(name)
+            found = self.specific.get((name.split("%")[0], found), found)
+        else:
+            found = self.generics.get(name, name)
+        return self.procedures.get(found)
+
+    def line(self, name):
+        """Returns the line of use of a procedure."""
+        found = self.procedure(name)
+        if "%" in name:
+            return found.line(re.sub(r"^riis_", "", name), found.arguments[1:])
+        if name.startswith("riisf_"):
+            star = "*" if name + "_64" in self.procedures else ""
+            return f"CALL {name.upper()}{star}({', '.join(found.arguments).upper()})"
+        return found.line(name, found.arguments)
+
+    def wanted(self):
+        """Returns the names that the table must have."""
+        names = {name for name in self.bound if not re.search(r"%(is_created|c_handle|assignment|n_nodes)", name)}
+        names |= {name for name in self.procedures if name.startswith("riisf_") and not name.endswith("_64")}
+        return names | {name for name in self.public if self.procedure(name) and name != "riis_log_procedure"}
+
+
+class Calls:
+    """The entries of the table, by C call."""
+
+    def __init__(self, root):
+        self.entries, self.problems = {}, []
+        text = re.sub(r"\n +", " ", read(root, TABLE))  # an indented line continues the line above
+        for line in text.splitlines():
+            if line.strip() and not line.startswith("#"):
+                words, _, reason = line.partition(" - ")
+                call, *names = words.split()
+                if call in self.entries:
+                    self.problems.append(f"{TABLE}: {call} is there twice")
+                self.entries[call] = names, reason.strip()
+
+
+def contents(root):
+    """Returns the groups of the contents of riis.h, each with its header, its title and its calls with their texts."""
+    groups = []
+    for line in read(root, HEADER).split("#ifndef")[0].splitlines():
+        if match := re.match(r" \* (\w+\.h): (.*)$", line):
+            groups.append((match[1], match[2], []))
+        elif groups and (match := re.match(r" \*   ((?:riis_\w+(?:, )?)+) *(.*)$", line)):
+            groups[-1][2].extend((name, match[2]) for name in match[1].split(", "))
+    return groups
+
+
+def wrapped(line):
+    return "\n".join(textwrap.wrap(line, WIDTH, subsequent_indent="     ", break_long_words=False, break_on_hyphens=False))
+
+
+def page(root):
+    """Returns the text of the page."""
+    header, fortran, table = Header(os.path.join(root, HEADER), HEADER), Fortran(root), Calls(root)
+    problems, groups = table.problems, contents(root)
+    declared = [function.name for function in header.functions]
+    listed = [name for _, _, calls in groups for name, _ in calls]
+    if listed != declared:
+        changes = difflib.unified_diff(declared, listed, "the headers", "the contents of riis.h", n=0, lineterm="")
+        problems += [f"{HEADER}: its contents are not the calls of the headers, in their order:", *changes]
+    told = {name for names, _ in table.entries.values() for name in names}
+    problems += [f"{TABLE}: there is no line for {name}" for name in declared
+                 if not name.endswith("_init") and name not in table.entries]
+    problems += [f"{TABLE}: {HEADER} has no {name}" for name in table.entries if name not in declared]
+    problems += [f"{TABLE}: the Fortran sources have no {name}" for name in sorted(told) if not fortran.procedure(name)]
+    problems += [f"{TABLE}: {name} belongs to no call" for name in sorted(fortran.wanted() - told)]
+    for call, (names, reason) in table.entries.items():
+        kinds = {name.startswith("riisf_") for name in names}
+        if (len(kinds) == 2) == bool(reason):
+            problems.append(f"{TABLE}: {call} needs procedures of both languages, or '-' and a reason")
+    if problems:
+        raise Problem(*problems)
+    lines = [HEAD]
+    for file, title, calls in groups:
+        lines += [f"## {file}: {title}", "", "```fortran"]
+        for call, text in calls:
+            if call in table.entries:
+                names, reason = table.entries[call]
+                if not lines[-1].startswith("```"):
+                    lines.append("")
+                lines.append(f"! {call}: {text}" if text else f"! {call}")
+                lines += [wrapped(fortran.line(name)) for name in names] + ([wrapped(f"! {reason}")] if reason else [])
+        lines += ["```", ""]
+    return "\n".join(lines[:-1]) + "\n"
+
+
+def main(words):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="write nothing, compare")
+    parser.add_argument("--root", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."),
+                        help="the folder of the sources; this script's by default")
+    arguments = parser.parse_args(words)
+    try:
+        text = page(arguments.root)
+    except Problem as problem:
+        print(problem, file=sys.stderr)
+        return 1
+    path = os.path.join(arguments.root, PAGE)
+    found = read(arguments.root, PAGE) if os.path.exists(path) else ""
+    if found == text:
+        print(f"{PAGE} is as it should be")
+        return 0
+    if arguments.check:
+        sys.stdout.writelines(difflib.unified_diff(found.splitlines(True), text.splitlines(True), PAGE, "generated anew", n=1))
+        print(f"{PAGE} is out of date; ./run bindings writes it anew", file=sys.stderr)
+        return 1
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+    print(f"written: {PAGE}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * base.h - results and messages of calls, the log, and points in the caller's arrays.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_BASE_H
+#define RIIS_BASE_H
+
+#include <stdint.h>
+
+#if defined(__GNUC__) && !defined(RIIS_STATIC)
+#define RIIS_API __attribute__((visibility("default"))) /* marks every exported function */
+#else
+#define RIIS_API /* a static library has no exports */
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Status, errors, log, version ---------------------------------------------------------------------- */
+
+/* What a call returns. Values are part of the ABI and never change. New ones are appended at either end. */
+typedef int32_t riis_status;
+/* Values of riis_status. */
+enum {
+  RIIS_OK = 0,                  /* success */
+  RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
+  RIIS_INVALID_STRUCT_SIZE = 2, /* a size that no release has: not initialised, or riis.h newer than the library */
+  RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that clash */
+  RIIS_INVALID_SURFACE = 4,     /* the caller's surface: empty, non-finite, index out of range, zero area */
+  RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
+  RIIS_LIMIT_EXCEEDED = 6,      /* the request is valid but too large for the library */
+  RIIS_OUT_OF_MEMORY = 7,       /* memory ran out; nothing changed */
+  RIIS_FILE_ERROR = 8,          /* a file cannot be read or written, or has other content (riis_vtk.h) */
+  RIIS_UNAVAILABLE = 9,         /* something outside the library is missing: threads after a fork(), a display */
+  RIIS_INTERNAL_ERROR = -1      /* an error in riis or in a library that it uses */
+};
+
+/* Returns the status's own name, such as "RIIS_INVALID_ARGUMENT", or "unknown status". Static text. */
+RIIS_API const char *riis_status_name(riis_status status);
+
+/* Returns the message of the calling thread's last failed call. The message names the argument and its value. It is ""
+ * if no call has failed, and never NULL. It is valid until the thread's next failed call, and the library owns it. */
+RIIS_API const char *riis_last_error(void);
+
+/* Returns the version of the linked library, not of this header, as static text such as "1.0.0". */
+RIIS_API const char *riis_version_string(void);
+
+/* Receives messages, in the thread whose call sends them. It must not call the library, throw or jump out.
+ *   user_data  the pointer that was passed to riis_set_log
+ *   level      RIIS_LOG_INFO or RIIS_LOG_WARNING
+ *   message    one line without a newline; valid during the call only */
+typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
+/* The levels of a message. */
+enum {
+  RIIS_LOG_INFO = 0,   /* what was built and how large */
+  RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
+};
+/* Sets the log function of the process. Any thread may call riis_set_log.
+ *   function   receives the messages; NULL, the default, means no log
+ *   user_data  passed to the function; it must stay valid as long as the function is set
+ * A message that another thread is sending may still reach the previous function.
+ * A log function also makes the library search surfaces for crossings (riis_find_crossings). It searches a shape whose
+ * parameters, patches or open state the caller chose. The search takes longer than an update. It runs at the shape's first
+ * opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1. It ends with the shape's first warning. */
+RIIS_API void riis_set_log(riis_log_function function, void *user_data);
+
+/* Stands for the value of another quantity, which the field's comment names. */
+#define RIIS_AUTO (-1.0)
+
+/* Points in the caller's arrays, for the calls that copy them or read them once. */
+typedef struct riis_points {
+  int64_t struct_size;     /* set by the init function */
+  int64_t n_points;        /* 0 to 2^40 */
+  const void *x, *y, *z;   /* (n_points) by stride; NULL only for 0 points */
+  int64_t stride;          /* of x, y and z. Default 1 */
+  int32_t real_bits;       /* of x, y and z */
+  int32_t reserved;        /* 0 */
+} riis_points;
+RIIS_API riis_status riis_points_init(riis_points *points, int64_t struct_size); /* the defaults */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

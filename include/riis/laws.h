@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * laws.h - laws of opening: a valve's opening from the time, the pressure difference and the flow.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_LAWS_H
+#define RIIS_LAWS_H
+
+#include "surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Laws of opening: a valve's opening from the time, the pressure difference and the flow ------------ */
+
+/* These rules hold for all laws:
+ * - The functions are pure: the same arguments give the same bits, and the library keeps nothing.
+ * - Times, pressures and flows have the solver's units.
+ * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. So
+ *   positive values open a valve.
+ * - `rate` is the time derivative of the opening.
+ * - A state has no pointers: a solver that restores it from a restart file continues with the same bits.
+ * - `now` may be the same struct as `before`, and gets its struct_size. To repeat a step, start from `before` again. */
+
+/* An opening by its values at keys in time. */
+typedef struct riis_opening_table {
+  int64_t struct_size;   /* set by the init function */
+  int64_t n_keys;        /* 1 to 1,000,000 */
+  const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
+  const double *opening; /* (n_keys), 0 to 1 */
+  double period;         /* > 0: the table repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same opening. 0, the default: the opening is
+                            constant before the first key and after the last */
+  int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
+  int32_t reserved;      /* 0 */
+} riis_opening_table;
+RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size); /* the defaults */
+/* Gives the opening of a table at a time. opening and rate may be NULL.
+ *   time  magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT naming the field, the key and its value. */
+RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
+                                             double *rate);
+
+/* An opening by the times of two ramps. The ramps are of fifth degree, so neither the rate nor its derivative jumps. A mitral
+ * valve may begin to open at 0.45 s and to close at 0.95 s, every second, and take 0.05 s for both. */
+typedef struct riis_opening_times {
+  int64_t struct_size;    /* set by the init function */
+  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
+  double opening_duration; /* how long opening takes, > 0 */
+  double closing_start;   /* when the valve begins to close, at least opening_start + opening_duration */
+  double closing_duration; /* how long closing takes, > 0 */
+  double closed, open;    /* the opening when closed and when open, 0 to 1. Default 0 and 1 */
+  double period;          /* > 0: the valve opens and closes once in each period. Default 0: only once */
+} riis_opening_times;
+RIIS_API riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size); /* the defaults */
+/* Gives the opening at a time by the times of the ramps. opening and rate may be NULL.
+ *   time  magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT naming the field and its value. */
+RIIS_API riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening,
+                                             double *rate);
+
+/* The phases of a switch. */
+enum {
+  RIIS_PHASE_CLOSING = 0, /* closing or closed */
+  RIIS_PHASE_OPENING = 1  /* opening or open */
+};
+
+/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An aortic valve
+ * in SI units has opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
+ * filter_time 0.002 and dwell_time 0.02. */
+typedef struct riis_opening_switch {
+  int64_t struct_size;    /* set by the init function */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused. So is that of the next field */
+  double closing_duration; /* time from open to closed, > 0 */
+  double open_above;      /* pressure difference. Default 0 */
+  double close_below;     /* flow. Default 0 */
+  double filter_time;  /* time constant of a filter of pressure difference and flow, >= 0. Default 0: no filter */
+  double dwell_time;   /* the least time from one change of phase to the next, >= 0. Default 0 */
+} riis_opening_switch;
+RIIS_API riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size); /* the defaults */
+/* The state of a switch. */
+typedef struct riis_opening_switch_state {
+  int64_t struct_size;        /* set by the init function */
+  double time;                /* of this state */
+  double opening, rate;       /* at that time */
+  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over this share */
+  double pressure_difference; /* filtered; NaN: none yet */
+  double flow;                /* filtered; NaN: none yet */
+  double turn_time;           /* time of the last change of phase; NaN: none yet */
+  int32_t phase;              /* RIIS_PHASE_* */
+  int32_t reserved;           /* 0 */
+} riis_opening_switch_state;
+/* Fills *state with a closed valve at time 0. */
+RIIS_API riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size);
+/* Advances a switch to a time. Its phase changes at the end of the step in which the condition is met. So the opening
+ * is accurate to first order in the length of steps.
+ *   time                       at least before->time, magnitude at most 1e30
+ *   pressure_difference, flow  at that time, magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; *now stays unchanged. */
+RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
+                                                 const riis_opening_switch_state *before, double time,
+                                                 double pressure_difference, double flow,
+                                                 riis_opening_switch_state *now);
+
+/* The angle law of T. Korakianitis and Y. Shi, "A concentrated parameter model for the human cardiovascular
+ * system including heart valve dynamics and atrioventricular interaction", Med. Eng. Phys. 28 (2006):
+ *   angle'' = -friction angle' + (pressure_gain dp + flow_gain Q) cos(angle)
+ *             - vortex_gain max(Q, 0) sin(2 angle)
+ * with angles in radians, between stops where the speed becomes 0. The opening is the angle's share of its range.
+ * The paper's values, for mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the
+ * aortic and 3.5 for the mitral valve. */
+typedef struct riis_opening_angle {
+  int64_t struct_size;  /* set by the init function */
+  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, also in the next three fields */
+  double flow_gain;     /* K_q, >= 0 */
+  double friction;      /* K_f, >= 0 */
+  double vortex_gain;   /* K_v, >= 0 */
+  double angle_min;     /* degrees, 0 to 90: closed. Default 0 */
+  double angle_max;     /* degrees, above angle_min, at most 90: open. Default 75 */
+} riis_opening_angle;
+RIIS_API riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size); /* the defaults */
+/* The state of the angle law. */
+typedef struct riis_opening_angle_state {
+  int64_t struct_size;        /* set by the init function */
+  double time;                /* of this state */
+  double opening, rate;       /* at that time */
+  double angle, angle_rate;   /* degrees, degrees per time */
+  double pressure_difference; /* at that time; NaN: none yet */
+  double flow;                /* at that time; NaN: none yet */
+} riis_opening_angle_state;
+/* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
+RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
+/* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step. So the angle is accurate
+ * to second order in the length of steps. If `before` has no pressure difference and flow, the present ones are used for the
+ * whole step.
+ *   time                       at least before->time, magnitude at most 1e30
+ *   pressure_difference, flow  at that time, magnitude at most 1e30
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so
+ * long that the integration would need more than a million smaller steps. *now stays unchanged. */
+RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
+                                                const riis_opening_angle_state *before, double time,
+                                                double pressure_difference, double flow,
+                                                riis_opening_angle_state *now);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

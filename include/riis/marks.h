@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * marks.h - marks: the nodes near a surface, with their distances and their resistance K.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_MARKS_H
+#define RIIS_MARKS_H
+
+#include "mesh.h"
+#include "surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Marking (paper, 4.2) ------------------------------------------------------------------------------ */
+
+/* The nodes that a marking found. Make one object and reuse it every step, because it keeps its memory. */
+typedef struct riis_marks riis_marks;
+/* Makes empty marks. They belong to no mesh and no surface. */
+RIIS_API riis_status riis_marks_create(riis_marks **marks);
+RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and their lists */
+
+/* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
+enum {
+  RIIS_SEARCH_AUTO = 0,       /* clusters, with three exceptions that take the exhaustive search: distances by sampling or
+                                 minimisation; the first marking of a mesh without riis_mesh_prepare, if the distance
+                                 limit is at most a fifth of the surface's extent; a larger limit with few nodes */
+  RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
+  RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
+                                 neighbor search") and queries every other node that it cannot prove to be far. The
+                                 mesh must have an adjacency, which need not be connected */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
+                                 connected to its one starting node. The mesh must have an adjacency */
+  RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
+                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more, and if
+                                 the mesh or its distance from the surface is a million times the size of the
+                                 surface */
+};
+
+/* The processor's instructions that a marking uses. The results are bitwise the same with all of them. */
+enum {
+  RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
+  RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64 */
+  RIIS_INSTRUCTIONS_AVX2 = 2,     /* AVX2 and FMA */
+  RIIS_INSTRUCTIONS_AVX512 = 3    /* AVX-512 F, DQ, BW and VL */
+};
+
+/* Fields of the closest point that a marking keeps on request. Add the values to request several. Distances by
+ * sampling or minimisation have RIIS_FIELD_POINT, RIIS_FIELD_NORMAL and RIIS_FIELD_PATCH only. */
+enum {
+  RIIS_FIELD_POINT = 1,      /* riis_mark_list.point */
+  RIIS_FIELD_NORMAL = 2,     /* riis_mark_list.normal */
+  RIIS_FIELD_BARYCENTRIC = 4, /* riis_mark_list.barycentric */
+  RIIS_FIELD_SIDE = 8,       /* riis_mark_list.side */
+  RIIS_FIELD_RIM = 16,       /* riis_mark_list.rim */
+  RIIS_FIELD_UV = 32,        /* riis_mark_list.uv; refused for surfaces from arrays */
+  RIIS_FIELD_VELOCITY = 64,  /* riis_mark_list.velocity; refused unless the last update gave velocities */
+  RIIS_FIELD_PATCH = 128,    /* riis_mark_list.patch_id */
+  RIIS_FIELD_GRADIENT = 256  /* riis_mark_list.distance_gradient, and K_gradient with a resistance; refused unless the
+                                surface has directions (riis_surface_add_direction) */
+};
+
+/* How the band around the surface ends at its rim. */
+enum {
+  RIIS_RIM_ROUND = 0, /* half a tube around the rim: every node within the half thickness resists */
+  RIIS_RIM_CUT = 1    /* no half tube: nodes whose closest point is on the rim do not resist */
+};
+
+/* The term K (u - u_surface) of the momentum equation, with the fluid velocity u and the surface velocity u_surface
+ * (paper, 2.1; docs/theory/marks.md, "Resistance"). At a distance d < eps, K = (R / eps) delta(d) with
+ * delta(d) = (1 + cos(pi d / eps)) / (2 eps). At larger distances K is 0. */
+typedef struct riis_resistance {
+  int64_t struct_size;   /* set by the init function */
+  double R;              /* 0 to 1e60, mass / (length time): kg/(m s). A flat closed valve in a flow of
+                            velocity u has a pressure drop of (R / eps) u. Default NaN, which is refused */
+  double half_thickness; /* eps, 1e-50 to the distance limit. Default RIIS_AUTO: the marking's half thickness */
+  int32_t rim;           /* RIIS_RIM_*, default RIIS_RIM_ROUND */
+  int32_t reserved;      /* 0 */
+} riis_resistance;
+RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size); /* the defaults */
+
+/* Options of a marking. */
+typedef struct riis_mark_options {
+  int64_t struct_size;       /* set by the init function */
+  double distance_limit;     /* the search finds nodes up to this distance; half thickness to 1e60. Default
+                                RIIS_AUTO: the half thickness. The limit does not change which nodes are marked */
+  const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
+  const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
+                                        velocities, riis_mark_list.K_u_surface. Default NULL: neither */
+  int32_t fields;            /* a sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Default 0 */
+  int32_t search;            /* RIIS_SEARCH_*, default RIIS_SEARCH_AUTO */
+  int32_t n_threads;         /* default 0 */
+  int32_t instructions;      /* RIIS_INSTRUCTIONS_*, for tests and measurements; default
+                                RIIS_INSTRUCTIONS_AUTO. RIIS_UNAVAILABLE if the processor lacks them.
+                                Distances by sampling or minimisation use RIIS_INSTRUCTIONS_BASELINE */
+} riis_mark_options;
+RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
+
+/* Finds every node near the surface: at most the half thickness away (marked), or at most the distance limit. The
+ * reported distance, in double precision, decides.
+ *   marks  its content is replaced
+ * The log warns if the largest sides of the boxes of mesh and surface differ by more than a factor of 50, or if one is
+ * less than the half thickness. It warns once per surface and mesh, at most eight times per mesh, and never for fewer
+ * than 1000 nodes.
+ * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
+RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
+                                     const riis_mark_options *options, riis_marks *marks);
+
+/* The lists of a marking. */
+enum {
+  RIIS_LIST_MARKED = 0,      /* the nodes within the half thickness */
+  RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not */
+};
+/* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL unless
+ * options.fields requested them. Values equal those of riis_closest_point to the last bit. */
+typedef struct riis_mark_list {
+  int64_t n_nodes;            /* in the list */
+  const int64_t *node_id;     /* (n_nodes) */
+  const double *distance;     /* (n_nodes) */
+  const int64_t *triangle_id; /* (n_nodes): of the closest triangle, as in riis_closest */
+  const int32_t *leaflet_id;  /* (n_nodes): of that triangle */
+  const double *K;            /* (n_nodes): K by options.resistance; NULL without a resistance */
+  const double *K_u_surface;  /* (3, n_nodes): K u_surface; NULL without a resistance or velocities */
+  const double *point;        /* (3, n_nodes): the closest point of the surface */
+  const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
+  const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
+  const double *uv;           /* (2, n_nodes): the point's u and v on its patch, in [0,1]. S_u x S_v points along
+                                 the normal, but against it on mirrored patches (cusps: patch_id % 4 >= 2;
+                                 mitral: 3, 4, 5, 8, 9). With flipped normals it is the reverse */
+  const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
+                                 If several leaflets are equally near (within 1e-6 half thicknesses), or several
+                                 patches of one leaflet (within 1e-9), it is the mean of the velocities at their
+                                 closest points (docs/theory/marks.md). Other fields are those of one triangle */
+  const int32_t *side;        /* (n_nodes): as riis_closest.side */
+  const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
+                                 has the sides that only one patch has, such as free edges and the annulus. Free edges
+                                 that coincide when closed are not rim. The rim of a surface from arrays has the edges
+                                 that only one triangle has; vertices with equal coordinates count as one */
+  const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
+  int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
+  const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
+                                 unit vector n points from the closest point to the node, whatever the side, and V is the
+                                 rate of the closest point on the triangle of triangle_id. 0 on the surface, where the
+                                 distance has a kink. If several places are equally near, the distance has a kink, too */
+  const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
+                                 where K is 0; NULL without a resistance */
+} riis_mark_list;
+/* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
+ *   which  RIIS_LIST_* */
+RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
+                                         int64_t struct_size);
+
+/* The caller's arrays (n_nodes) with an entry for each node of the mesh; NULL for arrays that are not wanted. */
+typedef struct riis_dense_arrays {
+  int64_t struct_size;  /* set by the init function */
+  int64_t n_nodes;      /* the number of nodes of the marking, 0 for empty marks */
+  double far_distance;  /* the distance of nodes beyond the limit or masked out: NaN, or any value outside
+                           [0, distance limit]. Default RIIS_FAR_DISTANCE */
+  uint8_t *mark;        /* 1 for marked nodes, 0 for others */
+  double *distance;     /* the distance of nodes within the distance limit, far_distance for others */
+  int64_t *triangle_id; /* the closest triangle of nodes within the distance limit, -1 for others */
+  int32_t *leaflet_id;  /* the leaflet of this triangle, -1 for others */
+} riis_dense_arrays;
+RIIS_API riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size); /* the defaults */
+/* Writes the marks to every entry of the caller's arrays.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays);
+
+/* How the last marking went. */
+typedef struct riis_mark_stats {
+  int64_t n_nodes;      /* of the mesh, masked out or not */
+  int64_t n_marked;     /* nodes within the half thickness */
+  int64_t n_within_limit; /* nodes within the distance limit, marked or not */
+  int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
+  double seconds;       /* wall time of riis_mark_nodes */
+  int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
+  int32_t n_threads;    /* the largest number of threads in any part. A caller's TBB limit affects walks, not loops */
+  int32_t complete;     /* 1: every node within the limit was found, for the coordinates last given; 0: not certain */
+  int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
+  int64_t n_unreached;  /* nodes within the limit that the neighbour search found by its proof, not by its walk */
+} riis_mark_stats;
+/* Tells how the last marking with the marks went; all 0 for empty marks. */
+RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * measures.h - measures of a valve for a flow: leaflets, orifice, coaptation, leak, first passage, cells across, swept volume.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_MEASURES_H
+#define RIIS_MEASURES_H
+
+#include "seal.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Measures: what a valve means for the flow --------------------------------------------------------- */
+
+/* A leaflet of a surface. Lengths are in mesh units. */
+typedef struct riis_leaflet {
+  int64_t n_triangles; /* the number of its triangles that answer queries */
+  double area;         /* the area of its triangles */
+  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. Of a surface
+                          from arrays: the edges that only one of its triangles has, without the outline of
+                          riis_orifice. 0 for a skirt */
+  int32_t leaflet_id;  /* as in riis_triangles */
+  int32_t reserved;    /* 0 */
+} riis_leaflet;
+/* Gives the number of the surface's leaflets. */
+RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, int64_t *n_leaflets);
+/* Gives the sizes of a leaflet.
+ *   leaflet  0 to n_leaflets - 1, ascending by leaflet_id */
+RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
+                                              int64_t struct_size);
+
+/* The outline of an orifice. */
+enum {
+  RIIS_OUTLINE_NONE = 0,      /* no disc, and the sides v = 0 that only one patch has, or the open edges of a surface
+                                 from arrays or keyframes, enclose no area */
+  RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (three cusps) or radius (bileaflet) about the axis */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
+  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges that only one
+                                 triangle has */
+};
+/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a valve
+ * is its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the outline, towards
+ * the side to which normals point. Lengths are in mesh units (docs/theory/measures.md). */
+typedef struct riis_orifice {
+  double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
+  double outline_area;   /* the area inside the outline */
+  double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by
+                            a tenth of the half thickness, so that narrower slits do not count. Parts of the edge
+                            on the outline are walls and do not count */
+  double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
+                            is moved inwards by rim_reach * half_thickness. To first order the result is area -
+                            rim_reach * half_thickness * perimeter. It is never below 0 */
+  double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
+                            to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
+  double half_thickness; /* eps of the resistance */
+  double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
+  double axis[3];        /* unit vector; of a warped disc its normal; 0 for arrays and keyframes without an outline */
+  int32_t outline;       /* RIIS_OUTLINE_* */
+  int32_t reserved;      /* 0 */
+} riis_orifice;
+/* Measures the orifice of a surface.
+ *   resistance  only half_thickness and rim are used. RIIS_AUTO stands for the surface's half thickness. NULL
+ *               stands for the defaults */
+RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
+                                              riis_orifice *orifice, int64_t struct_size);
+
+/* A value for an argument leaflet_id. */
+enum {
+  RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
+};
+/* The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units. */
+typedef struct riis_coaptation {
+  double area;  /* the area of the points of the leaflet's triangles that lie within reach of another leaflet */
+  double edge;  /* the length of the part of its free edge (riis_leaflet) within reach of another leaflet */
+  double reach; /* the distance within which leaflets touch */
+} riis_coaptation;
+/* Measures the coaptation. The bileaflet housing and a skirt are no leaflets, and touch nothing.
+ *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
+ *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
+ *               both sides
+ * Areas are right to 1e-3 of the contact's outline times reach (docs/theory/measures.md). The extent of a surface is the
+ * diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent are lost.
+ * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
+RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
+                                                 riis_coaptation *coaptation, int64_t struct_size);
+
+/* Gives the ideal leak of a closed surface: the volume flow drop * (eps / R) * area that a pressure drop causes. The
+ * bileaflet housing does not count in the area. The leak in a solver differs from the ideal (docs/solvers.md).
+ *   resistance  only R, 1e-60 to 1e60, and half_thickness are used. RIIS_AUTO stands for the surface's half thickness
+ *   drop        upstream pressure minus downstream pressure, magnitude at most 1e30
+ *   flow        in the unit of drop * area * eps / R, which is m^3/s in SI units
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value. */
+RIIS_API riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resistance *resistance,
+                                           double drop, double *flow);
+
+/* Options of riis_find_first_passage. */
+typedef struct riis_first_passage_options {
+  int64_t struct_size;                 /* set by the init function */
+  const riis_surface_options *surface; /* options of the valve's surface. NULL, the default, stands for defaults */
+  const riis_mark_options *marking;    /* options of riis_find_passage. NULL, the default, stands for defaults */
+  double tolerance;                    /* tolerance of the opening, 1e-6 to 1. Default 1e-3 */
+} riis_first_passage_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_first_passage_options_init(riis_first_passage_options *options, int64_t struct_size);
+/* The result of riis_find_first_passage. */
+enum {
+  RIIS_FIRST_PASSAGE_FOUND = 0,  /* the valve closes the mesh at opening 0, and opens it later */
+  RIIS_FIRST_PASSAGE_ALWAYS = 1, /* there is a passage at opening 0 */
+  RIIS_FIRST_PASSAGE_NEVER = 2,  /* no opening that was tried has a passage */
+  RIIS_FIRST_PASSAGE_NONE = 3    /* the mesh itself has no path */
+};
+/* The opening at which a valve first lets the mesh pass. */
+typedef struct riis_first_passage {
+  double opening;        /* the first opening with a passage; 0 for ALWAYS, 1 for NEVER, 0 for NONE */
+  double closed_opening; /* FOUND: the largest tried opening below `opening`, which has no passage. Else: `opening` */
+  int64_t node_id;       /* the passage at `opening`, as in riis_passage */
+  double distance;       /* as in riis_passage */
+  double point[3];       /* as in riis_passage */
+  double seconds;        /* wall time of riis_find_first_passage */
+  int32_t n_openings;    /* the number of openings tried */
+  int32_t state;         /* RIIS_FIRST_PASSAGE_* */
+} riis_first_passage;
+/* Finds the opening at which riis_find_passage first finds a passage.
+ *   valve  its own opening is ignored
+ *   mesh   must have an adjacency, and need not have been marked
+ *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
+ * The call tries 0, 1/8, 2/8, ... until a passage is open. It then halves the last step until opening and closed_opening
+ * differ by at most the tolerance. A passage may close again as the valve opens further. So the call may miss a passage that
+ * ends before the next multiple of 1/8.
+ * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
+ * valve with only one state. */
+RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,
+                                             const riis_passage_ends *ends,
+                                             const riis_first_passage_options *options,
+                                             riis_first_passage *first, int64_t struct_size);
+
+/* The number of mesh edges across the band, from the lengths of the mesh edges with a marked node. */
+typedef struct riis_cells_across {
+  double least, mean, most; /* 2 * half_thickness over the longest, the mean and the shortest length */
+  double shortest_edge, mean_edge, longest_edge; /* the lengths of the mesh edges with a marked node */
+  double half_thickness; /* the half thickness of the marking */
+  int64_t n_edges;       /* edges with at least one marked node. If it is 0, only half_thickness differs from 0 */
+} riis_cells_across;
+/* Computes the number of mesh edges across the band. An edge counts once, whether one or both of its nodes list it. Edges to
+ * ghosts and edges of length 0 do not count.
+ *   marks  marks from riis_mark_nodes
+ *   mesh   the mesh of the marking, with an adjacency
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, for empty marks, and for marks with another number of
+ * nodes; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh,
+                                                 riis_cells_across *cells, int64_t struct_size);
+
+/* Gives the volume that the valve sweeps between two openings, in mesh units cubed. It is the integral of u_surface . n over
+ * surface and time, positive along the normals. A flow displaces less, because blood slips past the leaflets.
+ *   opening_from, opening_to  0 to 1. The valve's own opening is ignored
+ *   options     only scale, flip_normals and n_threads are used. NULL stands for the defaults
+ *   leaflet_id  RIIS_LEAFLET_*, or the id of a patch's leaflet, or RIIS_ALL_LEAFLETS
+ * The result is within 1e-3 of the largest volume that a leaflet sweeps from 0 to 1 (docs/theory/measures.md).
+ * Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
+ * RIIS_INVALID_PARAMETER for inconsistent parameters, and for a valve with one state unless both are 0. */
+RIIS_API riis_status riis_valve_get_swept_volume(const riis_valve *valve, double opening_from, double opening_to,
+                                                 const riis_surface_options *options, int32_t leaflet_id,
+                                                 double *volume);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

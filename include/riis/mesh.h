@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * mesh.h - meshes: the nodes that are marked, and their neighbours.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_MESH_H
+#define RIIS_MESH_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Mesh: the nodes that are marked ------------------------------------------------------------------- */
+
+/* The caller's nodes. The coordinates are borrowed or copied, depending on the last call that gave them. */
+typedef struct riis_mesh riis_mesh;
+
+/* Borrows node coordinates and checks them once. They must stay in place until an update or the destruction. A process
+ * without nodes makes the same calls as the other processes.
+ *   n_nodes  0 to 2^40; with 0 the pointers may be NULL
+ * Errors: RIIS_INVALID_MESH naming the node and the value; RIIS_LIMIT_EXCEEDED for too many nodes. */
+RIIS_API riis_status riis_mesh_create(int64_t n_nodes, const double *x, const double *y, const double *z,
+                                      int64_t stride, riis_mesh **mesh);
+/* Tells the handle that the coordinates moved, in place or to other arrays, and checks them again. Call it after every
+ * change of coordinates. The adjacency stays if n_nodes is the same. For other nodes make a new handle.
+ * Arguments and errors as riis_mesh_create. */
+RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const double *x, const double *y,
+                                      const double *z, int64_t stride);
+/* Copies node coordinates, such as a Fortran temporary or single precision, and checks them. Single precision is
+ * converted to double once, exactly. The handle keeps 24 bytes per node.
+ * Errors: as riis_mesh_create. */
+RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
+/* As riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
+RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
+/* Destroys the handle. The caller's coordinates stay, and so do marks. */
+RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
+/* Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. Clusters copy the
+ * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made.
+ * Errors: RIIS_LIMIT_EXCEEDED for 2^32 nodes and more; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);
+
+/* Neighbours of nodes, as compressed sparse rows. With base = index_base, node i of 0 to n_rows - 1 has the
+ * neighbours columns[k] - base for k from offsets[i] - base to offsets[i + 1] - base - 1. */
+typedef struct riis_csr {
+  int64_t struct_size;   /* set by the init function */
+  int64_t n_rows;        /* the mesh's n_nodes */
+  int64_t n_all;         /* columns are below this number, at least n_rows. Columns from n_rows on are ghosts, nodes
+                            of other ranks, and are ignored. Default 0 stands for n_rows */
+  const void *offsets;   /* (n_rows + 1), ascending from the base; a row may be empty. NULL only for 0 rows */
+  const void *columns;   /* (offsets[n_rows] - base), in any order; repetitions and the node itself are ignored */
+  int32_t offset_bits;   /* of offsets */
+  int32_t column_bits;   /* of columns */
+  int32_t index_base;    /* of both offsets and columns */
+  int32_t reserved;      /* 0 */
+} riis_csr;
+RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the defaults */
+
+/* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
+ *   csr  its arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
+ *        adjacency. NULL removes the adjacency, and so does riis_mesh_update with another n_nodes
+ * Errors: RIIS_INVALID_MESH naming the row and its value. */
+RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
+
+/* ---- Adjacency from cells, faces, or a structured grid ------------------------------------------------- */
+
+/* Compressed sparse rows that the library owns: ascending columns without repetition, symmetric, base 0. */
+typedef struct riis_adjacency riis_adjacency;
+
+/* Cells by their nodes, in the order of VTK, Abaqus, CGNS and Gmsh: the base, then the apex or the nodes above.
+ * The number of nodes tells the shape: 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron. */
+typedef struct riis_mesh_cells {
+  int64_t struct_size;     /* set by the init function */
+  int64_t n_nodes;         /* of the mesh, >= 0 */
+  int64_t n_cells;         /* >= 0 */
+  const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
+  const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: where each cell begins in
+                              node_ids, and where the last ends. NULL: nodes_per_cell for all cells */
+  int32_t nodes_per_cell;  /* 4, 5, 6 or 8; not used with offsets. Default 4 */
+  int32_t id_bits;         /* of node_ids and offsets */
+  int32_t index_base;      /* of node_ids */
+  int32_t n_threads;       /* default 0 */
+} riis_mesh_cells;
+RIIS_API riis_status riis_mesh_cells_init(riis_mesh_cells *cells, int64_t struct_size); /* the defaults */
+/* Makes an adjacency of nodes from cells. Two nodes are neighbours if an edge of a cell joins them.
+ * Errors: RIIS_INVALID_MESH naming the cell and its value. */
+RIIS_API riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency);
+
+/* Faces between cells, for codes that mark cell centres. */
+typedef struct riis_mesh_faces {
+  int64_t struct_size;     /* set by the init function */
+  int64_t n_cells;         /* the number of cells, >= 0. The nodes of the mesh are cell centres */
+  int64_t n_faces;         /* >= 0 */
+  const void *owner;       /* face i joins the cells owner[i * stride] and neighbor[i * stride] */
+  const void *neighbor;    /* the second cell; index_base - 1 (-1 or 0) for a face at the boundary, which joins nothing */
+  int64_t stride;          /* entries from face to face, 1 to 1024: 1, the default, or 2 for face_cells(2, n_faces) */
+  int32_t id_bits;         /* of owner and neighbor */
+  int32_t index_base;      /* of owner and neighbor */
+  int32_t n_threads;       /* default 0 */
+  int32_t reserved;        /* 0 */
+} riis_mesh_faces;
+RIIS_API riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size); /* the defaults */
+/* Makes an adjacency of cells from faces. Two cells are neighbours if they have a common face.
+ * Errors: RIIS_INVALID_MESH naming the face and the owner or neighbor that is no cell. */
+RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency);
+
+/* Makes the adjacency of a structured grid. Neighbours differ by 1 in one of i, j, k.
+ *   ni, nj, nk  each >= 1; node (i, j, k) has the number i + ni (j + nj k), all from 0
+ * Errors: RIIS_LIMIT_EXCEEDED for more nodes than memory can hold. */
+RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
+                                                     riis_adjacency **adjacency);
+/* Gives the rows as riis_mesh_set_adjacency takes them. The arrays belong to the adjacency: int64_t offsets, and
+ * columns of column_bits, which is 32 for fewer than 2^31 nodes, else 64. */
+RIIS_API riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr,
+                                            int64_t struct_size);
+/* Destroys the adjacency and its arrays. Destroy the mesh that borrows them first. */
+RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * obstacle.h - the obstacle in the caller's arrays: K and K u_surface, the forces of the flow on the surface, and sums beside it.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_OBSTACLE_H
+#define RIIS_OBSTACLE_H
+
+#include "marks.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Resistance: K and K u_surface in the caller's arrays, and sums of a flow around the surface ------- */
+
+/* The caller's arrays with an entry for each node of the mesh, to which K and K u_surface are added. */
+typedef struct riis_resistance_arrays {
+  int64_t struct_size;         /* set by the init function */
+  int64_t n_nodes;             /* the number of nodes of the marking */
+  double *K;                   /* (n_nodes) by K_stride; NULL if not wanted */
+  int64_t K_stride;            /* default 1 */
+  double *K_u_surface[3];      /* (n_nodes) by K_u_surface_stride, for x, y and z; all NULL if not wanted */
+  int64_t K_u_surface_stride;  /* numbers from node to node: default 1; 3 for xyz(3,n) with {xyz, xyz + 1, xyz + 2} */
+} riis_resistance_arrays;
+/* Fills *arrays with the defaults. */
+RIIS_API riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size);
+/* Adds K and K u_surface to the caller's arrays, which then hold sums over several valves. The solver's term is
+ * (sum of K) u - (sum of K u_surface). Nodes may be cell centres or quadrature points. riis_mark_list also has both.
+ *   resistance  RIIS_RIM_CUT needs RIIS_FIELD_RIM, and K_u_surface needs RIIS_FIELD_VELOCITY
+ * Errors: RIIS_INVALID_ARGUMENT also for marks that no marking has filled, and for a field that they lack. */
+RIIS_API riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
+                                               const riis_resistance_arrays *arrays);
+
+/* The flow at the nodes, in the caller's arrays. */
+typedef struct riis_flow_arrays {
+  int64_t struct_size;       /* set by the init function */
+  int64_t n_nodes;           /* the number of nodes of the marking */
+  const double *velocity[3]; /* (n_nodes) by velocity_stride, for x, y and z; NULL only for 0 nodes */
+  int64_t velocity_stride;   /* default 1; 3 for u(3,n) with {u, u + 1, u + 2} */
+  const double *weight;      /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
+} riis_flow_arrays;
+RIIS_API riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size); /* the defaults */
+/* The caller's arrays for the forces and moments of the flow, which are added to them. NULL leaves a sum out. The arrays
+ * must not overlap. A node's force is weight K (velocity - u_surface), and acts at the node's closest point. The power of
+ * a rigid surface is therefore force times velocity plus moment times angular velocity. */
+typedef struct riis_reaction {
+  int64_t struct_size;      /* set by the init function */
+  double about[3];          /* the reference point of moment and leaflet_moment; magnitude at most 1e60.
+                               Default 0 */
+  double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
+  double *moment;           /* (3): moment on the whole surface */
+  int64_t n_leaflets;       /* the number of columns in both sums of leaflets, which alone use it: more than
+                               riis_surface_info.largest_leaflet_id. Default 0 */
+  double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
+                               riis_mark_list.leaflet_id, also if two leaflets are equally near */
+  double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
+  int64_t n_edges;          /* number of edges, at least 1 if edge_force or edge_moment is given; else unused. Default 0 */
+  const double *edges;      /* (3, 2, n_edges): both ends of each edge, for example riis_attachment.edges;
+                               magnitude at most 1e60. An edge may have length 0 */
+  const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
+                               leaflet needs an edge. NULL, the default: it counts for the nearest of all edges */
+  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. Distances are those of a
+                               node's closest point. If edges are equally near, the first one counts */
+  double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
+} riis_reaction;
+/* Fills *reaction with the defaults. */
+RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
+/* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
+ *   flow      u and the volumes; u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY
+ *   reaction  moments and sums of edges need RIIS_FIELD_POINT
+ * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums. The sums
+ * of leaflets add up to the sum of the whole, up to rounding. The sums of edges are loads for tissue codes. They do not
+ * model how a membrane carries loads to its edges. A node takes a time of order log n_edges, or of order n_edges if all
+ * edges are equally near.
+ * The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band. A scheme
+ * with K at its faces then needs a source in its pressure equation, or the force is wrong by newtons. Cells that are bounded
+ * only by walls and by faces with K dt > rho get the flow of u_surface out through these faces (docs/solvers.md, "The source
+ * in the band"). Finite elements have the same fault for K dt > rho, and no source was found for them.
+ * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small, naming the
+ * leaflet id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
+RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
+                                             const riis_flow_arrays *flow, const riis_reaction *reaction);
+
+/* Sums over the nodes on either side of the surface: entry 0 is upstream (side -1), entry 1 is downstream. The
+ * mean is sum / weight; with MPI, add up the sums and weights of all ranks first. */
+typedef struct riis_band_sums {
+  double sum[2];      /* the sum of weight * value */
+  double weight[2];   /* the sum of weight */
+  int64_t n_nodes[2]; /* nodes in the band */
+} riis_band_sums;
+/* A band around the surface, and a value at the nodes. */
+typedef struct riis_band {
+  int64_t struct_size;  /* set by the init function */
+  double inner, outer;  /* distances, 0 <= inner <= outer <= distance limit of the marking. Default 0 */
+  int64_t n_nodes;      /* the number of nodes of the marking, which must have RIIS_FIELD_SIDE and RIIS_FIELD_RIM */
+  const double *value;  /* (n_nodes), such as the pressure; NULL only for 0 nodes */
+  const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
+} riis_band;
+RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
+/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim are
+ * left out, and so are nodes on neither side. With an open valve the two sides have no meaning.
+ * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
+RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
+                                              riis_band_sums *sums, int64_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * patient.h - valves of a patient: sizes and placement from landmarks, a warp that meets them, and a skirt that reaches the wall.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_PATIENT_H
+#define RIIS_PATIENT_H
+
+#include "surface.h"
+#include "queries.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Landmarks: a valve's sizes and placement from points that a person marks in an image ----------------- */
+
+/* The anatomy that a landmark marks, on the closed valve. */
+enum {
+  RIIS_LANDMARK_COMMISSURE = 0,     /* three cusps: the top of the attachment between two of them; exactly 3 */
+  RIIS_LANDMARK_NADIR = 1,          /* three cusps: the lowest point of a cusp's attachment; exactly 3 */
+  RIIS_LANDMARK_COAPTATION = 2,     /* three cusps: where the closed cusps meet; at most 1. The valve's axis
+                                       passes through it; its height is not used */
+  RIIS_LANDMARK_ANNULUS = 3,        /* mitral: a point of the annulus; 4 or more, in their order around it.
+                                       bileaflet: a point of the housing's circle at mid-height; 3 or more */
+  RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1 */
+  RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral: the annulus at the middle of the posterior leaflet; at most 1 */
+  RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2 */
+  RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
+  RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
+  RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
+  RIIS_LANDMARK_ATTACHMENT = 10     /* three cusps: a further point of the attachment; at most 900. The sizes and the
+                                       placement do not depend on it: it is for a warp, by riis_placement_arrays.place */
+};
+/* Landmarks of a patient, in the caller's arrays. */
+typedef struct riis_landmarks {
+  int64_t struct_size;       /* set by the init function */
+  int64_t n_landmarks;       /* 1 to 10,000 */
+  const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
+  int64_t stride;            /* of x, y and z. Default 1 */
+  const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
+  const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir or a point of the attachment, its cusp and -1; of a
+                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. Enough of
+                                an aortic valve's must be known to name all. Without names, cusp 0 of three equal cusps
+                                is at the first nadir */
+  double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
+  double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
+                                Default RIIS_AUTO: 0.03 * scale */
+  double flow[3];            /* the direction of flow, of any length; default 0: not known. bileaflet: must be set.
+                                mitral: needed if neither both commissures nor the horns show the atrium's side */
+  int32_t real_bits;         /* of x, y and z */
+  int32_t reserved;          /* 0 */
+} riis_landmarks;
+RIIS_API riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t struct_size); /* the defaults */
+
+/* Where a parameter's value comes from. */
+enum {
+  RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
+  RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: its standard error at their noise moves the
+                                valve by at most a fifteenth of its radius */
+  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter; other sizes give it by the valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it; it tends to the proportions */
+};
+/* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
+typedef struct riis_placement {
+  double scale;              /* the scale of the landmarks, which also gives the default half thickness of 0.1 cm */
+  double rotation_axis[3];   /* unit vector */
+  double rotation_angle;     /* degrees, 0 to 180 */
+  double translation[3];     /* mesh units */
+  double rms;                /* root mean square of the residuals, mesh units */
+  double worst;              /* the largest residual, mesh units */
+  double noise;              /* noise behind standard errors: that of the landmarks, or more if the residuals show more */
+  double rotation_error;     /* standard error of the rotation, degrees */
+  double position_error;     /* standard error of the place of the valve's origin, mesh units */
+  int64_t worst_landmark_id; /* the landmark with the largest residual */
+  int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
+  int32_t reserved;          /* 0 */
+} riis_placement;
+/* The caller's arrays for the results of riis_place. NULL arrays, the default, are not written. */
+typedef struct riis_placement_arrays {
+  int64_t struct_size;       /* set by the init function */
+  double *residual;          /* (n_landmarks): distances from the landmarks to their places, mesh units */
+  double *standard_error;    /* (number of parameters, in the order of riis_valve_get_parameter), in the parameter's
+                                unit; infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT */
+  int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
+  double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a
+                                warp whose targets are the landmarks. A commissure's place is the mean of its cusps' ends.
+                                A point of the attachment has the place that this warp, smoothed by the noise, takes
+                                nearest to it */
+} riis_placement_arrays;
+RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
+/* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement.
+ *   valve   the template, a kind with any parameters: lengths that no landmark bears on keep their proportions. Translation
+ *           and opening stay, and so does the open state of riis_valve_set_open_state
+ *   held    names of parameters that keep the valve's values, separated by blanks or commas; "": none
+ *   arrays  its arrays are written; NULL: not wanted
+ * The result has the least squares of the distances between the landmarks and their places on the closed valve
+ * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power
+ * that would make its cusps overlap is lowered.
+ * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, not those
+ * of a heart valve at this scale, or that do not show the flow; the message names them. RIIS_INVALID_PARAMETER for a
+ * valve from patches, an unknown name in held, and sizes that do not fit together. */
+RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
+                                const riis_placement_arrays *arrays, riis_placement *placement,
+                                int64_t struct_size);
+
+/* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
+
+/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is affine plus a term |r|^3 for
+ * each landmark (docs/theory/warp.md). Its matrix is factored once, so new targets in each time step cost little. */
+typedef struct riis_warp riis_warp;
+
+/* Options of riis_warp_create. */
+typedef struct riis_warp_options {
+  int64_t struct_size; /* set by the init function */
+  double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
+                          misses the targets by about that much. Default 0: it meets the targets exactly */
+  const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
+                          Otherwise they are in the mesh's: scale, rotation and translation of these options place them.
+                          Use the same options for the surface */
+} riis_warp_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
+
+/* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity.
+ *   sources  3 to 1000 landmarks. If they lie nearly in a plane, they do not determine the map across that plane. The map then
+ *            stretches that direction as it stretches the plane, and keeps it at right angles (riis_warp_info.is_planar)
+ * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
+ * landmarks on a line. */
+RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
+/* Destroys the warp. Valves that have it keep their copies. */
+RIIS_API void riis_warp_destroy(riis_warp **warp);
+/* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
+ *   targets  as many points as the sources, in their order
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
+ * landmark to the nearest other one, its determinant is not above 0. */
+RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
+/* Takes the landmarks to their places at a time, from a table of keys in time.
+ *   frames  n_vertices is the number of landmarks. The keys are read during the call only
+ *   time    magnitude at most 1e30
+ * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
+RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyframe_arrays *frames, double time);
+
+/* A warp's quality, in the units of its landmarks. */
+typedef struct riis_warp_info {
+  int64_t n_landmarks;         /* the number of landmarks */
+  double rms_residual;         /* root mean square of the distances between mapped sources and targets */
+  double largest_residual;     /* the largest distance between a mapped source and its target */
+  int64_t largest_landmark_id; /* its landmark */
+  double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
+  double least_determinant;    /* the least determinant of the map's derivative, half way from a landmark to the
+                                  nearest other one */
+  double least_point[3];       /* the point between the sources where the determinant is least */
+  int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
+  int32_t reserved;            /* 0 */
+} riis_warp_info;
+/* Gives the quality of a warp. */
+RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
+/* Maps points, such as the chords of a mitral valve.
+ *   points  in the coordinates of the landmarks
+ *   mapped  (3, n_points); may be the array of the points
+ * Errors: RIIS_INVALID_ARGUMENT naming the point. */
+RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *points, double *mapped);
+
+/* Warps a valve: its curves are mapped at every opening, before the placement. The valve copies both maps.
+ *   closed  the map at opening 0; NULL, with `open` NULL, removes the warp
+ *   open    the map at opening 1; NULL: `closed` serves for all openings
+ * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
+ * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
+ * RIIS_TRIANGULATION_FIXED the warp may move. A disc that is the outline of the orifice is also warped.
+ * An annulus that moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them,
+ * and pass both to riis_surface_update_moving. Both must be warped, or neither. A surface's call refuses a warp that folds at
+ * the valve or turns a part of it over, as RIIS_INVALID_PARAMETER naming the place and the value.
+ * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
+RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
+
+/* ---- Skirt: the gap between the attachment and a wall -------------------------------------------------- */
+
+/* The gap between the attachment of a valve and a wall. Lengths are in mesh units. */
+typedef struct riis_gap {
+  double least, mean, most; /* the gap at the ends of the edges; the mean is weighted by the edges' lengths. 0 without a
+                               wall at any end */
+  double widest_point[3];   /* the end of an edge with the widest gap */
+  int64_t n_ends;           /* number of ends of edges: 2 * riis_attachment.n_edges */
+  int64_t n_without_wall;   /* the ends whose line misses the wall. They count in no other field */
+} riis_gap;
+/* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
+ *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
+ *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
+ *             misses the wall. NULL if it is not wanted
+ * The gap is the distance along the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory/skirt.md). Of all places at which that line meets the wall, the nearest counts. The gap is negative if the wall lies inside.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for one without an attachment, and for an attachment that
+ * encloses no area. */
+RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
+                                          riis_gap *gap, int64_t struct_size);
+/* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt.
+ *   wall     as in riis_surface_get_gap
+ *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
+ *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
+ * At each point of the attachment of the closed valve, the length is the gap. If the gap is below 0.01 of the attachment's mean
+ * distance from the axis, the length is that limit. These lengths stay while the valve opens. The parameter "skirt_length"
+ * becomes the largest of them, before placement. Setting that parameter removes the lengths.
+ * Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest, with the first such point;
+ * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
+RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
+                                                  const riis_surface_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * queries.h - queries of a surface: the closest points of any points, and places where the surface goes through itself.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_QUERIES_H
+#define RIIS_QUERIES_H
+
+#include "surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
+
+/* The closest point of the surface to one point. For other measures than triangles see RIIS_MEASURE_*. */
+typedef struct riis_closest {
+  double distance;        /* >= 0, mesh units */
+  double point[3];        /* on the triangle, mesh units */
+  double barycentric[3];  /* the point's weights for the triangle's vertices, >= 0, sum 1 */
+  double normal[3];       /* unit normal of the triangle, by the right-hand rule */
+  int64_t triangle_id;    /* the lowest id of the closest triangles */
+  int32_t leaflet_id;     /* of the triangle */
+  int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface
+                             or level with its rim. At a shared edge or vertex (equal placed coordinates) the
+                             angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005) */
+} riis_closest;
+/* Finds the closest point of the surface at any distance, with the result of a loop over all triangles in double
+ * precision. Distances below 1e-154 underflow to 0.
+ *   point  3 finite coordinates, magnitude at most 1e60
+ * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
+RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
+                                        int64_t struct_size);
+
+/* The default distance of far points. It is finite, so that arithmetic raises no floating-point exceptions. */
+#define RIIS_FAR_DISTANCE 1.0e30
+
+/* Options of queries for many points. */
+typedef struct riis_closest_options {
+  int64_t struct_size;       /* set by the init function */
+  double distance_limit;     /* >= 0, default infinity. Farther points get far_distance, ids -1 and otherwise zeros */
+  double far_distance;       /* the distance of farther points, outside [0, distance_limit]. Default RIIS_FAR_DISTANCE */
+  const uint8_t *point_mask; /* (n_points): points with 0 must be finite, but get no result. NULL: no mask */
+  int64_t n_point_ids;       /* length of point_ids; 0 without it */
+  const int64_t *point_ids;  /* strictly ascending, 0 to n_points - 1: only these points are read, and only their
+                                entries are written. NULL: all points. Not together with point_mask */
+  int32_t n_threads;         /* default 0 */
+  int32_t reserved;          /* 0 */
+} riis_closest_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size);
+
+/* The caller's arrays for the fields of riis_closest; NULL for fields that are not wanted. */
+typedef struct riis_closest_arrays {
+  int64_t struct_size;    /* set by the init function */
+  double *distance;       /* (n_points) */
+  double *point;          /* (3, n_points) */
+  double *barycentric;    /* (3, n_points) */
+  double *normal;         /* (3, n_points) */
+  int64_t *triangle_id;   /* (n_points) */
+  int32_t *leaflet_id;    /* (n_points) */
+  int32_t *side;          /* (n_points) */
+} riis_closest_arrays;
+/* Fills *arrays with NULL. */
+RIIS_API riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size);
+
+/* Finds the closest points of many points, in parallel.
+ *   arrays  the arrays to write; none may overlap another or the coordinates
+ * Errors: RIIS_INVALID_ARGUMENT naming the first bad point; nothing is then written. */
+RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
+                                         const riis_closest_options *options,
+                                         const riis_closest_arrays *arrays);
+
+/* ---- Crossings: self-intersections, where the surface goes through itself ------------------------------ */
+
+/* Options of riis_find_crossings. */
+typedef struct riis_crossing_options {
+  int64_t struct_size; /* set by the init function */
+  double depth;        /* half thicknesses, 0 to 1, default 1e-6: pairs up to this depth only touch */
+  int32_t n_threads;   /* default 0 */
+  int32_t reserved;    /* 0 */
+} riis_crossing_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size);
+
+/* The pairs of triangles that riis_find_crossings found. Make one object and reuse it. */
+typedef struct riis_crossings riis_crossings;
+RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes crossings without a pair */
+RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
+
+/* Finds every pair of the surface's triangles that go through each other.
+ *   options    a pair crosses if it is deeper than depth. A depth within the rounding error also counts as touching. That
+ *              error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
+ *   crossings  its content is replaced
+ * A pair's depth is its penetration depth: the length of the shortest translation of one triangle after which both only
+ * touch (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that
+ * share a vertex (equal placed coordinates) are neighbours, not a pair. The call uses the triangles with every
+ * RIIS_MEASURE_*. Triangles of smooth leaflets that touch may therefore cross by twice riis_surface_info.error_bound. A log
+ * function (riis_set_log) gets warnings of deeper crossings without this call.
+ * Errors: RIIS_INVALID_ARGUMENT naming the field. */
+RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
+                                         riis_crossings *crossings);
+
+/* Pairs of triangles that cross, ascending by first triangle, then by second. Lengths are in mesh units. */
+typedef struct riis_crossing_list {
+  int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
+  const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
+  const double *point;        /* (3, n_pairs): the middle of the segment in which the two triangles meet */
+  const double *depth;        /* (n_pairs): the penetration depth */
+  const double *length;       /* (n_pairs): the length of this segment */
+  double total_length;        /* the sum of length */
+  double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
+  double deepest_point[3];    /* the point of the deepest pair */
+  int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
+  int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
+  double seconds;             /* wall time of riis_find_crossings */
+} riis_crossing_list;
+/* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
+RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
+                                             int64_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

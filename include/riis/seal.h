@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * seal.h - whether the marks close the surface on a mesh: leaks, open regions, and the widest passage.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_SEAL_H
+#define RIIS_SEAL_H
+
+#include "marks.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Leaks: where the mesh is too coarse for the marks to close the surface (docs/meshes.md) ----------- */
+
+/* The edges that riis_find_leaks found. Make one object and reuse it. */
+typedef struct riis_leaks riis_leaks;
+RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
+RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
+
+/* Finds every edge of the mesh's adjacency that joins two unmarked nodes and crosses or touches a triangle of the surface.
+ *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
+ *   marks          marks from riis_mark_nodes
+ *   options        the options of the marking. An edge to a node that node_mask leaves out does not leak
+ *   leaks          its content is replaced
+ * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge may be given in one
+ * row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two half thicknesses long do not
+ * leak (docs/meshes.md). A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges,
+ * except by RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
+ * tolerance * half_thickness, so search again after it.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
+ * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
+                                     const riis_marks *marks, const riis_mark_options *options,
+                                     riis_leaks *leaks);
+
+/* Mesh edges that leak, ascending by their first node, then by their second. Lengths are in mesh units. */
+typedef struct riis_leak_list {
+  int64_t n_edges;            /* edges that leak. If 0, node ids are -1 and all other fields but seconds are 0 */
+  const int64_t *node_id;     /* (2, n_edges): the two nodes, the lower id first */
+  const double *length;       /* (n_edges) */
+  const double *distance;     /* (n_edges): the distance of the edge's nearer node, a half thickness that closes it */
+  double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
+  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. It is the first one of equally long edges */
+  double longest_length;      /* the length of this edge */
+  double longest_middle[3];   /* the middle of this edge */
+  double seconds;             /* wall time of riis_find_leaks */
+} riis_leak_list;
+/* Gives the edges of the last riis_find_leaks, until the next riis_find_leaks with these leaks. */
+RIIS_API riis_status riis_leaks_get_list(const riis_leaks *leaks, riis_leak_list *list, int64_t struct_size);
+
+/* ---- Open regions and passages: whether the unmarked nodes connect two regions (docs/meshes.md) -------- */
+
+/* Labels the open regions: the connected components of the nodes that a marking left unmarked, along mesh edges.
+ *   mesh       the mesh of the marking, with an adjacency
+ *   marks      marks from riis_mark_nodes
+ *   options    the options of the marking; nodes that node_mask leaves out are in no region
+ *   n_nodes    the number of nodes of the marking
+ *   label      (n_nodes), the lowest node id of the node's region, -1 for nodes in no region
+ *   n_regions  the number of regions; may be NULL
+ * An edge may be given in one row or in both. Edges to ghosts are ignored: with MPI, ranks must exchange their labels
+ * (examples/mpi_leaks.c).
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
+ * have another number of nodes. */
+RIIS_API riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *marks,
+                                             const riis_mark_options *options, int64_t n_nodes, int64_t *label,
+                                             int64_t *n_regions);
+
+/* Whether there is a passage between two sets of nodes. */
+enum {
+  RIIS_PASSAGE_CLOSED = 0, /* no: each path between the sets has a node within the half thickness */
+  RIIS_PASSAGE_OPEN = 1,   /* yes: some path has no node within the half thickness */
+  RIIS_PASSAGE_NONE = 2    /* no: the mesh itself has no path between the sets */
+};
+/* The widest passage from one set of nodes to another: the path whose least distance from the surface is largest. */
+typedef struct riis_passage {
+  int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. Of nodes at equal
+                       distances, the one with the higher id counts as nearest */
+  double distance;  /* the distance of node_id. A half thickness closes the passage, for these triangles, if it
+                       is at least this distance; a smaller one leaves it open. 0 without a path */
+  double point[3];  /* the coordinates of node_id; 0 without a path */
+  double seconds;   /* wall time of riis_find_passage */
+  int32_t state;    /* RIIS_PASSAGE_* */
+  int32_t reserved; /* 0 */
+} riis_passage;
+/* The two sets of nodes that a passage joins. */
+typedef struct riis_passage_ends {
+  int64_t struct_size; /* set by the init function */
+  int64_t n_from;      /* at least 1 */
+  const int64_t *from; /* (n_from), node ids in any order: where paths begin */
+  int64_t n_to;        /* at least 1 */
+  const int64_t *to;   /* (n_to), node ids in any order: where paths end. A node in both sets is a path by itself */
+} riis_passage_ends;
+RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
+/* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
+ *   mesh     with an adjacency; it need not have been marked
+ *   ends     farther from the surface than the passage is wide, because paths include their ends
+ *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
+ * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
+ * riis_surface_update.
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
+ * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
+                                       const riis_passage_ends *ends, const riis_mark_options *options,
+                                       riis_passage *passage, int64_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

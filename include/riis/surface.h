@@ -1,0 +1,272 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * surface.h - surfaces: triangles of a valve, of the caller or of frames in time, with their sizes, attachment and velocities.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_SURFACE_H
+#define RIIS_SURFACE_H
+
+#include "valve.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
+
+/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs it builds the
+ * triangles' Embree scene, also if several threads query at once. */
+typedef struct riis_surface riis_surface;
+
+/* The leaflets of the parametric valves, as leaflet_id reports them. */
+enum {
+  RIIS_LEAFLET_RIGHT = 0,       /* aortic: the right coronary cusp, "right" in names of parameters;
+                                   coapting, trileaflet: on the x axis */
+  RIIS_LEAFLET_LEFT = 1,        /* aortic: the left coronary cusp, "left"; coapting, trileaflet: at 120 degrees */
+  RIIS_LEAFLET_NON_CORONARY = 2,/* aortic: "non_coronary"; coapting, trileaflet: at -120 degrees */
+  RIIS_LEAFLET_ANTERIOR = 0,    /* mitral: the anterior leaflet */
+  RIIS_LEAFLET_POSTERIOR = 1,   /* mitral: the posterior leaflet, all three scallops */
+  RIIS_LEAFLET_POSITIVE = 0,    /* bileaflet: the leaflet at x > 0 */
+  RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
+  RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
+  RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. The skirt of
+                                   a valve from patches has this id or the largest leaflet_id + 1, the larger of both */
+};
+
+/* How triangles of zero area in the caller's arrays are treated. */
+enum {
+  RIIS_ZERO_AREA_REFUSE = 0, /* refuse the surface: RIIS_INVALID_SURFACE naming the first such triangle */
+  RIIS_ZERO_AREA_SKIP = 1    /* skip and count such triangles, and log a warning; other triangles keep their ids */
+};
+
+/* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison with
+ * the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
+ * e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest point has the leaflet_id of its patch,
+ * the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. Calls with these measures refuse arrays
+ * for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
+enum {
+  RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
+  RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
+                                    The distance is too large by at most e, too small by at most e / 10 */
+  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most
+                                    e / 10, but in a local minimum too large by any amount, unnoticed */
+};
+
+/* How the smooth valve is cut into triangles. */
+enum {
+  RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
+  RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening. The first call with this option
+                                     chooses them. After it only opening and placement may change:
+                                     RIIS_INVALID_PARAMETER names any other parameter that changed.
+                                     RIIS_LIMIT_EXCEEDED refuses an opening at which the tolerance does not hold.
+                                     A triangle without area is left out, and its id is not reused. An update
+                                     with RIIS_TRIANGULATION_ADAPTED forgets the choice. Vertices of mitral or
+                                     warped valves slide along the surface, and velocities leave this slide out */
+};
+
+/* Options of a surface. The placement, also of arrays, is x -> scale * rotation * x + translation. */
+typedef struct riis_surface_options {
+  int64_t struct_size;     /* set by the init function */
+  double half_thickness;   /* d_min (paper, 4.2), mesh units, 1e-50 to 1e50. Default RIIS_AUTO: 0.1 * scale */
+  double tolerance;        /* 1e-6 to 1, default 0.05. Distances to a valve's triangles and to its smooth
+                              surface differ by at most tolerance * half_thickness (docs/theory.md) */
+  double scale;            /* 1e-12 to 1e12, default 1 */
+  double rotation_axis[3]; /* components up to 1e50, length at least 1e-50; default (0, 0, 1) */
+  double rotation_angle;   /* degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6, default 0 */
+  double translation[3];   /* mesh units; -1e50 to 1e50, default 0. Refused for a valve if coordinates would be
+                              rounded by more than a thousandth of tolerance * half_thickness */
+  double measure_tolerance; /* error of sampling and minimisation, in half thicknesses, 1e-6 to 1. Default: tolerance */
+  int32_t measure;         /* RIIS_MEASURE_*, for closest points and marking only; default
+                              RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays */
+  int32_t triangulation;   /* RIIS_TRIANGULATION_*; default RIIS_TRIANGULATION_ADAPTED */
+  int32_t zero_area;       /* surfaces from arrays: RIIS_ZERO_AREA_*; default RIIS_ZERO_AREA_REFUSE */
+  int32_t flip_normals;    /* 1 turns every triangle over: normal and side change sign; default 0 */
+  int32_t n_threads;       /* default 0 */
+  int32_t reserved;        /* 0 */
+} riis_surface_options;
+/* Fills *options with the defaults. */
+RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size);
+
+/* Makes the surface of a valve: curves, polylines, Coons patches, quads, triangles (paper, 3 and 4.1; docs/theory.md).
+ *   valve    its parameters must fit together
+ *   options  accuracy and placement
+ * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
+ * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring they point outwards. Triangles of zero area
+ * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve too far away;
+ * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than
+ * the rounding of coordinates. */
+RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
+                                         riis_surface **surface);
+
+/* The caller's own surface, triangles or quads. */
+typedef struct riis_surface_arrays {
+  int64_t struct_size;       /* set by the init function */
+  int64_t n_vertices;        /* 1 to 2^31 - 1 */
+  const void *x, *y, *z;     /* (n_vertices) by stride: the vertices, before placement */
+  int64_t stride;            /* of x, y and z. Default 1 */
+  const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per
+                                unit of time. The placement turns and scales them. All NULL: none */
+  int64_t velocity_stride;   /* of vx, vy and vz. Default 1 */
+  int64_t n_faces;           /* 1 to 16,777,216 triangles, half as many quads */
+  const void *vertex_ids;    /* (corners_per_face, n_faces); the normal follows the right-hand rule */
+  const int32_t *leaflet_id; /* (n_faces), >= 0; NULL: all 0 */
+  int32_t corners_per_face;  /* 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3. Default 3 */
+  int32_t id_bits;           /* of vertex_ids */
+  int32_t index_base;        /* of vertex_ids */
+  int32_t real_bits;         /* of vertices and velocities */
+} riis_surface_arrays;
+/* Fills *arrays with the defaults. */
+RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
+
+/* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have
+ * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its height over its longest edge
+ * is at most 1e-12 of that edge, or if that edge is shorter than 1e-60.
+ * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
+RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
+                                                     const riis_surface_options *options,
+                                                     riis_surface **surface);
+
+/* Replaces the surface's content by that of a valve, such as one that moved. The handle stays.
+ *   options  NULL keeps the surface's own options, not the defaults
+ * Errors: as riis_surface_create. */
+RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
+                                         const riis_surface_options *options);
+/* Replaces the surface's content from arrays.
+ *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move: the surface keeps its last faces
+ *   options  as in riis_surface_update
+ * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT for an n_vertices that
+ * differs from that of the last arrays, and for a surface that was not made from arrays. */
+RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
+                                                     const riis_surface_options *options);
+/* Destroys the surface. Marks stay. */
+RIIS_API void riis_surface_destroy(riis_surface **surface);
+
+/* The size of a surface, and the seconds that its last create or update took. */
+typedef struct riis_surface_info {
+  int64_t n_vertices;        /* as riis_triangles.n_vertices */
+  int64_t n_triangles;       /* triangles that answer queries */
+  int64_t n_zero_area;       /* triangles skipped because they have no area */
+  double half_thickness;     /* mesh units */
+  double area;               /* of all triangles, mesh units squared */
+  double lower[3], upper[3]; /* bounds of the triangles, mesh units */
+  double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
+  double seconds_scene;      /* wall time of the last create or update: for groups of triangles, sampling,
+                                minimisation. Embree's tree is built by the first query that needs it */
+  double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
+                                can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
+  int64_t largest_leaflet_id; /* of the triangles */
+} riis_surface_info;
+/* Gives the size of the surface, and the seconds that it took. */
+RIIS_API riis_status riis_surface_get_info(const riis_surface *surface, riis_surface_info *info,
+                                           int64_t struct_size);
+
+/* The triangles of a surface, after placement. */
+typedef struct riis_triangles {
+  int64_t n_vertices;         /* of the surface */
+  const double *xyz;          /* (3, n_vertices): the vertices */
+  const double *uv;           /* (2, n_vertices): each vertex's u and v on its patch, in [0,1]; NULL from arrays */
+  const double *velocity;     /* (3, n_vertices): each vertex's velocity; NULL if the last update gave none.
+                                 Where closed cusps meet, a vertex has the velocity of its own cusp */
+  int64_t n_triangles;        /* triangles that answer queries */
+  const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
+  const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
+  const int32_t *leaflet_id;  /* (n_triangles): RIIS_LEAFLET_*, or the caller's from patches and arrays */
+  const int32_t *patch_id;    /* (n_triangles). From arrays: 0. From patches: the patch's number, from 0. Aortic,
+                                 coapting, trileaflet: 4 * leaflet, plus 0 bottom, 1 top, 2 and 3 mirrored.
+                                 Mitral, anterior: 0 triangle at the posteromedial commissure, 1 side, 2 middle,
+                                 3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
+                                 scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
+                                 Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters.
+                                 Skirt: the id of the leaflet's patch that it continues, plus the number of these
+                                 ids: 10 mitral, 12 valves with three cusps */
+} riis_triangles;
+/* Gives the triangles of the surface, until its next update or its destruction. */
+RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
+                                                int64_t struct_size);
+
+/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. They are in the
+ * order of the patches, and within a side in the order of u or v. */
+typedef struct riis_attachment {
+  int64_t n_edges;           /* the number of edges; edges of length 0 are left out */
+  const double *edges;       /* (3, 2, n_edges): both ends of each edge, in the layout of riis_reaction.edges */
+  const int64_t *vertex_id;  /* (2, n_edges): the vertices at the ends, in riis_triangles.xyz */
+  const int32_t *leaflet_id; /* (n_edges): the leaflet that is attached there */
+  const int32_t *patch_id;   /* (n_edges): its patch, as in riis_triangles */
+} riis_attachment;
+/* Gives the attachment of a valve's surface, until the surface's next update or its destruction.
+ * - A cusp is attached at the sinus, u = 1, from the root to the commissures.
+ * - A mitral leaflet is attached at the annulus, v = 0.
+ * - Patches are attached at the sides v = 0 that only one patch has.
+ * - A bileaflet valve has no attachment, because pivots hold its leaflets.
+ * A skirt (the parameter "skirt_length") continues the leaflets there, and changes nothing.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because nothing tells which of its edges are attached. */
+RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
+                                                 int64_t struct_size);
+
+/* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
+
+/* Replaces the surface's content by that of a valve, and gives every vertex a velocity. The triangles are those of
+ * riis_surface_update, to the last bit. If the valve is at rest, also pass it as valve_before.
+ *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
+ *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
+ *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
+ * The velocity of a vertex is its displacement from the point with the same patch, u and v in the earlier state, divided by
+ * dt (docs/theory/velocity.md). u and v of a warped valve are those before the warp, so the velocity is that of the wall
+ * (docs/theory/warp.md). The velocity is a mean over the step. It approximates the velocity in the middle of the step to
+ * second order, and the velocity at either end to first order.
+ * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
+ * with parameters that do not fit together. */
+RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
+                                                const riis_valve *valve_before, double dt,
+                                                const riis_surface_options *options,
+                                                const riis_surface_options *options_before);
+
+/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at
+ * most 8 * 2^-52 of the largest of time, key and period. */
+enum {
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; a key itself has the rate after the jump */
+  RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
+};
+/* A surface that moves by frames, such as a patient's valve: the vertices move, the faces stay the same. */
+typedef struct riis_keyframes riis_keyframes;
+/* The frames of a surface that moves, in the caller's arrays. */
+typedef struct riis_keyframe_arrays {
+  int64_t struct_size;   /* set by the init function */
+  int64_t n_keys;        /* 1 to 1,000,000 */
+  int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
+  const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
+  const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
+  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. A last key one
+                            period after the first must have the same frame. 0, the default: the surface rests
+                            before the first key and after the last */
+  int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
+  int32_t real_bits;     /* of xyz */
+} riis_keyframe_arrays;
+/* Fills *frames with the defaults. */
+RIIS_API riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size);
+/* Makes keyframes from copies of arrays and frames.
+ *   arrays  as for riis_surface_create_from_arrays; its vertices and velocities are ignored, and may be NULL
+ * Errors: RIIS_INVALID_SURFACE naming the frame, vertex or face; RIIS_LIMIT_EXCEEDED for too many. */
+RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
+                                           const riis_keyframe_arrays *frames, riis_keyframes **keyframes);
+/* Destroys the keyframes. Surfaces made from them stay. */
+RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
+/* Makes a surface from the frames around a time, with velocities.
+ *   time  finite, magnitude at most 1e30
+ *   dt    the velocity is the mean from time - dt to time; if 0, the derivative of the interpolation
+ * Errors: as riis_surface_create_from_arrays. */
+RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
+                                                        const riis_surface_options *options,
+                                                        riis_surface **surface);
+/* Replaces the surface's content by the frames around a time. Arguments and errors as
+ * riis_surface_create_from_keyframes, options as in riis_surface_update. */
+RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
+                                                        double time, double dt,
+                                                        const riis_surface_options *options);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * valve.h - valves: a kind and its parameters, or the caller's own patches.
+ * riis.h includes this file, and has the rules that hold for every call.
+ */
+/* clang-format off: argument lists in comments are laid out by hand */
+#ifndef RIIS_VALVE_H
+#define RIIS_VALVE_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Valve: named parameters (paper, tables "Aortic valve parameters" and "Mitral valve parameters"), or patches */
+
+/* A parametric valve: its kind and its parameters' values. riis_surface_create makes the geometry. */
+typedef struct riis_valve riis_valve;
+
+/* Makes a valve with the default parameter values. The defaults of "aortic" and "mitral" are the paper's.
+ *   kind  one of these (docs/theory.md); any other is RIIS_INVALID_PARAMETER:
+ *         "aortic", the paper's three cusps
+ *         "mitral", two leaflets
+ *         "coapting", three equal cusps with a zone of coaptation
+ *         "trileaflet", three equal cusps that close in straight lines
+ *         "bileaflet", a mechanical prosthesis */
+RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
+/* Makes a second valve with the same parameters, patches and states. Destroy both. */
+RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
+/* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
+RIIS_API void riis_valve_destroy(riis_valve **valve);
+
+/* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
+ *   name      such as "root_radius". A name such as "right.leaflet_angle" is that of one cusp ("right", "left",
+ *             "non_coronary"), and "leaflet_angle" stands for all three
+ *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
+ *   values    (n_values), within the parameter's range
+ * Two parameters change the whole valve:
+ * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters makes both states. The
+ *   default is 1 (open) for the mitral valve, and 0 for others. The aortic valve at 0 has the paper's state, which
+ *   leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state. To move a valve, set
+ *   "opening" and call riis_surface_update.
+ * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip outwards from the attachment, and
+ *   closes the gap to the wall (docs/theory/skirt.md). The length is 0, the default, or 1e-4 to 10 times the
+ *   attachment's mean distance from its axis. The value of an open state is ignored.
+ * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
+RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
+                                    const double *values);
+/* Sets a parameter that has one value. Arguments and errors as riis_valve_set. */
+RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
+/* Copies a parameter's values to the caller's array. Arguments as riis_valve_set.
+ * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
+RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
+                                    double *values);
+
+/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory/sizes.md). Three names stand for
+ * parameters. A kind without such a size refuses its name, and says why:
+ *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
+ *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
+ *                     (coapting)
+ *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). It is a
+ *                     parameter of the coapting valve, for the middle of the edges
+ * Some parameters have a rule: they follow from other parameters until they are set. The order of calls does not matter.
+ * riis_valve_get gives their present values. Copies and open states keep the difference between set and not set. */
+
+/* Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
+ *   name  as in riis_valve_set
+ * Errors: RIIS_INVALID_PARAMETER for another name. */
+RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
+/* Says whether a parameter was set.
+ *   name    as in riis_valve_get
+ *   is_set  1, or 0 if the parameter has its default or follows its rule
+ * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
+RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
+
+/* Gives the valve a second state: opening 0 is then the valve's own state, and opening 1 is the state of the valve `open`.
+ *   open  a valve of the same kind, which is copied. Its opening, leaflet ids and open state are ignored. From patches, it
+ *         has the same curves, sides and degrees (1 may stand for 2). Either both bileaflet valves have a ring or neither
+ * A second call replaces the state. No call removes it. Between the states control points are blended linearly
+ * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge
+ * hangs as deep as the edge's length requires. A mitral, trileaflet or coapting valve takes its closed shape from its own
+ * parameters, and its open shape from those of `open`.
+ * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
+RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
+
+/* The caller's own valve, such as a prosthesis: Coons patches, each given by four boundary curves (paper, 3.3).
+ * - The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1.
+ * - The sides u = 0 and u = 1 run from the side v = 0 to the side v = 1.
+ * - Sides must meet at corners to 1e-9 of the valve's size. A side may be a single point.
+ * - Normals point along S_u x S_v.
+ * - Patches that name the same curve meet without cracks. */
+typedef struct riis_patches {
+  int64_t struct_size;       /* set by the init function */
+  int64_t n_curves;          /* 1 to 4,000,000; each is a side of a patch */
+  const int32_t *degree;     /* (n_curves): 1, 2 or 3, Bezier curves with degree + 1 control points */
+  const double *control;     /* (3, sum of all degree + 1), curve after curve; finite, at most 1e30 */
+  int64_t n_patches;         /* 1 to 1,000,000 */
+  const int32_t *curve_id;   /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
+  const int32_t *reversed;   /* (4, n_patches): 1 if the side runs against its curve, else 0; NULL: all 0 */
+  const int32_t *leaflet_id; /* (n_patches), >= 0; NULL: all 0 */
+  int32_t index_base;        /* of curve_id */
+  int32_t reserved;          /* 0 */
+} riis_patches;
+RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
+
+/* Makes a valve from patches, which it copies. Its parameters are "opening" and "skirt_length". A skirt continues the
+ * sides v = 0 that only one patch has. patch_id is the patch's number, from 0.
+ * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
+RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
+
+/* The description of a parameter. The texts are static. */
+typedef struct riis_parameter {
+  const char *name;        /* the name as riis_valve_set takes it */
+  const char *unit;        /* "length", "degree" or "1" */
+  const char *description; /* one line */
+  int64_t n_values;        /* 1 or 3 */
+  double default_values[3];/* entries beyond n_values are 0 */
+  double minimum;          /* of every value, inclusive */
+  double maximum;          /* of every value, inclusive */
+  const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
+  const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
+  double other_factor;     /* factor from the parameter's value to that under other_name: 1 or 2; 0 without other_name */
+} riis_parameter;
+/* Gives the number of the valve's parameters. */
+RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
+/* Gives the description of a parameter.
+ *   parameter_id  0 to n_parameters - 1 */
+RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
+                                              riis_parameter *parameter, int64_t struct_size);
+
+/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, the
+ * arrays are those of riis_patches, and make the same shape. Trileaflet and aortic valves and valves from patches have
+ * as many pieces as curves. */
+typedef struct riis_valve_patches {
+  int64_t n_curves;           /* curves; each is a side of a patch */
+  int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */
+  const int64_t *first_piece; /* (n_curves + 1): the pieces of curve i are first_piece[i] to first_piece[i + 1] - 1 */
+  const int32_t *degree;      /* (n_pieces): 2 or 3 */
+  const double *control;      /* (3, sum of all degree + 1): control points, piece after piece */
+  int64_t n_patches;          /* the number of patches */
+  const int32_t *curve_id;    /* (4, n_patches): the curves at v = 0, v = 1, u = 0, u = 1 */
+  const int32_t *reversed;    /* (4, n_patches): 1 if the side runs against its curve, else 0 */
+  const int32_t *leaflet_id;  /* (n_patches): as in riis_triangles */
+  const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
+  const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
+  const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
+                                 v = 1. With the width W and the unit tangent T of the side v = 0, its middle control
+                                 point lies bulge |W| unit(W x T) beside the middle of the straight line */
+} riis_valve_patches;
+/* Gives the curves and patches of a valve at its opening. The arrays are valid until the valve's next call that is not
+ * const. Points of a side are labelled by their share of its length. All normals S_u x S_v point as in riis_surface_create.
+ * A mitral patch has a bulge, so a Coons patch of its sides differs from it.
+ * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
+RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
