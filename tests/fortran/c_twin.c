@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Makes the calls of test_calls.f90 from C, and gives the layout of the structs in C. */
+ * Makes the calls of test_calls.f90 from C. */
 #include "c_twin.h"
 
 #include "calls.h"
@@ -497,33 +497,6 @@ void twin_end(void) {
   riis_surface_destroy(&surface);
   riis_valve_destroy(&valve);
   while (n_memory > 0) free(memory[--n_memory]);
-}
-
-/* The structs in layouts.inc, which fortran/bindings/generate.py writes. */
-#define LAYOUT(type, ...)                                                            \
-  if (strcmp(struct_name, #type) == 0) {                                             \
-    typedef type T;                                                                  \
-    static const size_t layout[] = {sizeof(T), __VA_ARGS__};                         \
-    const int64_t n = (int64_t)(sizeof layout / sizeof *layout);                     \
-    for (int64_t i = 0; i < n && i < capacity; ++i) numbers[i] = (int64_t)layout[i]; \
-    return n;                                                                        \
-  }
-#define AT(field) offsetof(T, field)
-
-int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers) {
-#include "layouts.inc"
-  return 0;
-}
-
-#undef LAYOUT
-#undef AT
-#define LAYOUT(type, ...) sizeof(type),
-
-int64_t twin_n_layouts(void) {
-  static const size_t sizes[] = {
-#include "layouts.inc"
-  };
-  return (int64_t)(sizeof sizes / sizeof *sizes);
 }
 
 double twin_auto(void) { return RIIS_AUTO; }

@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! c_twin.h for the Fortran tests.
 module c_twin
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr
   use riis_c
   implicit none
   private
   public :: twin_surface, twin_walk, twin_leaks, twin_motion, twin_laws, twin_numbers, twin_run, twin_end, &
-    twin_layout, twin_n_layouts, twin_auto, twin_far_distance
+    twin_auto, twin_far_distance
 
   type, bind(c) :: twin_surface
     type(riis_surface_info) :: info
@@ -70,21 +70,6 @@ module c_twin
 
     subroutine twin_end() bind(c, name='twin_end')
     end subroutine twin_end
-
-    function twin_layout(struct_name, capacity, numbers) result(n) bind(c, name='twin_layout')
-      import :: c_char, c_int64_t
-      implicit none
-      character(kind=c_char), intent(in) :: struct_name(*)
-      integer(c_int64_t), value :: capacity
-      integer(c_int64_t), intent(inout) :: numbers(*)
-      integer(c_int64_t) :: n
-    end function twin_layout
-
-    function twin_n_layouts() result(n) bind(c, name='twin_n_layouts')
-      import :: c_int64_t
-      implicit none
-      integer(c_int64_t) :: n
-    end function twin_n_layouts
 
     function twin_auto() result(value) bind(c, name='twin_auto')
       import :: c_double

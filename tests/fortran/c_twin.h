@@ -71,11 +71,6 @@ typedef struct twin_numbers {
 riis_status twin_run(int64_t per_side, const double *xyz, twin_numbers *numbers);
 void twin_end(void);
 
-/* Copies the size and the field offsets of the named struct, at most `capacity` numbers. Returns how many there are. */
-int64_t twin_layout(const char *struct_name, int64_t capacity, int64_t *numbers);
-/* Returns the number of structs in riis.h. */
-int64_t twin_n_layouts(void);
-
 double twin_auto(void);
 double twin_far_distance(void);
 

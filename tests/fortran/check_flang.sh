@@ -8,9 +8,7 @@ flang=$1 cc=$2 source=$3 work=$4 library=$5
 flags=(-O1 -Werror)
 modules=(riis_c riis_support riis_calls riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes riis_marking
   riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis
-  riis_f77 riis_f77_adjacency riis_f77_marking riis_f77_leaks
-  riis_f77_crossings riis_f77_fields riis_f77_resistance riis_f77_arrays riis_f77_queries riis_f77_measures riis_f77_laws
-  riis_f77_placing riisf)
+  riis_f77 riisf)
 rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
@@ -24,14 +22,14 @@ for name in checks box c_twin; do
   "$flang" -O1 -c "$tests/$name.f90"
 done
 "$cc" -std=c11 -I"$source/include" -c "$tests/c_twin.c" -o c_twin_c.o
-for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
+for name in test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
     error_stop; do
   "$flang" -O1 "$tests/$name.f90" ./*.o "${link[@]}" -o "$name"
 done
 for name in test_f77 test_f77_motion; do
   "$flang" -O1 -I"$source/fortran/generated" "$tests/$name.f" "$tests/f77_checks.f" ./riis*.o "${link[@]}" -o "$name"
 done
-for name in test_layout test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
+for name in test_calls test_objects test_meshes test_marking test_resistance test_laws test_frames test_f2003 \
     test_f77 test_f77_motion; do
   echo "$name"
   "./$name"

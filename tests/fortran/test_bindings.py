@@ -15,8 +15,8 @@ sys.path.insert(0, os.path.join(SOURCES, "fortran", "bindings"))
 import check_keywords
 import generate
 
-HEADER, TABLE = generate.HEADER, generate.TABLE
-MODULE, FIXED, LAYOUTS = generate.WIDTHS
+HEADER, TABLE, SUBROUTINES = generate.HEADER, generate.TABLE, generate.SUBROUTINES
+MODULE, FIXED, EXTERNAL, INTERFACES = generate.WIDTHS
 BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of riis.h; functions are planted before it
 FUNCTION = "RIIS_API riis_status riis_valve_planted(const riis_valve *valve, {});\n"
 
@@ -26,7 +26,7 @@ class Planted(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = folder.name
-        for path in (HEADER, TABLE, *generate.TEMPLATES, MODULE, FIXED, LAYOUTS):
+        for path in (HEADER, TABLE, SUBROUTINES, *generate.WIDTHS, *map(generate.template_of, generate.WIDTHS)):
             os.makedirs(os.path.dirname(os.path.join(self.root, path)), exist_ok=True)
             shutil.copy(os.path.join(SOURCES, path), os.path.join(self.root, path))
         self.before = self.generated()
@@ -36,7 +36,7 @@ class Planted(unittest.TestCase):
             return file.read()
 
     def generated(self):
-        return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
+        return [self.text(path) for path in generate.WIDTHS]
 
     def plant(self, path, old, new):
         """Replaces the only occurrence of the old text. Returns its line number."""
@@ -88,11 +88,12 @@ class Planted(unittest.TestCase):
 class Committed(Planted):
     def test_is_what_is_generated(self):
         status, text = self.run_it("--check")
-        self.assertEqual((status, text), (0, "3 of 3 files were as they should be\n"))
+        self.assertEqual((status, text), (0, "4 of 4 files were as they should be\n"))
 
     def test_a_line_by_hand_is_seen_and_shown(self):
         for path, line in ((MODULE, "    integer(c_int64_t) :: n_curves\n"), (FIXED, "      PARAMETER (RIIS_OK = 0)\n"),
-                           (LAYOUTS, ", AT(reserved))\n")):
+                           (EXTERNAL, "subroutine riisf_valve_copy(valve, copy, status)\n"),
+                           (INTERFACES, "    subroutine riisf_valve_copy(valve, copy, status)\n")):
             self.setUp()
             text = self.text(path)
             place = text.index(line)
@@ -104,7 +105,7 @@ class Committed(Planted):
             self.assertRegex(text, r"(?m)^\+.*" + line.strip().split("(")[0])
 
     def test_a_missing_file_is_written(self):
-        for path in (MODULE, FIXED, LAYOUTS):
+        for path in generate.WIDTHS:
             os.remove(os.path.join(self.root, path))
         self.assertEqual(self.run_it("--check")[0], 1)
         self.assertEqual(self.run_it()[0], 0)
@@ -118,14 +119,12 @@ class Fields(Planted):
         self.writes()
         self.assertIn("    integer(c_int32_t) :: instructions\n    real(c_double) :: planted(2), other\n"
                       "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
-        self.assertIn("       AT(n_threads), AT(instructions), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
 
     def test_the_order_is_that_of_the_header(self):
         self.plant(HEADER, "  int64_t n_curves;          /* 1 to", "  int64_t planted;\n  int64_t n_curves;          /* 1 to")
         self.writes()
         self.assertIn(":: struct_size\n    integer(c_int64_t) :: planted\n    integer(c_int64_t) :: n_curves\n",
                       self.text(MODULE))
-        self.assertIn("LAYOUT(riis_patches, AT(struct_size), AT(planted), AT(n_curves),", self.text(LAYOUTS))
 
     def test_a_pointer_needs_its_shape(self):
         line = self.plant(HEADER, "} riis_patches;", "  const double *planted;\n} riis_patches;")
@@ -173,7 +172,6 @@ class Fields(Planted):
         self.writes()
         self.assertIn("  type, bind(c) :: riis_planted\n    integer(c_int32_t) :: a, b\n  end type riis_planted\n",
                       self.text(MODULE))
-        self.assertIn("\nLAYOUT(riis_planted, AT(a), AT(b))\n", self.text(LAYOUTS))
 
 
 class Constants(Planted):
@@ -309,6 +307,7 @@ riis_valve_planted  What it does not say elsewhere.
                       "      integer(c_int32_t), value :: a\n    end subroutine", self.text(MODULE))
 
     def test_a_renamed_argument(self):
+        self.plant(SUBROUTINES, "  status  Any value.\n", "  status = planted  Any value.\n")
         self.plant(HEADER, "riis_status_name(riis_status status)", "riis_status_name(riis_status planted)")
         self.writes()
         self.assertIn("function riis_status_name(planted)", self.text(MODULE))

@@ -69,6 +69,8 @@ program test_calls
   call test_adjacency()
   call test_own_rows()
   call test_destroy()
+  call check(transfer(RIIS_AUTO, 0_c_int64_t) == transfer(twin_auto(), 0_c_int64_t), 'RIIS_AUTO')
+  call check(transfer(RIIS_FAR_DISTANCE, 0_c_int64_t) == transfer(twin_far_distance(), 0_c_int64_t), 'RIIS_FAR_DISTANCE')
   call twin_end()
   call finish()
 
