@@ -14,7 +14,8 @@ import sys
 sys.dont_write_bytecode = True
 from fortran import Bindings
 from header import Header, Problem
-from riisf import Table as SubroutineTable, Writer
+from riisf import Writer
+from riisf_table import Table as SubroutineTable
 from table import Table
 
 HEADER = "include/riis/riis.h"

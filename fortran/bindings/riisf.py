@@ -9,6 +9,7 @@ from collections import namedtuple
 
 from fortran import WIDTH, RULE
 from header import Problem
+from riisf_table import Argument
 
 REALS = "real(c_double)"
 KINDS = {"double": REALS, "int32_t": "integer(int32)", "uint8_t": "integer(int32)", "riis_status": "integer(riis_status)"}
@@ -21,93 +22,8 @@ USED = {
 COLUMN = 58  # of the arguments' comments
 CREATED, MADE = "Written on success.", "0, which creates them, or from an earlier call."
 
-# An argument of a subroutine, as the table has it: "name(shape) = target : type  text".
-Argument = namedtuple("Argument", "name shape target type text")
 # A place in C: the argument of a function, or a field of a struct, whose path is "struct%field". `words` are bindings.table's.
 Place = namedtuple("Place", "path type extent words struct")
-
-
-class Entry:
-    """A subroutine in the table: its names, C functions, comment and arguments, and its lines of other sorts."""
-
-    def __init__(self, place, name, long, functions):
-        self.place, self.name, self.long, self.functions = place, name, long, functions
-        self.comment, self.arguments, self.before, self.fixed, self.counted, self.needed, self.chosen = "", [], [], {}, "", "", []
-
-
-class Table:
-    """The groups of arguments and the sections, which have a title, a comment and entries."""
-
-    def __init__(self, path, shown):
-        self.shown, self.groups, self.texts, self.sections = shown, {}, {}, []
-        with open(path, encoding="utf-8") as file:
-            lines = file.read().splitlines()
-        block, start = [], 0
-        for number, line in enumerate([*lines, ""], 1):
-            if line.startswith("#"):
-                continue
-            if line.strip():
-                start = start if block else number
-                block.append(line)
-            elif block:
-                self.read_block(f"{shown}:{start}", block)
-                block = []
-
-    def read_block(self, place, block):
-        """A block in which {marked/within_limit} stands is two blocks."""
-        head, lines = block[0], []
-        for line in block[1:]:
-            if line.startswith("   "):
-                if not lines:
-                    raise Problem(f"{place}: nothing is above that the second line could belong to")
-                lines[-1] += " " + line.strip()
-            else:
-                lines.append(line.strip())
-        if head.startswith("---- "):
-            self.sections.append((head.strip("- "), " ".join(line.lstrip("! ") for line in lines), []))
-        elif head == "texts":
-            self.texts.update((argument.name, argument.text) for line in lines for argument in self.arguments(place, line))
-        elif head.startswith("@"):
-            self.groups[head] = [argument for line in lines for argument in self.arguments(place, line)]
-        else:
-            for i in range(2 if any("/" in part for part in re.findall(r"\{(.*?)\}", "".join(block))) else 1):
-                chosen = [re.sub(r"\{(.*?)\}", lambda match, i=i: match[1].split("/")[i], line) for line in [head, *lines]]
-                self.sections[-1][2].append(self.entry(place, chosen[0], chosen[1:]))
-
-    def entry(self, place, head, lines):
-        match = re.fullmatch(r"(riisf_\w+)(, _64)? = (riis_\w+(?:, riis_\w+)*)", head)
-        if not match:
-            raise Problem(f"{place}: {head!r} is not understood; 'riisf_name, _64 = riis_name' is")
-        entry = Entry(place, match[1], bool(match[2]), match[3].split(", "))
-        for line in lines:
-            word, _, rest = line.partition(" ")
-            if word == "!":
-                entry.comment += " " * bool(entry.comment) + rest
-            elif word == ">":
-                entry.before.append(rest)
-            elif word == "one":
-                entry.chosen = [choice.split() for choice in rest.partition("of ")[2].split(", ")]
-            elif word in ("counted", "needed"):
-                setattr(entry, word, rest)
-            elif re.match(r"= RIIS_", rest):
-                entry.fixed[word] = rest[2:]
-            else:
-                entry.arguments += self.arguments(place, line)
-        return entry
-
-    def arguments(self, place, line):
-        """Reads "name  text", or several names in a line; a group stands for its arguments."""
-        names, _, text = line.partition("  ")
-        found = []
-        for name in re.findall(r"(?! )(?:[^,(\[]|\([^)]*\)|\[[^\]]*\])+", names):
-            match = re.fullmatch(r"(\w+)(\([^)]*\))?(?: = ([^:]+?))?(?: : (.*))?", name)
-            if name in self.groups:
-                found += self.groups[name]
-            elif match:
-                found.append(Argument(match[1], match[2] or "", match[3] or "", match[4] or "", text.strip()))
-            else:
-                raise Problem(f"{place}: the argument {name!r} is not understood")
-        return found
 
 
 def folded(line, indent):
@@ -221,6 +137,19 @@ class Subroutine:
         text = argument.text or usual or self.writer.table.texts.get(argument.name) or self.refuse(f"{argument.name} has no text")
         self.declarations.append((f"{type_}, intent({intent}) :: {argument.name}{argument.shape}", text))
 
+    def described(self, argument, place):
+        """Returns the text that riis.h has for a field, as it holds for a caller who passes all arguments."""
+        if argument.name in self.writer.table.texts:
+            return ""
+        name = place.path.partition("%")[2]
+        text = next(line.text for line in self.writer.structs[place.struct].lines if name in [field.name for field in line.fields])
+        sentences = [sentence for sentence in re.split(r"(?<=[.;]) ", text + ".") if not re.match("Default|NULL|All NULL", sentence)]
+        text = re.sub(r"[,;] default ", ", usually ", " ".join(sentences).rstrip(".;") + ".")
+        if self.entry.counted and place.type.stars:
+            count = self.shape_of(place)[-1]
+            text = f"{text[:-1].replace(count, 'length')}{', from 1' * argument.name.endswith('_num')}; written up to n."
+        return text[:1].upper() + text[1:]
+
     def take(self, argument):
         """Declares an argument, and notes what becomes of it."""
         name, shape = argument.name, argument.shape
@@ -246,7 +175,7 @@ class Subroutine:
         if place.struct and self.is_read(place.path.partition("%")[0]):
             self.set_field(argument, type_, place, size)
         elif place.struct:
-            self.declare(argument, type_, "inout")
+            self.declare(argument, type_, "inout", self.described(argument, place))
             if self.entry.counted and place.type.stars:
                 self.copied.append((argument, place))
             else:
@@ -285,7 +214,7 @@ class Subroutine:
         name, path, base = argument.name, self.path(place.path), place.path.partition("%")[0]
         next_state = self.after(base) if base in self.structs else base
         writes = place.type.stars and not place.type.const or next_state != base
-        self.declare(argument, type_, "inout" if writes else "in")
+        self.declare(argument, type_, "inout" if writes else "in", self.described(argument, place))
         if any(f"{place.path} = " in line for line in self.entry.before):
             return
         if size:
@@ -495,7 +424,8 @@ class Subroutine:
         body = self.body()
         names = [re.search(r":: (\w+)", code)[1] for code, _ in self.declarations]
         head = f"subroutine {self.name}({', '.join(names)})"
-        text = self.entry.comment
+        what = re.sub("riisf_|_destroy", "", self.name)
+        text = self.entry.comment or f"Destroys the {what} and sets its handle to 0. Nothing happens to a handle that is 0."
         if self.kind == "int64":
             text = f"Does the same as {self.entry.name}, with counts and ids of INTEGER*8."
         comment = textwrap.wrap(text, 126, break_on_hyphens=False)

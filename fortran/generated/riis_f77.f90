@@ -260,7 +260,8 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*.
+  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only, usually
+                                                           !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
   real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
                                                            !! used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -298,7 +299,7 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*.
+  integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*, usually RIIS_TRIANGULATION_ADAPTED.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -351,10 +352,10 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: scale_before              !< For the earlier state, like the next three arguments.
-  real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
-  real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
+  real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
+  real(c_double), intent(in) :: translation_before(3)     !< The placement of the earlier state.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   type(riis_surface_options) :: options_before
@@ -409,14 +410,14 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
   integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller, or the same valve.
   real(c_double), intent(in) :: dp                        !< The parameter's difference from the state before to the state
                                                            !! after.
-  real(c_double), intent(in) :: scale_after               !< For the state after, like the next three arguments.
-  real(c_double), intent(in) :: rotation_axis_after(3)    !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle_after      !< Degrees.
-  real(c_double), intent(in) :: translation_after(3)      !< Mesh units.
-  real(c_double), intent(in) :: scale_before              !< For the state before, like the next three arguments.
-  real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
-  real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
+  real(c_double), intent(in) :: scale_after               !< The placement of the later state.
+  real(c_double), intent(in) :: rotation_axis_after(3)    !< The placement of the later state.
+  real(c_double), intent(in) :: rotation_angle_after      !< The placement of the later state.
+  real(c_double), intent(in) :: translation_after(3)      !< The placement of the later state.
+  real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
+  real(c_double), intent(in) :: translation_before(3)     !< The placement of the earlier state.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options_after
   type(riis_surface_options) :: options_before
@@ -541,7 +542,7 @@ subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, sta
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_mesh_create_copy, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< >= 0.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -572,7 +573,7 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, mesh, 
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_mesh_create_copy, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< >= 0.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -604,7 +605,7 @@ subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, sta
   use riis_c, only: RIIS_OK, riis_mesh_update_copy, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int32), intent(in) :: n_nodes                   !< >= 0.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -631,7 +632,7 @@ subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, 
   use riis_c, only: RIIS_OK, riis_mesh_update_copy, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int64), intent(in) :: n_nodes                   !< >= 0.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -719,11 +720,12 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   use riis_c, only: RIIS_OK, riis_csr, riis_csr_init, riis_mesh_set_adjacency, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int32), intent(in) :: n_rows                    !< The mesh's number of nodes.
-  integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from index_base.
+  integer(int32), intent(in) :: n_rows                    !< The mesh's n_nodes.
+  integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
-  integer(int32), intent(in) :: index_base                !< 0 or 1.
-  integer(int32), intent(in) :: n_all                     !< n_rows plus the ghost nodes that columns may name; 0: n_rows.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
+                                                           !! n_rows on are ghosts, nodes of other ranks, and are ignored.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -746,11 +748,12 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   use riis_c, only: RIIS_OK, riis_csr, riis_csr_init, riis_mesh_set_adjacency, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int64), intent(in) :: n_rows                    !< The mesh's number of nodes.
-  integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from index_base.
+  integer(int64), intent(in) :: n_rows                    !< The mesh's n_nodes.
+  integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
-  integer(int32), intent(in) :: index_base                !< 0 or 1.
-  integer(int64), intent(in) :: n_all                     !< n_rows plus the ghost nodes that columns may name; 0: n_rows.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int64), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
+                                                           !! n_rows on are ghosts, nodes of other ranks, and are ignored.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -801,11 +804,11 @@ subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, i
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
-  integer(int32), intent(in) :: n_cells                   !< >= 1.
+  integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -834,11 +837,11 @@ subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
-  integer(int64), intent(in) :: n_cells                   !< >= 1.
+  integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -867,11 +870,12 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
-  integer(int32), intent(in) :: n_cells                   !< >= 1.
-  integer(int32), intent(in) :: node_ids(*)               !< The nodes of all cells, one cell after the other.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int32), intent(in) :: n_cells                   !< >= 0.
+  integer(int32), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                           !! cell begins in node_ids, and where the last ends.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -899,11 +903,12 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes, >= 1.
-  integer(int64), intent(in) :: n_cells                   !< >= 1.
-  integer(int64), intent(in) :: node_ids(*)               !< The nodes of all cells, one cell after the other.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first node's number.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int64), intent(in) :: n_cells                   !< >= 0.
+  integer(int64), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                           !! cell begins in node_ids, and where the last ends.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -932,11 +937,11 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_faces, riis_mesh_faces, riis_mesh_faces_init, riis_status
   implicit none
-  integer(int32), intent(in) :: n_cells                   !< >= 1.
+  integer(int32), intent(in) :: n_cells                   !< The number of cells, >= 0. The nodes of the mesh are cell centres.
   integer(int32), intent(in) :: n_faces                   !< >= 0.
   integer(int32), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                            !! boundary.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first cell's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -965,11 +970,11 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   use riis_support, only: handle_of, location_of
   use riis_c, only: RIIS_OK, riis_adjacency_create_from_faces, riis_mesh_faces, riis_mesh_faces_init, riis_status
   implicit none
-  integer(int64), intent(in) :: n_cells                   !< >= 1.
+  integer(int64), intent(in) :: n_cells                   !< The number of cells, >= 0. The nodes of the mesh are cell centres.
   integer(int64), intent(in) :: n_faces                   !< >= 0.
   integer(int64), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
                                                            !! boundary.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first cell's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1046,11 +1051,11 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
                                                            !! right-hand rule makes the normal.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first vertex's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
                                                            !! tolerance * half_thickness.
@@ -1102,11 +1107,11 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
                                                            !! right-hand rule makes the normal.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first vertex's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
                                                            !! tolerance * half_thickness.
@@ -1163,11 +1168,11 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   real(c_double), intent(in) :: vy(*)                     !< Like vx.
   real(c_double), intent(in) :: vz(*)                     !< Like vx.
   integer(int32), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
                                                            !! right-hand rule makes the normal.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first vertex's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
   status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
@@ -1207,11 +1212,11 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   real(c_double), intent(in) :: vy(*)                     !< Like vx.
   real(c_double), intent(in) :: vz(*)                     !< Like vx.
   integer(int64), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
                                                            !! right-hand rule makes the normal.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first vertex's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
   status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
@@ -1247,17 +1252,18 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
-  real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, one frame after the other.
-  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. Its keys lie within one period of the
-                                                           !! first. A last key one period after the first must have the same
-                                                           !! frame. 0: the surface rests before the first frame and after the
-                                                           !! last.
-  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC.
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
+                                                           !! magnitude at most 1e60.
+  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
+                                                           !! key. A last key one period after the first must have the same
+                                                           !! frame. 0, the default: the surface rests before the first key and
+                                                           !! after the last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
                                                            !! right-hand rule makes the normal.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first vertex's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1296,17 +1302,18 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
-  real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, one frame after the other.
-  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. Its keys lie within one period of the
-                                                           !! first. A last key one period after the first must have the same
-                                                           !! frame. 0: the surface rests before the first frame and after the
-                                                           !! last.
-  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC.
-  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
+                                                           !! magnitude at most 1e60.
+  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
+                                                           !! key. A last key one period after the first must have the same
+                                                           !! frame. 0, the default: the surface rests before the first key and
+                                                           !! after the last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate.
+  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
                                                            !! right-hand rule makes the normal.
-  integer(int32), intent(in) :: index_base                !< 0 or 1: the first vertex's number.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1416,7 +1423,7 @@ subroutine riisf_surface_vertices(surface, length, n, xyz, status)
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
-  real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
+  real(c_double), intent(inout) :: xyz(*)                 !< (3, length): the vertices; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
   real(c_double), pointer :: c_xyz(:)
@@ -1443,7 +1450,7 @@ subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
-  real(c_double), intent(inout) :: xyz(*)                 !< (3, length); written up to n.
+  real(c_double), intent(inout) :: xyz(*)                 !< (3, length): the vertices; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_triangles) :: triangles
   real(c_double), pointer :: c_xyz(:)
@@ -1535,7 +1542,8 @@ subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, statu
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of edges, even if an array is too short.
-  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge; written up to n.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
+                                                           !! riis_reaction.edges; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: attachment
@@ -1565,7 +1573,8 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of edges, even if an array is too short.
-  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge; written up to n.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
+                                                           !! riis_reaction.edges; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: attachment
@@ -1598,7 +1607,8 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
-  real(c_double), intent(inout) :: area_rate              !< The derivative of the surface's area.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
+                                                           !! from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -1629,7 +1639,8 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
-  real(c_double), intent(inout) :: area_rate              !< The derivative of the surface's area.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
+                                                           !! from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -1660,7 +1671,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_lim
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int32), intent(in) :: n_points                  !< >= 0.
+  integer(int32), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -1709,7 +1720,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: n_points                  !< >= 0.
+  integer(int64), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -1758,7 +1769,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_lis
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int32), intent(in) :: n_points                  !< >= 0.
+  integer(int32), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -1818,7 +1829,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, n_
       riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  integer(int64), intent(in) :: n_points                  !< >= 0.
+  integer(int64), intent(in) :: n_points                  !< 0 to 2^40.
   real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
@@ -1918,7 +1929,7 @@ subroutine riisf_marked(marks, length, n, node_num, distance, status)
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                            !! short.
-  integer(int32), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
+  integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -1955,7 +1966,7 @@ subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
                                                            !! short.
-  integer(int64), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
+  integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -1989,7 +2000,7 @@ subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                            !! too short.
-  integer(int32), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
+  integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -2027,7 +2038,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
                                                            !! too short.
-  integer(int64), intent(inout) :: node_num(*)            !< (length): counted from 1; written up to n.
+  integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -2059,7 +2070,8 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: far_distance              !< The distance of other nodes, outside [0, distance_limit]; usually
                                                            !! RIIS_FAR_DISTANCE.
-  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): for nodes within the distance limit, else far_distance.
+  real(c_double), intent(inout) :: distance(*)            !< The distance of nodes within the distance limit, far_distance for
+                                                           !! others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
   status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
@@ -2079,7 +2091,8 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): from 0, for nodes within the distance limit, else -1.
+  integer(int64), intent(inout) :: triangle_id(*)         !< The closest triangle of nodes within the distance limit, -1 for
+                                                           !! others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
   status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
@@ -2118,7 +2131,7 @@ subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int32), intent(inout) :: mark(*)                !< (n_nodes): 1 for marked nodes, else 0.
+  integer(int32), intent(inout) :: mark(*)                !< 1 for marked nodes, 0 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int8), allocatable, target :: c_mark(:)
   type(riis_dense_arrays) :: arrays
@@ -2168,7 +2181,7 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
                                                            !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
-  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
@@ -2663,7 +2676,7 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
                                                            !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
-  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*; 0: none.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND or RIIS_RIM_CUT.
@@ -3001,8 +3014,7 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< The force is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -3040,8 +3052,7 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: force(3)               !< The force is added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -3082,9 +3093,9 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
-  real(c_double), intent(in) :: about(3)                  !< Moments are taken about this point.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
+                                                           !! most 1e60.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
   real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
@@ -3132,9 +3143,9 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
-  real(c_double), intent(in) :: about(3)                  !< Moments are taken about this point.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
+                                                           !! most 1e60.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
   real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
@@ -3185,8 +3196,7 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
@@ -3235,8 +3245,7 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
@@ -3283,9 +3292,8 @@ subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_v
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
   real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: value(*)                  !< (n_nodes).
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
+  real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
   real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
   integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
@@ -3318,9 +3326,8 @@ subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_o
   real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
   real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  real(c_double), intent(in) :: value(*)                  !< (n_nodes).
-  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), the volume that belongs to a node; 0 for nodes of other
-                                                           !! ranks.
+  real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
   real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
   integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
@@ -3399,7 +3406,8 @@ subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
   integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
-  integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
+  integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
+                                                           !! to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leak_list) :: list
   integer(int64), pointer :: c_node_num(:, :)
@@ -3431,7 +3439,8 @@ subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
   integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
-  integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): both nodes, counted from 1; written up to n.
+  integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
+                                                           !! to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leak_list) :: list
   integer(int64), pointer :: c_node_num(:, :)
@@ -3634,13 +3643,14 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
       riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings, riis_status
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
-  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1: less deep pairs only touch; usually
-                                                           !! 1D-6.
+  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
+                                                           !! only touch.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 per processor.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
-  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair; 0 if none crosses.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair, which is the first one of equally
+                                                           !! deep pairs.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -3690,9 +3700,11 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
-  integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): both triangles, counted from 1; written up to n.
-  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the pair's intersection.
-  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth.
+  integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
+                                                           !! written up to n.
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
+                                                           !! meet; written up to n.
+  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_list) :: list
   integer(int64), pointer :: c_triangle_num(:, :)
@@ -3730,9 +3742,11 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
-  integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): both triangles, counted from 1; written up to n.
-  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the pair's intersection.
-  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth.
+  integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
+                                                           !! written up to n.
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
+                                                           !! meet; written up to n.
+  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_list) :: list
   integer(int64), pointer :: c_triangle_num(:, :)
@@ -3785,7 +3799,10 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
-  real(c_double), intent(inout) :: free_edge              !< The length of its free edge.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
+                                                           !! patches has. Of a surface from arrays: the edges that only one of
+                                                           !! its triangles has, without the outline of riis_orifice. 0 for a
+                                                           !! skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -3805,11 +3822,18 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
-  integer(int32), intent(in) :: rim                       !< RIIS_RIM_*.
-  real(c_double), intent(inout) :: area                   !< The area that the triangles leave uncovered.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline only axis and
+                                                           !! rim_reach differ from 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along triangles.
-  real(c_double), intent(inout) :: effective_area         !< The area that the band leaves to the flow.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
+                                                           !! first moved inwards by a tenth of the half thickness, so that
+                                                           !! narrower slits do not count. Parts of the edge on the outline are
+                                                           !! walls and do not count.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
+                                                           !! edge along the triangles is moved inwards by rim_reach *
+                                                           !! half_thickness. To first order the result is area - rim_reach *
+                                                           !! half_thickness * perimeter. It is never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -3838,8 +3862,10 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: reach                     !< Mesh units; RIIS_AUTO: the surface's half thickness.
   integer(int32), intent(in) :: leaflet_id                !< From 0; RIIS_ALL_LEAFLETS: the sum over all leaflets.
-  real(c_double), intent(inout) :: area                   !< The area within reach of another leaflet.
-  real(c_double), intent(inout) :: edge                   !< The length of free edge within reach of another leaflet.
+  real(c_double), intent(inout) :: area                   !< The area of the points of the leaflet's triangles that lie within
+                                                           !! reach of another leaflet.
+  real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
+                                                           !! reach of another leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_coaptation) :: coaptation
   status = riis_surface_get_coaptation(c_handle_of(surface), reach, leaflet_id, coaptation, c_sizeof(coaptation))
@@ -3962,7 +3988,7 @@ subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaf
   integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
   real(c_double), intent(in) :: opening_from              !< 0 to 1.
   real(c_double), intent(in) :: opening_to                !< 0 to 1.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_* or RIIS_ALL_LEAFLETS.
   real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3985,7 +4011,7 @@ subroutine riisf_keyframes_swept_volume(keyframes, time_from, time_to, scale, le
   integer(int64), intent(in) :: keyframes                 !< Must be created.
   real(c_double), intent(in) :: time_from                 !< Magnitude at most 1e30.
   real(c_double), intent(in) :: time_to                   !< Magnitude at most 1e30.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   integer(int32), intent(in) :: leaflet_id                !< A leaflet id of the faces, or RIIS_ALL_LEAFLETS.
   real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4020,11 +4046,12 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: opening_tolerance         !< 1e-6 to 1, usually 1e-3.
+  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest tried opening below that one.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
+                                                           !! passage. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -4089,11 +4116,12 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: opening_tolerance         !< 1e-6 to 1, usually 1e-3.
+  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
-  real(c_double), intent(inout) :: closed_opening         !< The largest tried opening below that one.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
+                                                           !! passage. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -4153,11 +4181,11 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< > 0: the table repeats. Its keys lie within one period of the
-                                                           !! first. A last key one period after the first must have the same
-                                                           !! opening. 0: the opening is constant before the first key and after
-                                                           !! the last.
-  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_LINEAR or RIIS_INTERPOLATION_CUBIC.
+  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within a period of the first
+                                                           !! key. A last key one period after the first must have the same
+                                                           !! opening. 0, the default: the opening is constant before the first
+                                                           !! key and after the last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -4181,14 +4209,13 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   use riis_c, only: RIIS_OK, riis_opening_from_times, riis_opening_times, riis_opening_times_init, riis_status
   implicit none
   real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
-  real(c_double), intent(in) :: opening_duration          !< The duration of opening, > 0.
-  real(c_double), intent(in) :: closing_start             !< When it begins to close, at least opening_start +
+  real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
+  real(c_double), intent(in) :: closing_start             !< When the valve begins to close, at least opening_start +
                                                            !! opening_duration.
-  real(c_double), intent(in) :: closing_duration          !< The duration of closing, > 0.
+  real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
   real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
   real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
-  real(c_double), intent(in) :: period                    !< > 0: the motion repeats, at the earliest when the valve has
-                                                           !! closed. 0: the valve opens once.
+  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -4233,12 +4260,12 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   use riis_c, only: RIIS_OK, riis_opening_switch, riis_opening_switch_advance, riis_opening_switch_init, &
       riis_opening_switch_state, riis_opening_switch_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_duration          !< The time from closed to open, > 0.
-  real(c_double), intent(in) :: closing_duration          !< The time from open to closed, > 0.
-  real(c_double), intent(in) :: open_above                !< A pressure difference; usually 0.
-  real(c_double), intent(in) :: close_below               !< A flow; usually 0.
-  real(c_double), intent(in) :: filter_time               !< Time constant of a first-order filter of both, >= 0; 0: no filter.
-  real(c_double), intent(in) :: dwell_time                !< The least time between changes of phase, >= 0.
+  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0. So is that of the next field.
+  real(c_double), intent(in) :: closing_duration          !< Time from open to closed, > 0.
+  real(c_double), intent(in) :: open_above                !< Pressure difference.
+  real(c_double), intent(in) :: close_below               !< Flow.
+  real(c_double), intent(in) :: filter_time               !< Time constant of a filter of pressure difference and flow, >= 0.
+  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
@@ -4303,8 +4330,8 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
   real(c_double), intent(in) :: friction                  !< K_f, >= 0.
   real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
-  real(c_double), intent(in) :: angle_min                 !< Degrees, 0 to 90: the closed angle; usually 0.
-  real(c_double), intent(in) :: angle_max                 !< Degrees, above angle_min, at most 90: the open angle; usually 75.
+  real(c_double), intent(in) :: angle_min                 !< Degrees, 0 to 90: closed.
+  real(c_double), intent(in) :: angle_max                 !< Degrees, above angle_min, at most 90: open.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
@@ -4356,16 +4383,22 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): of a nadir, its cusp and -1; of a commissure,
-                                                           !! its two cusps; -1 and -1: not known.
-  real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 0.01 for metres.
-  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate; RIIS_AUTO: 0.03 * scale.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): of a nadir or a point of the attachment, its
+                                                           !! cusp and -1; of a commissure, its two cusps, in any order. -1 and
+                                                           !! -1: not known. Enough of an aortic valve's must be known to name
+                                                           !! all. Without names, cusp 0 of three equal cusps is at the first
+                                                           !! nadir.
+  real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
+                                                           !! metres. Must be set.
+  real(c_double), intent(in) :: noise                     !< The scatter of the landmarks, each coordinate's standard
+                                                           !! deviation, mesh units, >= 0.
   real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
   character(len=*), intent(in) :: held                    !< Parameters that keep their values, separated by blanks; ' ': none.
-  real(c_double), intent(inout) :: rotation_axis(3)       !< Written on success, as the next arguments.
-  real(c_double), intent(inout) :: rotation_angle         !< Degrees.
+  real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
+  real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
-  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks), mesh units.
+  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
+                                                           !! units.
   integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
@@ -4407,11 +4440,16 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   implicit none
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
-  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets; 0: none.
-  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12.
-  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle            !< Degrees.
-  real(c_double), intent(in) :: translation(3)            !< Mesh units.
+  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
+                                                           !! The map is smoothed until it misses the targets by about that
+                                                           !! much.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                           !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                           !! coordinates would be rounded by more than a thousandth of
+                                                           !! tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success. Free it with riisf_warp_destroy.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: sources

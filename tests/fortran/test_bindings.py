@@ -400,6 +400,47 @@ class Words(Planted):
                      "riis_patches: degree is in ", "already")
 
 
+class Subroutines(Planted):
+    """The table of the external subroutines."""
+
+    ENTRY = "riisf_mesh_prepare = riis_mesh_prepare\n"
+
+    def test_an_entry_makes_a_subroutine_and_its_interface(self):
+        self.plant(SUBROUTINES, self.ENTRY, "riisf_planted, _64 = riis_warp_set_targets\n  ! Planted.\n  warp  A warp.\n"
+                   "  n = n_points, x(*), y(*), z(*), stride\n  > targets%real_bits = 64\n\n" + self.ENTRY)
+        self.writes()
+        for path, indent in ((EXTERNAL, ""), (INTERFACES, "    ")):
+            text = self.text(path)
+            self.assertIn(f"{indent}subroutine riisf_planted(warp, n, x, y, z, stride, status)\n", text)
+            self.assertRegex(text.partition("subroutine riisf_planted_64(")[2], r"\n +integer\(int64\), intent\(in\) :: n[ \n]")
+        self.assertIn("  targets%n_points = n\n  targets%x = location_of(x)\n", self.text(EXTERNAL))
+        self.assertIn("  targets%real_bits = 64\n  status = riis_warp_set_targets(c_handle_of(warp), targets)\n",
+                      self.text(EXTERNAL))
+        self.assertIn("\n!> Planted.\nsubroutine riisf_planted(", self.text(EXTERNAL))
+
+    def test_a_text_of_the_header(self):
+        self.plant(HEADER, "double depth;", "double depth; /* planted, default 3. NULL: none */ double other_depth;")
+        self.writes()
+        self.assertRegex(self.text(EXTERNAL), r"real\(c_double\), intent\(in\) :: depth +!< Planted, usually 3\.\n")
+
+    def test_a_function_that_is_gone(self):
+        self.plant(HEADER, "RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);\n", "")
+        self.refuses(f"{SUBROUTINES}:", "riisf_mesh_prepare: riis.h has no riis_mesh_prepare\n")
+
+    def test_faulty_entries(self):
+        for old, new, message in (
+                (self.ENTRY, "riisf_mesh_prepare riis_mesh_prepare\n", "'riisf_mesh_prepare riis_mesh_prepare' is not understood"),
+                ("  mesh, n_threads\n", "  mesh, (3)\n", "the argument '(3)' is not understood"),
+                ("  mesh, n_threads\n", "  mesh, planted\n", "riisf_mesh_prepare: riis.h has no planted"),
+                ("  mesh, n_threads\n", "  mesh, n_threads = csr%planted\n", "riisf_mesh_prepare: riis.h has no csr%planted"),
+                ("  mesh, n_threads\n", "  mesh\n", "riisf_mesh_prepare: no argument gives n_threads of riis_mesh_prepare"),
+                ("  mesh, n_threads\n", "  mesh, planted = n_threads\n", "riisf_mesh_prepare: planted has no text"),
+                (self.ENTRY, self.ENTRY + "    mesh\n", "nothing is above that the second line could belong to")):
+            self.setUp()
+            self.plant(SUBROUTINES, old, new)
+            self.refuses(f"{SUBROUTINES}:", message)
+
+
 class Keywords(Planted):
     def judge(self):
         out = io.StringIO()
