@@ -143,8 +143,13 @@ class Subroutine:
             return ""
         name = place.path.partition("%")[2]
         text = next(line.text for line in self.writer.structs[place.struct].lines if name in [field.name for field in line.fields])
-        sentences = [sentence for sentence in re.split(r"(?<=[.;]) ", text + ".") if not re.match("Default|NULL|All NULL", sentence)]
-        text = re.sub(r"[,;] default ", ", usually ", " ".join(sentences).rstrip(".;") + ".")
+        text = re.sub("Default NaN.*", "", text)
+        text = re.sub(r"Default (\S+?)(:| stands)", r"\1\2", text.replace("0, the default:", "0:"))
+        text = re.sub(r"Default(?= [0-9R])", "Usually", re.sub("[,;] default ", ", usually ", text))
+        sentences = [sentence for sentence in re.split("(?<=[.;]) ", text) if not re.match("(All )?NULL", sentence)]
+        text = " ".join(sentences).rstrip(".; ") + "."
+        if place.type.stars and not place.extent and not text.startswith("("):
+            text = f"({', '.join(self.shape_of(place))}): {text}"
         if self.entry.counted and place.type.stars:
             count = self.shape_of(place)[-1]
             text = f"{text[:-1].replace(count, 'length')}{', from 1' * argument.name.endswith('_num')}; written up to n."
@@ -434,7 +439,7 @@ class Subroutine:
         for code, text in self.declarations:
             parts = textwrap.wrap(text, 128 - COLUMN - 4, break_on_hyphens=False)
             lines.append(f"  {code:{COLUMN - 3}} !< {parts[0]}")
-            lines += [f"{'':{COLUMN}} !! {part}" for part in parts[1:]]
+            lines += [f"{'':{COLUMN}}!! {part}" for part in parts[1:]]
         for line in [*self.locals, *body]:
             lines += folded(line.lstrip(), "  " + " " * (len(line) - len(line.lstrip())))
         interface = folded(head, "    ") + self.uses([code for code, _ in self.declarations], "      ")

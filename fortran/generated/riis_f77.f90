@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: Apache-2.0
 ! Written by fortran/bindings/generate.py from riis.h and from the files in that folder; run ./run bindings to repeat it.
-!> riis for codes that cannot use modules: external subroutines with implicit interfaces, for Fortran 77 and later, in fixed or
-!! free form. `include 'riisf.h'` gives the constants.
+!> riis for codes in the style of Fortran 77: external subroutines, for fixed and free form. With `use riisf` the compiler refuses
+!! an argument of the wrong kind, such as REAL*4 where REAL*8 is due. Without it no compiler checks a call, and a wrong kind gives
+!! wrong results or a crash. Codes that cannot use modules call the same subroutines. `include 'riisf.h'` gives the constants.
 !!
 !!           INCLUDE 'riisf.h'
 !!           INTEGER*8 VALVE, SURFACE, MESH, RESULT
@@ -16,7 +17,7 @@
 !!
 !! Rules for every subroutine:
 !!
-!! - Pass every argument, with exactly the kind that is declared here: no compiler checks this. `integer(int32)` is INTEGER*4,
+!! - Pass every argument, with exactly the kind that is declared here. `integer(int32)` is INTEGER*4,
 !!   INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION, or REAL*8 if an
 !!   option (-fdefault-real-8) makes DOUBLE PRECISION longer.
 !! - Handles are INTEGER*8, 0 before they are created and after they are destroyed. Creating sets them only on success.
@@ -25,7 +26,7 @@
 !! - Names may have trailing blanks.
 !! - Coordinates, and the rows for riisf_mesh_set_adjacency, are borrowed: they must stay in place (in COMMON, or with SAVE,
 !!   or in the main program) until the mesh is destroyed or gets other arrays. All other arrays are used during the call only. No
-!!   array is copied except the marks of riisf_dense_mark.
+!!   array is copied except the marks of riisf_dense_mark, the nodes of passages, listed points and labels of INTEGER*4.
 !! - Nodes that the library gives count from 1. Anything called *_id counts from 0, as in C. Ids that the caller gives count
 !!   from index_base.
 !! - A subroutine whose name ends in _64 does the same as the one without _64, with counts and ids of INTEGER*8.
@@ -176,7 +177,7 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -224,7 +225,7 @@ subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale,
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -255,15 +256,15 @@ subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scal
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only, usually
-                                                           !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
+                                                          !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
   real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
-                                                           !! used by RIIS_MEASURE_TRIANGLES.
+                                                          !! used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   status = riis_surface_options_init(options, c_sizeof(options))
@@ -294,7 +295,7 @@ subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, 
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -327,7 +328,7 @@ subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
   real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative if time
-                                                           !! goes backwards.
+                                                          !! goes backwards.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
@@ -347,7 +348,7 @@ subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thi
   real(c_double), intent(in) :: dt                        !< From valve_before to valve.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -409,7 +410,7 @@ subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scal
   integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
   integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller, or the same valve.
   real(c_double), intent(in) :: dp                        !< The parameter's difference from the state before to the state
-                                                           !! after.
+                                                          !! after.
   real(c_double), intent(in) :: scale_after               !< The placement of the later state.
   real(c_double), intent(in) :: rotation_axis_after(3)    !< The placement of the later state.
   real(c_double), intent(in) :: rotation_angle_after      !< The placement of the later state.
@@ -725,7 +726,8 @@ subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, 
   integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
-                                                           !! n_rows on are ghosts, nodes of other ranks, and are ignored.
+                                                          !! n_rows on are ghosts, nodes of other ranks, and are ignored. 0
+                                                          !! stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -753,7 +755,8 @@ subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_bas
   integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
-                                                           !! n_rows on are ghosts, nodes of other ranks, and are ignored.
+                                                          !! n_rows on are ghosts, nodes of other ranks, and are ignored. 0
+                                                          !! stands for n_rows.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_csr) :: csr
   status = riis_csr_init(csr, c_sizeof(csr))
@@ -872,9 +875,9 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   implicit none
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
-  integer(int32), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
+  integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
   integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                           !! cell begins in node_ids, and where the last ends.
+                                                          !! cell begins in node_ids, and where the last ends.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -905,9 +908,9 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   implicit none
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
-  integer(int64), intent(in) :: node_ids(*)               !< The nodes of cell after cell.
+  integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
   integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                           !! cell begins in node_ids, and where the last ends.
+                                                          !! cell begins in node_ids, and where the last ends.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -940,7 +943,7 @@ subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, 
   integer(int32), intent(in) :: n_cells                   !< The number of cells, >= 0. The nodes of the mesh are cell centres.
   integer(int32), intent(in) :: n_faces                   !< >= 0.
   integer(int32), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
-                                                           !! boundary.
+                                                          !! boundary.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -973,7 +976,7 @@ subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_bas
   integer(int64), intent(in) :: n_cells                   !< The number of cells, >= 0. The nodes of the mesh are cell centres.
   integer(int64), intent(in) :: n_faces                   !< >= 0.
   integer(int64), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
-                                                           !! boundary.
+                                                          !! boundary.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1051,14 +1054,14 @@ subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_fa
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                           !! right-hand rule makes the normal.
+                                                          !! right-hand rule makes the normal.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -1107,14 +1110,14 @@ subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per
   real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                           !! right-hand rule makes the normal.
+                                                          !! right-hand rule makes the normal.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -1168,10 +1171,10 @@ subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx,
   real(c_double), intent(in) :: vy(*)                     !< Like vx.
   real(c_double), intent(in) :: vz(*)                     !< Like vx.
   integer(int32), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                           !! right-hand rule makes the normal.
+                                                          !! right-hand rule makes the normal.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1212,10 +1215,10 @@ subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, 
   real(c_double), intent(in) :: vy(*)                     !< Like vx.
   real(c_double), intent(in) :: vz(*)                     !< Like vx.
   integer(int64), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
-  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                           !! right-hand rule makes the normal.
+                                                          !! right-hand rule makes the normal.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_arrays) :: arrays
@@ -1253,16 +1256,17 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
-                                                           !! magnitude at most 1e60.
+                                                          !! magnitude at most 1e60.
   real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
-                                                           !! key. A last key one period after the first must have the same
-                                                           !! frame. 0, the default: the surface rests before the first key and
-                                                           !! after the last.
-  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate.
-  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! key. A last key one period after the first must have the same
+                                                          !! frame. 0: the surface rests before the first key and after the
+                                                          !! last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
+                                                          !! RIIS_INTERPOLATION_LINEAR.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
   integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                           !! right-hand rule makes the normal.
+                                                          !! right-hand rule makes the normal.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1303,16 +1307,17 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
-                                                           !! magnitude at most 1e60.
+                                                          !! magnitude at most 1e60.
   real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
-                                                           !! key. A last key one period after the first must have the same
-                                                           !! frame. 0, the default: the surface rests before the first key and
-                                                           !! after the last.
-  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate.
-  integer(int32), intent(in) :: corners_per_face          !< 3 or 4. A quad 0 1 2 3 becomes the triangles 0 1 2 and 0 2 3.
+                                                          !! key. A last key one period after the first must have the same
+                                                          !! frame. 0: the surface rests before the first key and after the
+                                                          !! last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
+                                                          !! RIIS_INTERPOLATION_LINEAR.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
   integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
   integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
-                                                           !! right-hand rule makes the normal.
+                                                          !! right-hand rule makes the normal.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int64), intent(inout) :: keyframes              !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1353,10 +1358,10 @@ subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tol
   integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. 0: it is the
-                                                           !! derivative of the interpolation.
+                                                          !! derivative of the interpolation.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -1543,7 +1548,7 @@ subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, statu
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of edges, even if an array is too short.
   real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
-                                                           !! riis_reaction.edges; written up to n.
+                                                          !! riis_reaction.edges; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: attachment
@@ -1574,7 +1579,7 @@ subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, st
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of edges, even if an array is too short.
   real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
-                                                           !! riis_reaction.edges; written up to n.
+                                                          !! riis_reaction.edges; written up to n.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_attachment) :: attachment
@@ -1608,7 +1613,7 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
   real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
-                                                           !! from all triangles.
+                                                          !! from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -1640,7 +1645,7 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
   real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
-                                                           !! from all triangles.
+                                                          !! from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -1677,7 +1682,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_lim
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
-                                                           !! zeros. HUGE(1D0): no limit.
+                                                          !! zeros. HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -1685,7 +1690,7 @@ subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_lim
   integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
   integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
-                                                           !! with its rim.
+                                                          !! with its rim.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: points
   type(riis_closest_options) :: options
@@ -1726,7 +1731,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
   real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
-                                                           !! zeros. HUGE(1D0): no limit.
+                                                          !! zeros. HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -1734,7 +1739,7 @@ subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_
   integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
   integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
-                                                           !! with its rim.
+                                                          !! with its rim.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: points
   type(riis_closest_options) :: options
@@ -1776,9 +1781,9 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_lis
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int32), intent(in) :: n_listed                  !< 0 to n_points.
   integer(int32), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, like the nodes of
-                                                           !! riisf_marked; copied.
+                                                          !! riisf_marked; copied.
   real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
-                                                           !! zeros. HUGE(1D0): no limit.
+                                                          !! zeros. HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -1786,7 +1791,7 @@ subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_lis
   integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
   integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
-                                                           !! with its rim.
+                                                          !! with its rim.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_point_num(:)
   type(riis_points) :: points
@@ -1836,9 +1841,9 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, n_
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int64), intent(in) :: n_listed                  !< 0 to n_points.
   integer(int64), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, like the nodes of
-                                                           !! riisf_marked; copied.
+                                                          !! riisf_marked; copied.
   real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
-                                                           !! zeros. HUGE(1D0): no limit.
+                                                          !! zeros. HUGE(1D0): no limit.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
   real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
@@ -1846,7 +1851,7 @@ subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, n_
   integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
   integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
-                                                           !! with its rim.
+                                                          !! with its rim.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_point_num(:)
   type(riis_points) :: points
@@ -1896,7 +1901,7 @@ subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, ma
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: mesh                      !< Must be created.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
-                                                           !! thickness.
+                                                          !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
@@ -1928,7 +1933,7 @@ subroutine riisf_marked(marks, length, n, node_num, distance, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1965,7 +1970,7 @@ subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -1999,7 +2004,7 @@ subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2037,7 +2042,7 @@ subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
   real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2069,9 +2074,9 @@ subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: far_distance              !< The distance of other nodes, outside [0, distance_limit]; usually
-                                                           !! RIIS_FAR_DISTANCE.
-  real(c_double), intent(inout) :: distance(*)            !< The distance of nodes within the distance limit, far_distance for
-                                                           !! others.
+                                                          !! RIIS_FAR_DISTANCE.
+  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance of nodes within the distance limit,
+                                                          !! far_distance for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
   status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
@@ -2091,8 +2096,8 @@ subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int64), intent(inout) :: triangle_id(*)         !< The closest triangle of nodes within the distance limit, -1 for
-                                                           !! others.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): the closest triangle of nodes within the distance
+                                                          !! limit, -1 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
   status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
@@ -2112,7 +2117,7 @@ subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): RIIS_LEAFLET_* for nodes within the distance limit,
-                                                           !! else -1.
+                                                          !! else -1.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_dense_arrays) :: arrays
   status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
@@ -2131,7 +2136,7 @@ subroutine riisf_dense_mark(marks, n_nodes, mark, status)
   implicit none
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
-  integer(int32), intent(inout) :: mark(*)                !< 1 for marked nodes, 0 for others.
+  integer(int32), intent(inout) :: mark(*)                !< (n_nodes): 1 for marked nodes, 0 for others.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int8), allocatable, target :: c_mark(:)
   type(riis_dense_arrays) :: arrays
@@ -2178,10 +2183,10 @@ subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threa
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: mesh                      !< Must be created.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
-                                                           !! thickness.
+                                                          !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
-  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
   integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
@@ -2215,9 +2220,9 @@ subroutine riisf_marked_reals(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
-                                                           !! directions, length); written up to n.
+                                                          !! directions, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   type(c_ptr) :: location
@@ -2277,9 +2282,9 @@ subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
-                                                           !! directions, length); written up to n.
+                                                          !! directions, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   type(c_ptr) :: location
@@ -2341,9 +2346,9 @@ subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
-                                                           !! directions, length); written up to n.
+                                                          !! directions, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   type(c_ptr) :: location
@@ -2403,9 +2408,9 @@ subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
-                                                           !! directions, length); written up to n.
+                                                          !! directions, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
   type(c_ptr) :: location
@@ -2464,7 +2469,7 @@ subroutine riisf_marked_integers(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -2515,7 +2520,7 @@ subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -2566,7 +2571,7 @@ subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -2617,7 +2622,7 @@ subroutine riisf_within_limit_integers_64(marks, field, length, n, values, statu
   integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_list) :: list
@@ -2673,10 +2678,10 @@ subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_t
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: mesh                      !< Must be created.
   real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
-                                                           !! thickness.
+                                                          !! thickness.
   integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
-  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND or RIIS_RIM_CUT.
@@ -2715,7 +2720,7 @@ subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2755,7 +2760,7 @@ subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
-                                                           !! short.
+                                                          !! short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2798,7 +2803,7 @@ subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, statu
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2839,7 +2844,7 @@ subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, st
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
-                                                           !! too short.
+                                                          !! too short.
   real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
   real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -2882,7 +2887,7 @@ subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, statu
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -2911,7 +2916,7 @@ subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, st
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -2941,7 +2946,7 @@ subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -2975,7 +2980,7 @@ subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
@@ -3010,7 +3015,7 @@ subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, 
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3048,7 +3053,7 @@ subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocit
   integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3089,13 +3094,13 @@ subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, ve
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                           !! most 1e60.
+                                                          !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
   real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
@@ -3139,13 +3144,13 @@ subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes,
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
   real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
   real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
-                                                           !! most 1e60.
+                                                          !! most 1e60. Usually 0.
   integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
   real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
   real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
@@ -3192,7 +3197,7 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3200,8 +3205,8 @@ subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, veloc
   integer(int32), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
-                                                           !! If the first entry is -1, the other entries are not read, and each
-                                                           !! edge serves all leaflets.
+                                                          !! If the first entry is -1, the other entries are not read, and each
+                                                          !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3241,7 +3246,7 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
   real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
   real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
-                                                           !! half thickness of the marking.
+                                                          !! half thickness of the marking.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
@@ -3249,8 +3254,8 @@ subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, ve
   integer(int64), intent(in) :: n_edges                   !< At least 1.
   real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
   integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
-                                                           !! If the first entry is -1, the other entries are not read, and each
-                                                           !! edge serves all leaflets.
+                                                          !! If the first entry is -1, the other entries are not read, and each
+                                                          !! edge serves all leaflets.
   real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
   real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3371,7 +3376,7 @@ subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, lon
   real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
   real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
   real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that closes all edges; 0 if none
-                                                           !! leaks.
+                                                          !! leaks.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
   type(riis_leak_list) :: list
@@ -3407,7 +3412,7 @@ subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
   integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
-                                                           !! to n.
+                                                          !! to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leak_list) :: list
   integer(int64), pointer :: c_node_num(:, :)
@@ -3440,7 +3445,7 @@ subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
   integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
-                                                           !! to n.
+                                                          !! to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leak_list) :: list
   integer(int64), pointer :: c_node_num(:, :)
@@ -3485,7 +3490,7 @@ subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num,
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1; 0
-                                                           !! for marked nodes.
+                                                          !! for marked nodes.
   integer(int32), intent(inout) :: n_regions              !< The number of regions.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_region_num(:)
@@ -3517,7 +3522,7 @@ subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_n
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
   integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1; 0
-                                                           !! for marked nodes.
+                                                          !! for marked nodes.
   integer(int64), intent(inout) :: n_regions              !< The number of regions.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_mark_options) :: options
@@ -3550,7 +3555,7 @@ subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_t
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
   real(c_double), intent(inout) :: distance               !< That node's distance, the smallest half thickness that closes the
-                                                           !! path.
+                                                          !! path.
   real(c_double), intent(inout) :: point(3)               !< That node's coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
@@ -3599,7 +3604,7 @@ subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, 
   integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
   integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
   real(c_double), intent(inout) :: distance               !< That node's distance, the smallest half thickness that closes the
-                                                           !! path.
+                                                          !! path.
   real(c_double), intent(inout) :: point(3)               !< That node's coordinates.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
@@ -3644,13 +3649,13 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
-                                                           !! only touch.
+                                                          !! only touch.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 per processor.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
   real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair, which is the first one of equally
-                                                           !! deep pairs.
+                                                          !! deep pairs.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -3701,9 +3706,9 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int32), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
   integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
-                                                           !! written up to n.
+                                                          !! written up to n.
   real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
-                                                           !! meet; written up to n.
+                                                          !! meet; written up to n.
   real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_list) :: list
@@ -3743,9 +3748,9 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
   integer(int64), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
   integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
-                                                           !! written up to n.
+                                                          !! written up to n.
   real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
-                                                           !! meet; written up to n.
+                                                          !! meet; written up to n.
   real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_list) :: list
@@ -3800,9 +3805,9 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
   real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
-                                                           !! patches has. Of a surface from arrays: the edges that only one of
-                                                           !! its triangles has, without the outline of riis_orifice. 0 for a
-                                                           !! skirt.
+                                                          !! patches has. Of a surface from arrays: the edges that only one of
+                                                          !! its triangles has, without the outline of riis_orifice. 0 for a
+                                                          !! skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
@@ -3824,16 +3829,16 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
   real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline only axis and
-                                                           !! rim_reach differ from 0.
+                                                          !! rim_reach differ from 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
   real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
-                                                           !! first moved inwards by a tenth of the half thickness, so that
-                                                           !! narrower slits do not count. Parts of the edge on the outline are
-                                                           !! walls and do not count.
+                                                          !! first moved inwards by a tenth of the half thickness, so that
+                                                          !! narrower slits do not count. Parts of the edge on the outline are
+                                                          !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
-                                                           !! edge along the triangles is moved inwards by rim_reach *
-                                                           !! half_thickness. To first order the result is area - rim_reach *
-                                                           !! half_thickness * perimeter. It is never below 0.
+                                                          !! edge along the triangles is moved inwards by rim_reach *
+                                                          !! half_thickness. To first order the result is area - rim_reach *
+                                                          !! half_thickness * perimeter. It is never below 0.
   integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_resistance) :: resistance
@@ -3863,9 +3868,9 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   real(c_double), intent(in) :: reach                     !< Mesh units; RIIS_AUTO: the surface's half thickness.
   integer(int32), intent(in) :: leaflet_id                !< From 0; RIIS_ALL_LEAFLETS: the sum over all leaflets.
   real(c_double), intent(inout) :: area                   !< The area of the points of the leaflet's triangles that lie within
-                                                           !! reach of another leaflet.
+                                                          !! reach of another leaflet.
   real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
-                                                           !! reach of another leaflet.
+                                                          !! reach of another leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_coaptation) :: coaptation
   status = riis_surface_get_coaptation(c_handle_of(surface), reach, leaflet_id, coaptation, c_sizeof(coaptation))
@@ -3912,7 +3917,7 @@ subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, toler
   real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -4041,17 +4046,17 @@ subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num,
   integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1.
+  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
   real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
-                                                           !! passage. Else: `opening`.
+                                                          !! passage. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -4111,17 +4116,17 @@ subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_n
   integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
   real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
-                                                           !! tolerance * half_thickness.
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1.
+  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
   real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
   real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
-                                                           !! passage. Else: `opening`.
+                                                          !! passage. Else: `opening`.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   integer(int64), allocatable, target :: c_from_num(:)
   integer(int64), allocatable, target :: c_to_num(:)
@@ -4182,9 +4187,9 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
   real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within a period of the first
-                                                           !! key. A last key one period after the first must have the same
-                                                           !! opening. 0, the default: the opening is constant before the first
-                                                           !! key and after the last.
+                                                          !! key. A last key one period after the first must have the same
+                                                          !! opening. 0: the opening is constant before the first key and after
+                                                          !! the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -4211,11 +4216,11 @@ subroutine riisf_opening_from_times(opening_start, opening_duration, closing_sta
   real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
   real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
   real(c_double), intent(in) :: closing_start             !< When the valve begins to close, at least opening_start +
-                                                           !! opening_duration.
+                                                          !! opening_duration.
   real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
   real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
   real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
-  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period.
+  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period. 0: only once.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
   real(c_double), intent(inout) :: rate                   !< Written on success.
@@ -4260,18 +4265,20 @@ subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open
   use riis_c, only: RIIS_OK, riis_opening_switch, riis_opening_switch_advance, riis_opening_switch_init, &
       riis_opening_switch_state, riis_opening_switch_state_init, riis_status
   implicit none
-  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0. So is that of the next field.
+  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0.
   real(c_double), intent(in) :: closing_duration          !< Time from open to closed, > 0.
-  real(c_double), intent(in) :: open_above                !< Pressure difference.
-  real(c_double), intent(in) :: close_below               !< Flow.
+  real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
+  real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
   real(c_double), intent(in) :: filter_time               !< Time constant of a filter of pressure difference and flow, >= 0.
-  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0.
+                                                          !! 0: no filter.
+  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0. Usually
+                                                          !! 0.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
-                                                           !! filtered flow, time of the last change of phase (NaN: none yet).
-                                                           !! Written on success.
+                                                          !! filtered flow, time of the last change of phase (NaN: none yet).
+                                                          !! Written on success.
   integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_*, a part of the state. Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_opening_switch) :: law
@@ -4330,13 +4337,13 @@ subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vorte
   real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
   real(c_double), intent(in) :: friction                  !< K_f, >= 0.
   real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
-  real(c_double), intent(in) :: angle_min                 !< Degrees, 0 to 90: closed.
-  real(c_double), intent(in) :: angle_max                 !< Degrees, above angle_min, at most 90: open.
+  real(c_double), intent(in) :: angle_min                 !< Degrees, 0 to 90: closed. Usually 0.
+  real(c_double), intent(in) :: angle_max                 !< Degrees, above angle_min, at most 90: open. Usually 75.
   real(c_double), intent(in) :: time                      !< At least state(1).
   real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
   real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
   real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
-                                                           !! difference, flow (NaN: none yet). Written on success.
+                                                          !! difference, flow (NaN: none yet). Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_opening_angle) :: law
   type(riis_opening_angle_state) :: before
@@ -4384,21 +4391,21 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
   integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): of a nadir or a point of the attachment, its
-                                                           !! cusp and -1; of a commissure, its two cusps, in any order. -1 and
-                                                           !! -1: not known. Enough of an aortic valve's must be known to name
-                                                           !! all. Without names, cusp 0 of three equal cusps is at the first
-                                                           !! nadir.
+                                                          !! cusp and -1; of a commissure, its two cusps, in any order. -1 and
+                                                          !! -1: not known. Enough of an aortic valve's must be known to name
+                                                          !! all. Without names, cusp 0 of three equal cusps is at the first
+                                                          !! nadir.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
-                                                           !! metres. Must be set.
+                                                          !! metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks, each coordinate's standard
-                                                           !! deviation, mesh units, >= 0.
+                                                          !! deviation, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
   real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
   character(len=*), intent(in) :: held                    !< Parameters that keep their values, separated by blanks; ' ': none.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
   real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
   real(c_double), intent(inout) :: translation(3)         !< Mesh units.
   real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
-                                                           !! units.
+                                                          !! units.
   integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   character(len=len_trim(held) + 1, kind=c_char) :: c_held
@@ -4441,15 +4448,15 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
   real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
-                                                           !! The map is smoothed until it misses the targets by about that
-                                                           !! much.
+                                                          !! The map is smoothed until it misses the targets by about that
+                                                          !! much. 0: it meets the targets exactly.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
-                                                           !! usually 0.
+                                                          !! usually 0.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
-                                                           !! coordinates would be rounded by more than a thousandth of
-                                                           !! tolerance * half_thickness.
+                                                          !! coordinates would be rounded by more than a thousandth of
+                                                          !! tolerance * half_thickness.
   integer(int64), intent(inout) :: warp                   !< Written on success. Free it with riisf_warp_destroy.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: sources
