@@ -95,7 +95,8 @@ def main(words):
         if arguments.check:
             lines = found.splitlines(True), text.splitlines(True)
             sys.stdout.writelines(difflib.unified_diff(*lines, path, "generated anew", n=1))
-            print(f"{path} is not what {HEADER} and the tables in fortran/bindings give; ./run bindings writes it anew", file=sys.stderr)
+            print(f"{path} is not what {HEADER} and the tables in fortran/bindings give; ./run bindings writes it anew",
+                  file=sys.stderr)
         else:
             with open(os.path.join(arguments.root, path), "w", encoding="utf-8") as file:
                 file.write(text)

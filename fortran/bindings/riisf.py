@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the external subroutines riisf_*, and their interfaces, from riis.h and from riisf.table, whose head describes its format.
+"""Writes the external subroutines riisf_*, and their interfaces, from riis.h and from riisf.table.
 
 A subroutine fills the structs of its C functions from its arguments, calls the functions, and copies results to its arguments."""
 
@@ -142,7 +142,8 @@ class Subroutine:
         if argument.name in self.writer.table.texts:
             return ""
         name = place.path.partition("%")[2]
-        text = next(line.text for line in self.writer.structs[place.struct].lines if name in [field.name for field in line.fields])
+        lines = self.writer.structs[place.struct].lines
+        text = next(line.text for line in lines if name in [field.name for field in line.fields])
         text = re.sub("Default NaN.*", "", text)
         text = re.sub(r"Default (\S+?)(:| stands)", r"\1\2", text.replace("0, the default:", "0:"))
         text = re.sub(r"Default(?= [0-9R])", "Usually", re.sub("[,;] default ", ", usually ", text))
@@ -157,7 +158,7 @@ class Subroutine:
 
     def take(self, argument):
         """Declares an argument, and notes what becomes of it."""
-        name, shape = argument.name, argument.shape
+        name = argument.name
         if name in ("n", "length") and self.entry.counted:
             usual = f"The number of {self.entry.counted}, even if an array is too short."
             if name == "length":
@@ -443,7 +444,8 @@ class Subroutine:
         for line in [*self.locals, *body]:
             lines += folded(line.lstrip(), "  " + " " * (len(line) - len(line.lstrip())))
         interface = folded(head, "    ") + self.uses([code for code, _ in self.declarations], "      ")
-        interface += ["      implicit none", *("      " + code for code, _ in self.declarations), f"    end subroutine {self.name}"]
+        interface += ["      implicit none", *("      " + code for code, _ in self.declarations)]
+        interface.append(f"    end subroutine {self.name}")
         return [*lines, f"end subroutine {self.name}"], interface
 
     def uses(self, code, indent):

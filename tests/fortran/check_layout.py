@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_layout.py SOURCES FORTRAN_COMPILER C_COMPILER: the derived types of riis_c must have the fields of the structs in riis.h,
-with the same types in the same places. gfortran writes C structs for the derived types (-fc-prototypes), and the C compiler
+"""check_layout.py SOURCES FORTRAN_COMPILER C_COMPILER: the derived types of riis_c must have the fields of the structs in
+riis.h, with the same types in the same places. gfortran writes C structs for the derived types (-fc-prototypes), and the C compiler
 compares them with riis.h. Planted faults must be refused. Other Fortran compilers cannot write C structs: the test is then skipped
 (77). The layout does not depend on the compiler, because the types are BIND(C)."""
 

@@ -429,7 +429,7 @@ class Subroutines(Planted):
 
     def test_faulty_entries(self):
         for old, new, message in (
-                (self.ENTRY, "riisf_mesh_prepare riis_mesh_prepare\n", "'riisf_mesh_prepare riis_mesh_prepare' is not understood"),
+                (self.ENTRY, "riisf_mesh_prepare\n", "'riisf_mesh_prepare' is not understood"),
                 ("  mesh, n_threads\n", "  mesh, (3)\n", "the argument '(3)' is not understood"),
                 ("  mesh, n_threads\n", "  mesh, planted\n", "riisf_mesh_prepare: riis.h has no planted"),
                 ("  mesh, n_threads\n", "  mesh, n_threads = csr%planted\n", "riisf_mesh_prepare: riis.h has no csr%planted"),
