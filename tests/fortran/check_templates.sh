@@ -48,14 +48,17 @@ refused() {
   fi
 }
 
-# The damaged copies need only one source and its template.
+# The damaged copies need only two sources and their templates.
 copy() {
+  local name
   rm -rf "$scratch/copy"
   mkdir -p "$scratch/copy/templates" "$scratch/copy/generated"
   cp "$folder/expand_templates.sh" "$scratch/copy"
   cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
-  cp "$folder/generated/riis_meshes.f90" "$scratch/copy/generated"
-  cp "$folder/templates/riis_meshes.fypp" "$scratch/copy/templates"
+  for name in riis_meshes riis_frames; do
+    cp "$folder/generated/$name.f90" "$scratch/copy/generated"
+    cp "$folder/templates/$name.fypp" "$scratch/copy/templates"
+  done
 }
 
 check "$folder" >&2
