@@ -34,7 +34,8 @@ FAULTS = (
     ("riis_valve_set(valve, name, n_values,", "riis_valve_set(valve, n_values, name,", "riis_valve_set: name, the argument 2"),
     ("real(c_double), value :: dt\n", "real(c_float), value :: dt\n", "riis_surface_update_moving: dt, the argument 4"),
     ("real(c_double), value :: dp\n", "real(c_double), intent(in) :: dp\n", "riis_surface_add_direction: dp, the argument 4"),
-    ("type(c_ptr), value :: wall\n", "type(c_ptr), intent(inout) :: wall\n", "riis_valve_set_skirt_to_wall: wall, the argument 2"),
+    ("type(c_ptr), value :: wall\n", "type(c_ptr), intent(inout) :: wall\n",
+     "riis_valve_set_skirt_to_wall: wall, the argument 2"),
     ("bind(c, name='riis_mesh_prepare')", "bind(c, name='riis_planted')", "riis_mesh_prepare is not in both"),
 )
 
