@@ -74,6 +74,18 @@ def constants_compared(source):
     return [f'_Static_assert({value} == {name}, "{name} differs");' for name, value in constants]
 
 
+def in_c(type_):
+    return f"{'const ' if type_.const else ''}{type_.base} {'*' * type_.stars}"
+
+
+def reader_compared(header):
+    """Returns assertions that the C compiler reads the types of the functions as the reader of the header does. The generator of
+    riis_c.f90 has the same reader, and could repeat its mistakes."""
+    types = [(function, ", ".join(in_c(argument.type) for argument in function.arguments)) for function in header.functions]
+    return [f"_Static_assert(_Generic(&{function.name}, {in_c(function.result)}(*)({arguments or 'void'}): 1, default: 0), "
+            f'"{function.name} was read wrongly");' for function, arguments in types]
+
+
 def types_of(type_, is_value):
     """Returns the C types that gfortran may write for an argument. An address in a type(c_ptr) is passed by value; the address of
     a type(c_ptr), which the library writes, is not. gfortran writes both as void *."""
@@ -111,7 +123,7 @@ def judge(folder, sources, compilers, source):
     header = Header(os.path.join(sources, "include", "riis", "riis.h"), "riis.h")
     text = declarations(compilers[0], path)
     complaints = list(functions_compared(header, text, source))
-    lines = structs_compared(header, text) + constants_compared(source)
+    lines = structs_compared(header, text) + constants_compared(source) + reader_compared(header)
     with open(check, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")
     made = subprocess.run([compilers[1], "-std=c11", "-fsyntax-only", "-I" + os.path.join(sources, "include"), check],
