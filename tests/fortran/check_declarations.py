@@ -70,8 +70,18 @@ def structs_compared(header, text):
 
 
 def constants_compared(source):
-    constants = re.findall(r"^  \w+\(\w+\), parameter :: (RIIS_\w+) = (\S+?)(?:_c_double)?$", source, re.MULTILINE)
+    """Returns assertions for the integer constants."""
+    constants = re.findall(r"^  \w+\(\w+\), parameter :: (RIIS_\w+) = (-?\d+)$", source, re.MULTILINE)
     return [f'_Static_assert({value} == {name}, "{name} differs");' for name, value in constants]
+
+
+def reals_compared(header, source):
+    """Yields a complaint about each real constant that differs."""
+    of_header = {macro.name: float(macro.value) for macro in header.macros if macro.type == "double"}
+    of_source = dict(re.findall(r"parameter :: (RIIS_\w+) = (\S+)_c_double$", source, re.MULTILINE))
+    for name in sorted(set(of_header) | set(of_source)):
+        if of_header.get(name) != float(of_source.get(name, "nan")):
+            yield f"{name} differs"
 
 
 def in_c(type_):
@@ -122,7 +132,7 @@ def judge(folder, sources, compilers, source):
         file.write(source)
     header = Header(os.path.join(sources, "include", "riis", "riis.h"), "riis.h")
     text = declarations(compilers[0], path)
-    complaints = list(functions_compared(header, text, source))
+    complaints = [*functions_compared(header, text, source), *reals_compared(header, source)]
     lines = structs_compared(header, text) + constants_compared(source) + reader_compared(header)
     with open(check, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")

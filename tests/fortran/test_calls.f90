@@ -51,15 +51,8 @@ program test_calls
 contains
 
   subroutine test_version_and_texts()
-    integer(c_int32_t) :: major, minor, patch
-    character(len=40) :: text
     call check(riis_c_text(riis_last_error()) == '', 'no error text before the first error')
-    call riis_get_version(major, minor, patch)
-    write (text, '(i0, ".", i0, ".", i0)') major, minor, patch
-    call check(riis_c_text(riis_version_string()) == text, 'the version and its string agree: ' // trim(text))
-    patch = -1
-    call riis_get_version(patch=patch) ! an argument that is left out is passed as NULL
-    call check(patch >= 0, 'the patch version alone')
+    call check(verify(riis_c_text(riis_version_string()), '0123456789.') == 0, 'the version has numbers and points')
     call check(riis_c_text(riis_status_name(RIIS_INTERNAL_ERROR)) == 'RIIS_INTERNAL_ERROR', 'the name of a status')
     call check(riis_c_text(riis_status_name(12345_riis_status)) == 'unknown status', 'the name of no status')
     call check(riis_c_text(c_null_ptr) == '', 'no text')
