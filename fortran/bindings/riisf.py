@@ -37,6 +37,11 @@ def folded(line, indent):
     return [*lines, rest]
 
 
+def if_ok(statements):
+    """Returns statements that set the status. Each runs only after success of those before it."""
+    return [f"{'if (status == RIIS_OK) ' * (i > 0)}{statement}" for i, statement in enumerate(statements)]
+
+
 class Subroutine:
     """One subroutine for one kind of counts and ids."""
 
@@ -46,7 +51,9 @@ class Subroutine:
         self.name = entry.name + ("_64" if kind == "int64" else "")
         self.functions = [writer.functions.get(name) or self.refuse(f"riis.h has no {name}") for name in entry.functions]
         self.arguments = list(entry.arguments) or [Argument("handle", "", "", "", "May be 0.")]
-        self.structs, self.nested, self.values = {}, {}, {}
+        self.structs = {}  # for each argument of a function that is a struct: its type, and whether the function only reads it
+        self.nested = {}  # for each field of these that points to a struct: its type and the field's path
+        self.values = {}  # the places of the other arguments
         for function in self.functions:
             for argument in function.arguments:
                 if argument.type.base in writer.structs:
@@ -59,10 +66,12 @@ class Subroutine:
                 if field.type.base in writer.structs:
                     owner = next(name for name, (other, _) in self.structs.items() if other == struct)
                     self.nested[field.name] = (field.type.base, f"{owner}%{field.name}")
-        self.declarations, self.locals, self.allocated, self.set = [], [], [], []
-        self.passed, self.results, self.copied = dict(entry.fixed), [], []
-        self.created = self.handle = ""  # the argument that a function creates if it is 0, or creates always
-        self.used = set()
+        self.declarations, self.locals, self.allocated = [], [], []
+        self.used = set()  # the structs that have a variable
+        self.set = []  # statements before the calls
+        self.passed = dict(entry.fixed)  # for each argument of the functions, what is passed
+        self.results, self.copied = [], []  # statements after the calls, and arguments to which arrays are copied
+        self.handle = self.created = ""  # the handle that a call makes, and its type if it is made only where it is 0
 
     def refuse(self, message):
         raise Problem(f"{self.entry.place}: {self.entry.name}: {message}")
@@ -217,6 +226,7 @@ class Subroutine:
         return next((name for name, (other, const) in self.structs.items() if other == struct and not const), base)
 
     def set_field(self, argument, type_, place, size):
+        """An argument that goes into a field of a struct that is read."""
         name, path, base = argument.name, self.path(place.path), place.path.partition("%")[0]
         next_state = self.after(base) if base in self.structs else base
         writes = place.type.stars and not place.type.const or next_state != base
@@ -248,12 +258,13 @@ class Subroutine:
         return name
 
     def pass_value(self, argument, type_, place, size):
+        """An argument that is an argument of a C function also."""
         name, base, stars = argument.name, place.type.base, place.type.stars
         key, writes = place.path, stars > 0 and not place.type.const
         if base in self.header.handles:
-            makes = f"{base}_create"
-            if stars == 2 or writes and len(getattr(self.writer.functions.get(makes), "arguments", "12")) == 1:
-                self.created, self.handle = ("", name) if stars == 2 else (base, name)
+            create = self.writer.functions.get(f"{base}_create")
+            if stars == 2 or writes and create and len(create.arguments) == 1:
+                self.handle, self.created = name, "" if stars == 2 else base
                 self.declare(argument, type_, "inout", CREATED if stars == 2 else MADE)
                 self.passed[key] = "c_handle"
             else:
@@ -303,50 +314,45 @@ class Subroutine:
 
     def statements(self):
         before = [re.sub(r"\b(\w+)%", lambda match: self.path(match[0]), line) for line in self.entry.before]
-        calls = [self.call_of(function) for function in self.functions]
-        lines, inits = [], []
-        for base, (struct, const) in {**self.structs, **self.nested}.items():
-            if base not in self.used:
-                continue
-            is_nested = base in self.nested and base not in self.structs
-            self.locals.append(f"type({struct}){', target' * is_nested} :: {self.local(base)}")
-            if const:
-                inits.append(f"status = {struct}_init({self.local(base)}, c_sizeof({self.local(base)}))")
         for base in [base for base in self.nested if base in self.used]:
-            owner, _, field = self.nested[base][1].partition("%")
-            before.append(f"{self.local(owner)}%{field} = c_loc({self.local(base)})")
+            before.append(f"{self.path(self.nested[base][1])} = c_loc({self.local(base)})")
+        calls = [f"status = {self.call_of(function)}" for function in self.functions]
         for base in self.structs:
             if base in self.used and self.is_read(base) and self.after(base) != base:
-                self.set.append(f"{self.local(self.after(base))} = {self.local(base)}")
-        lines += self.chain(inits)
-        if self.allocated:
-            self.locals.append("integer :: stat")
-            lines += [f"allocate ({', '.join(self.allocated)}, stat=stat)", "status = out_of_memory(stat)",
-                      "if (status /= RIIS_OK) return"]
-        lines += self.set + before
-        calls = [f"status = {call}" for call in calls]
+                before.append(f"{self.local(self.after(base))} = {self.local(base)}")
+        lines = [*self.variables(), *self.set, *before, *self.chain(calls)]
         if self.handle and not self.created:
-            self.locals.append("type(c_ptr) :: c_handle")
-            lines.append("c_handle = c_null_ptr")
             self.results.insert(0, f"{self.handle} = handle_of(c_handle)")
-        if self.created:
-            self.locals.append("type(c_ptr) :: c_handle")
-            lines += [f"c_handle = c_handle_of({self.handle})",
-                      f"if ({self.handle} == 0) status = {self.created}_create(c_handle)"]
-            lines += [f"if (status == RIIS_OK) {call}" for call in calls]
-            lines += ["! The handle stays 0 if it was 0 and an error occurred.",
-                      f"if (status /= RIIS_OK .and. {self.handle} == 0) call {self.created}_destroy(c_handle)",
-                      f"{self.handle} = handle_of(c_handle)"]
-        else:
-            lines += [f"{'if (status == RIIS_OK) ' * (i > 0)}{call}" for i, call in enumerate(calls)]
         if self.results or self.copied:
             lines += ["if (status /= RIIS_OK) return", *self.copies(), *self.results]
         return lines
 
-    @staticmethod
-    def chain(statements):
-        lines = [f"{'if (status == RIIS_OK) ' * (i > 0)}{statement}" for i, statement in enumerate(statements)]
-        return lines + ["if (status /= RIIS_OK) return"] * bool(lines)
+    def variables(self):
+        """Declares the structs and copies. Returns the statements that give the structs their defaults and the copies memory."""
+        inits = []
+        for base, (struct, const) in {**self.structs, **self.nested}.items():
+            if base in self.used:
+                name, target = self.local(base), "" if base in self.structs else ", target"
+                self.locals.append(f"type({struct}){target} :: {name}")
+                inits += [f"status = {struct}_init({name}, c_sizeof({name}))"] if const else []
+        lines = if_ok(inits) + ["if (status /= RIIS_OK) return"] * bool(inits)
+        if self.allocated:
+            self.locals.append("integer :: stat")
+            lines += [f"allocate ({', '.join(self.allocated)}, stat=stat)", "status = out_of_memory(stat)",
+                      "if (status /= RIIS_OK) return"]
+        return lines
+
+    def chain(self, calls):
+        """Returns the calls, with the handle that they make."""
+        if self.handle:
+            self.locals.append("type(c_ptr) :: c_handle")
+        if not self.created:
+            return ["c_handle = c_null_ptr"] * bool(self.handle) + if_ok(calls)
+        is_new = f"{self.handle} == 0"
+        return [f"c_handle = c_handle_of({self.handle})", f"if ({is_new}) status = {self.created}_create(c_handle)",
+                *(f"if (status == RIIS_OK) {call}" for call in calls), "! The handle stays 0 if it was 0 and an error occurred.",
+                f"if (status /= RIIS_OK .and. {is_new}) call {self.created}_destroy(c_handle)",
+                f"{self.handle} = handle_of(c_handle)"]
 
     def copies(self):
         """Returns the statements that copy arrays of the library into the caller's."""
@@ -379,6 +385,7 @@ class Subroutine:
         return next(word for word in place.words if word.startswith("(")).strip("()").split(", ")
 
     def choice(self, base, n_all):
+        """Returns the statements that choose the array by the argument `field`."""
         self.locals += ["type(c_ptr) :: location", "integer(int64) :: n_values"]
         lines = ["select case (field)"]
         for constant, name in self.entry.chosen:
@@ -391,6 +398,7 @@ class Subroutine:
                 f"'; it must be one of {names}')", "  return", "end select"]
 
     def copied_array(self, argument, place, found, n_all):
+        """Returns the statements that copy one array, whose address is `found`. The last one is the assignment."""
         own, first = f"c_{argument.name}", argument.shape.strip("()").split(", ")[:-1]
         kind = REALS if place.type.base == "double" else f"integer({C_KINDS[place.type.base]})"
         self.locals.append(f"{kind}, pointer :: {own}({', '.join(':' for _ in [*first, 1])})")
