@@ -6,6 +6,7 @@ A subroutine fills the structs of its C functions from its arguments, calls the 
 import re
 import textwrap
 from collections import namedtuple
+from functools import lru_cache
 
 from fortran import WIDTH, RULE
 from header import Problem
@@ -24,6 +25,11 @@ CREATED, MADE = "Written on success.", "0, which creates them, or from an earlie
 
 # A place in C: the argument of a function, or a field of a struct, whose path is "struct%field". `words` are bindings.table's.
 Place = namedtuple("Place", "path type extent words struct")
+
+
+@lru_cache(maxsize=None)
+def wrapped(text, width):
+    return textwrap.wrap(text, width, break_on_hyphens=False)
 
 
 def folded(line, indent):
@@ -442,11 +448,11 @@ class Subroutine:
         text = self.entry.comment or f"Destroys the {what} and sets its handle to 0. Nothing happens to a handle that is 0."
         if self.kind == "int64":
             text = f"Does the same as {self.entry.name}, with counts and ids of INTEGER*8."
-        comment = textwrap.wrap(text, 126, break_on_hyphens=False)
+        comment = wrapped(text, 126)
         lines = [f"{'!!' if i else '!>'} {line}" for i, line in enumerate(comment)] + folded(head, "")
         lines += self.uses([code for code, _ in self.declarations] + self.locals + body, "  ") + ["  implicit none"]
         for code, text in self.declarations:
-            parts = textwrap.wrap(text, 128 - COLUMN - 4, break_on_hyphens=False)
+            parts = wrapped(text, 128 - COLUMN - 4)
             lines.append(f"  {code:{COLUMN - 3}} !< {parts[0]}")
             lines += [f"{'':{COLUMN}}!! {part}" for part in parts[1:]]
         for line in [*self.locals, *body]:
@@ -460,7 +466,7 @@ class Subroutine:
         """Returns the USE statements for the names in some lines."""
         words = set(re.findall(r"[A-Za-z]\w*", re.sub("'[^']*'|%\\w+", "", "\n".join(code))))
         lines = []
-        for module, names in [*USED.items(), ("riis_c", sorted(self.writer.names))]:
+        for module, names in [*USED.items(), ("riis_c", self.writer.names)]:
             # Without c_ptr, gfortran 12 takes the result of c_loc for an integer.
             wanted = [name for name in names if name in words or name == "c_ptr" and "c_loc" in words]
             if wanted:
@@ -475,7 +481,7 @@ class Writer:
         self.functions = {function.name: function for function in header.functions}
         self.structs = {struct.name: struct for struct in header.structs}
         constants = [constant.name for block in [*header.enums, header.macros] for constant in block]
-        self.names = {*self.functions, *self.structs, *constants, "riis_status", "riis_c_text"}
+        self.names = sorted({*self.functions, *self.structs, *constants, "riis_status", "riis_c_text"})
 
     def write(self):
         """Returns the subroutines, and the interfaces with the list of their names."""
