@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # expand_templates.sh [FOLDER]
-# Expands each templates/riis_*.fypp into FOLDER/riis_*.f90, and writes FOLDER/riisf.f90 (interfaces.py). FOLDER is generated/
-# beside this script by default. Needs fypp (Debian's package fypp).
+# Expands each templates/riis_*.fypp into FOLDER/riis_*.f90. FOLDER is generated/ beside this script by default. Needs fypp
+# (Debian's package fypp).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 folder=$(cd "${1:-$here/generated}" && pwd)
@@ -16,4 +16,3 @@ for template in "$here"/templates/riis_*.fypp; do
   fypp --no-folding "$template" "$source.part"
   mv "$source.part" "$source"
 done
-python3 -B "$here/interfaces.py" "$folder"

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: Apache-2.0
-!> Calls of riis_c whose structs are filled from plain arguments, for module riis and for the external subroutines. Arrays are
-!! contiguous. Users do not need this module: `use riis` does not give these names.
+!> Calls of riis_c whose structs are filled from plain arguments, for module riis. Arrays are contiguous. Users do not need this
+!! module: `use riis` does not give these names.
 module riis_calls
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
@@ -8,7 +8,7 @@ module riis_calls
   use riis_support, only: location_of
   implicit none
   private
-  public :: write_dense, add_resistance_to, add_reaction_to, band_sums_of, find_passage_between
+  public :: write_dense, add_resistance_to, add_reaction_to, band_sums_of, describe_ends
 
 contains
 
@@ -100,24 +100,17 @@ contains
     code = riis_marks_get_band_sums(marks, band, sums, c_sizeof(sums))
   end function band_sums_of
 
-  !> Calls riis_find_passage.
-  function find_passage_between(surface, mesh, options, n_from, from, n_to, to, passage) result(code)
-    type(c_ptr), intent(in) :: surface                      !< A handle.
-    type(c_ptr), intent(in) :: mesh                         !< A handle.
-    type(riis_mark_options), intent(in) :: options          !< From its init function.
-    integer(int64), intent(in) :: n_from                    !< At least 1.
-    integer(int64), intent(in) :: from(*)                   !< (n_from), from 0.
-    integer(int64), intent(in) :: n_to                      !< At least 1.
-    integer(int64), intent(in) :: to(*)                     !< (n_to), from 0.
-    type(riis_passage), intent(inout) :: passage            !< Unchanged on an error.
+  !> Describes the ends of paths, for riis_find_passage and riis_find_first_passage.
+  function describe_ends(from, to, ends) result(code)
+    integer(int64), intent(in), contiguous :: from(:)       !< Nodes where paths begin, from 0. It must live as long as `ends`.
+    integer(int64), intent(in), contiguous :: to(:)         !< Nodes where paths end, likewise.
+    type(riis_passage_ends), intent(inout) :: ends          !< Written on success.
     integer(riis_status) :: code                            !< RIIS_OK or the error.
-    type(riis_passage_ends) :: ends
     code = riis_passage_ends_init(ends, c_sizeof(ends))
     if (code /= RIIS_OK) return
-    ends%n_from = n_from
+    ends%n_from = size(from, kind=int64)
     ends%from = location_of(from)
-    ends%n_to = n_to
+    ends%n_to = size(to, kind=int64)
     ends%to = location_of(to)
-    code = riis_find_passage(surface, mesh, ends, options, passage, c_sizeof(passage))
-  end function find_passage_between
+  end function describe_ends
 end module riis_calls

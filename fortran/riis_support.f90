@@ -6,12 +6,12 @@ module riis_support
     c_loc, c_null_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, only: riis_status, RIIS_OK, RIIS_INVALID_ARGUMENT, RIIS_INVALID_SURFACE, RIIS_LIMIT_EXCEEDED, &
-    RIIS_OUT_OF_MEMORY, riis_points, riis_surface_arrays, riis_surface_options, riis_c_string, riis_c_text, &
-    riis_last_error, riis_points_init, riis_status_name, riis_surface_arrays_init, riis_surface_options_init
+    RIIS_OUT_OF_MEMORY, riis_points, riis_surface_arrays, riis_c_string, riis_c_text, &
+    riis_last_error, riis_points_init, riis_status_name, riis_surface_arrays_init
   implicit none
   private
   public :: strided_points, points_of, describe_points, address_of, text_of
-  public :: c_handle_of, handle_of, location_of, get_placement
+  public :: c_handle_of, handle_of, location_of
   public :: finish, fail, refuse, out_of_memory, check_created, check_not_created, refuse_copy, get_integer, check_size
   public :: get_faces, get_mask, end_for_c
 
@@ -218,26 +218,6 @@ contains
     type(c_ptr) :: location                                 !< The address of the first entry.
     location = c_loc(array)
   end function location_of
-
-  !> Makes the options of a surface from the arguments of a Fortran 77 caller. All other options have their defaults.
-  function get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options) result(code)
-    real(c_double), intent(in) :: half_thickness            !< Mesh units.
-    real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1.
-    real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12.
-    real(c_double), intent(in) :: rotation_axis(3)          !< Of any length but 0.
-    real(c_double), intent(in) :: rotation_angle            !< Degrees.
-    real(c_double), intent(in) :: translation(3)            !< Mesh units.
-    type(riis_surface_options), intent(inout) :: options    !< Written on success.
-    integer(riis_status) :: code                            !< RIIS_OK or the error.
-    code = riis_surface_options_init(options, c_sizeof(options))
-    if (code /= RIIS_OK) return
-    options%half_thickness = half_thickness
-    options%tolerance = tolerance
-    options%scale = scale
-    options%rotation_axis = rotation_axis
-    options%rotation_angle = rotation_angle
-    options%translation = translation
-  end function get_placement
 
   !> Returns an address as a number, for differences of addresses.
   function address_of(location) result(address)

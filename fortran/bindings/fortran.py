@@ -217,15 +217,6 @@ class Bindings:
             lines += ([""] if lines else []) + self.struct(struct)
         return lines
 
-    def layouts(self):
-        lines = ["/* SPDX-License-Identifier: Apache-2.0",
-                 " * The fields of the structs in riis.h, for c_twin.c. Written by fortran/bindings/generate.py. */"]
-        for struct in self.header.structs:
-            pieces = [f"AT({field.name})" for line in struct.lines for field in line.fields]
-            text = ", ".join([f"LAYOUT({struct.name}", *pieces]) + ")"
-            lines += textwrap.wrap(text, WIDTH, subsequent_indent="       ")
-        return lines
-
     # Arguments ----------------------------------------------------------------------------------------------------
 
     def sort_of(self, type_):

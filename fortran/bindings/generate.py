@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes riis_c.f90 and riisf.h in fortran/generated, and tests/fortran/layouts.inc, from riis.h and from bindings.table.
+"""Writes riis_c.f90, riis_f77.f90, riisf.f90 and riisf.h in fortran/generated, from riis.h, bindings.table and riisf.table.
 
     python3 generate.py                writes the files
     python3 generate.py --check        writes nothing; fails and shows the difference if a file is out of date
@@ -14,13 +14,20 @@ import sys
 sys.dont_write_bytecode = True
 from fortran import Bindings
 from header import Header, Problem
+from riisf import Writer
+from riisf_table import Table as SubroutineTable
 from table import Table
 
 HEADER = "include/riis/riis.h"
 TABLE = "fortran/bindings/bindings.table"
-TEMPLATES = "fortran/bindings/riis_c.f90.in", "fortran/bindings/riisf.h.in"
-# The longest allowed line, by the language or by the project.
-WIDTHS = {"fortran/generated/riis_c.f90": 130, "fortran/generated/riisf.h": 72, "tests/fortran/layouts.inc": 130}
+SUBROUTINES = "fortran/bindings/riisf.table"
+# The generated files, with the longest line that the language or the project allows. Each has a template in fortran/bindings.
+WIDTHS = {"fortran/generated/riis_c.f90": 130, "fortran/generated/riisf.h": 72, "fortran/generated/riis_f77.f90": 130,
+          "fortran/generated/riisf.f90": 130}
+
+
+def template_of(path):
+    return path.replace("generated", "bindings") + ".in"
 
 
 def fill(template, shown, parts):
@@ -42,20 +49,20 @@ def fill(template, shown, parts):
 
 def generate(root):
     """Returns the contents of the generated files, by path."""
-    header = Header(os.path.join(root, HEADER), HEADER)
-    bindings = Bindings(header, Table(os.path.join(root, TABLE), TABLE))
-    parts = [{"constants": bindings.constants(), "structs": bindings.structs(), "callbacks": bindings.callbacks(),
-              "functions": bindings.functions()},
-             {"constants": bindings.fixed_form_constants()}]
-    layouts = bindings.layouts()
+    header, table = Header(os.path.join(root, HEADER), HEADER), Table(os.path.join(root, TABLE), TABLE)
+    bindings = Bindings(header, table)
+    parts = {"constants": bindings.constants(), "structs": bindings.structs(), "callbacks": bindings.callbacks(),
+             "functions": bindings.functions()}
+    fixed = {"constants": bindings.fixed_form_constants()}
     bindings.finish()
-    files = {}
-    for path, shown, part in zip(WIDTHS, TEMPLATES, parts):
-        with open(os.path.join(root, shown), encoding="utf-8") as file:
-            files[path] = fill(file.read(), shown, part)
-    files["tests/fortran/layouts.inc"] = layouts
-    problems = [f"{path}:{number}: this line would have {len(line)} columns, {WIDTHS[path]} are allowed: {line.strip()}"
-                for path, lines in files.items() for number, line in enumerate(lines, 1) if len(line) > WIDTHS[path]]
+    subroutines, interfaces = Writer(header, table, SubroutineTable(os.path.join(root, SUBROUTINES), SUBROUTINES)).write()
+    files, problems = {}, []
+    for (path, width), part in zip(WIDTHS.items(), (parts, fixed, {"subroutines": subroutines}, {"interfaces": interfaces})):
+        template = template_of(path)
+        with open(os.path.join(root, template), encoding="utf-8") as file:
+            files[path] = fill(file.read(), template, part)
+        problems += [f"{path}:{number}: this line would have {len(line)} columns, {width} are allowed: {line.strip()}"
+                     for number, line in enumerate(files[path], 1) if len(line) > width]
     if problems:
         raise Problem(*problems)
     return {path: "\n".join(lines) + "\n" for path, lines in files.items()}
@@ -88,7 +95,8 @@ def main(words):
         if arguments.check:
             lines = found.splitlines(True), text.splitlines(True)
             sys.stdout.writelines(difflib.unified_diff(*lines, path, "generated anew", n=1))
-            print(f"{path} is not what {HEADER} and {TABLE} give; ./run bindings writes it anew", file=sys.stderr)
+            print(f"{path} is not what {HEADER} and the tables in fortran/bindings give; ./run bindings writes it anew",
+                  file=sys.stderr)
         else:
             with open(os.path.join(arguments.root, path), "w", encoding="utf-8") as file:
                 file.write(text)

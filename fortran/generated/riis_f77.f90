@@ -1,7 +1,8 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Generated from fortran/templates/riis_f77.fypp by fortran/expand_templates.sh: edit that template, not this file.
-!> riis for codes that cannot use modules: external subroutines with implicit interfaces, for Fortran 77 and later, in fixed or
-!! free form. `include 'riisf.h'` gives the constants.
+! Written by fortran/bindings/generate.py from riis.h and from the files in that folder; run ./run bindings to repeat it.
+!> riis for codes in the style of Fortran 77: external subroutines, for fixed and free form. With `use riisf` the compiler refuses
+!! an argument of the wrong kind, such as REAL*4 where REAL*8 is due. Without it no compiler checks a call, and a wrong kind gives
+!! wrong results or a crash. Codes that cannot use modules call the same subroutines. `include 'riisf.h'` gives the constants.
 !!
 !!           INCLUDE 'riisf.h'
 !!           INTEGER*8 VALVE, SURFACE, MESH, RESULT
@@ -16,7 +17,7 @@
 !!
 !! Rules for every subroutine:
 !!
-!! - Pass every argument, with exactly the kind that is declared here: no compiler checks this. `integer(int32)` is INTEGER*4,
+!! - Pass every argument, with exactly the kind that is declared here. `integer(int32)` is INTEGER*4,
 !!   INTEGER with the usual options; `integer(int64)` is INTEGER*8; `real(c_double)` is DOUBLE PRECISION, or REAL*8 if an
 !!   option (-fdefault-real-8) makes DOUBLE PRECISION longer.
 !! - Handles are INTEGER*8, 0 before they are created and after they are destroyed. Creating sets them only on success.
@@ -25,34 +26,41 @@
 !! - Names may have trailing blanks.
 !! - Coordinates, and the rows for riisf_mesh_set_adjacency, are borrowed: they must stay in place (in COMMON, or with SAVE,
 !!   or in the main program) until the mesh is destroyed or gets other arrays. All other arrays are used during the call only. No
-!!   array is copied except the marks of riisf_dense_mark.
+!!   array is copied except the marks of riisf_dense_mark, the nodes of passages, listed points and labels of INTEGER*4.
 !! - Nodes that the library gives count from 1. Anything called *_id counts from 0, as in C. Ids that the caller gives count
 !!   from index_base.
 !! - A subroutine whose name ends in _64 does the same as the one without _64, with counts and ids of INTEGER*8.
 !! - Threads: any number of threads may read an object at once. One thread may write it while no other reads it.
 
+! -----------------------------------------------------------------------------------------------------------------
+! Valves and surfaces
+! -----------------------------------------------------------------------------------------------------------------
+
 !> Makes a valve with the paper's parameter values. Errors: RIIS_INVALID_PARAMETER for an unknown kind.
 subroutine riisf_valve_create(kind, valve, status)
-  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, RIIS_OK, riis_c_string, riis_valve_create
-  use riis_support, only: handle_of
+  use riis_support, only: end_for_c, handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_valve_create
   implicit none
   character(len=*), intent(in) :: kind                    !< 'aortic', 'mitral', 'coapting', 'trileaflet' or 'bileaflet'.
   integer(int64), intent(inout) :: valve                  !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  character(len=len_trim(kind) + 1, kind=c_char) :: c_kind
   type(c_ptr) :: c_handle
+  call end_for_c(kind, c_kind)
   c_handle = c_null_ptr
-  status = riis_valve_create(riis_c_string(kind), c_handle)
-  if (status == RIIS_OK) valve = handle_of(c_handle)
+  status = riis_valve_create(c_kind, c_handle)
+  if (status /= RIIS_OK) return
+  valve = handle_of(c_handle)
 end subroutine riisf_valve_create
 
 !> Makes a copy with the same parameters and states. Each valve is destroyed separately.
 subroutine riisf_valve_copy(valve, copy, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, RIIS_OK, riis_valve_copy
   use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_valve_copy
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   integer(int64), intent(inout) :: copy                   !< Written on success.
@@ -60,16 +68,17 @@ subroutine riisf_valve_copy(valve, copy, status)
   type(c_ptr) :: c_handle
   c_handle = c_null_ptr
   status = riis_valve_copy(c_handle_of(valve), c_handle)
-  if (status == RIIS_OK) copy = handle_of(c_handle)
+  if (status /= RIIS_OK) return
+  copy = handle_of(c_handle)
 end subroutine riisf_valve_copy
 
-!> Sets a parameter, which has 1 or 3 values. Every valve has the parameter 'opening', from 0 to 1. Errors: RIIS_INVALID_PARAMETER
-!! naming the parameter and the value.
+!> Sets a parameter, which has 1 or 3 values. Every valve has the parameter 'opening', from 0 to 1. Errors:
+!! RIIS_INVALID_PARAMETER naming the parameter and the value.
 subroutine riisf_valve_set(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_valve_set
   use riis_support, only: c_handle_of, end_for_c
+  use riis_c, only: riis_status, riis_valve_set
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   character(len=*), intent(in) :: name                    !< Such as 'leaflet_angle', 'right.rotation'.
@@ -85,8 +94,8 @@ end subroutine riisf_valve_set
 subroutine riisf_valve_get(valve, name, n_values, values, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_valve_get
   use riis_support, only: c_handle_of, end_for_c
+  use riis_c, only: riis_status, riis_valve_get
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_set, but always with the cusp's name.
@@ -102,8 +111,8 @@ end subroutine riisf_valve_get
 subroutine riisf_valve_unset(valve, name, status)
   use, intrinsic :: iso_c_binding, only: c_char
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_valve_unset
   use riis_support, only: c_handle_of, end_for_c
+  use riis_c, only: riis_status, riis_valve_unset
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_set.
@@ -117,8 +126,8 @@ end subroutine riisf_valve_unset
 subroutine riisf_valve_is_set(valve, name, is_set, status)
   use, intrinsic :: iso_c_binding, only: c_char
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_valve_is_set
   use riis_support, only: c_handle_of, end_for_c
+  use riis_c, only: riis_status, riis_valve_is_set
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   character(len=*), intent(in) :: name                    !< As in riisf_valve_get.
@@ -133,8 +142,8 @@ end subroutine riisf_valve_is_set
 !! another kind.
 subroutine riisf_valve_set_open_state(valve, open, status)
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_valve_set_open_state
   use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_valve_set_open_state
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created.
   integer(int64), intent(in) :: open                      !< Must be created. It is copied, so it may be destroyed.
@@ -146,8 +155,8 @@ end subroutine riisf_valve_set_open_state
 subroutine riisf_valve_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_valve_destroy
   use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_valve_destroy
   implicit none
   integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
@@ -158,17 +167,17 @@ end subroutine riisf_valve_destroy
 
 !> Makes the surface of a valve, placed by x -> scale * rotation * x + translation. Errors: RIIS_INVALID_ARGUMENT for an option
 !! out of range, RIIS_INVALID_PARAMETER for parameters that do not fit together.
-subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
-    translation, surface, status)
-  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
+subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, &
+    surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_create
-  use riis_support, only: c_handle_of, get_placement, handle_of
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_create, riis_surface_options, riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
-                                                          !! * half_thickness.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
@@ -177,18 +186,26 @@ subroutine riisf_surface_create(valve, half_thickness, tolerance, scale, rotatio
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
   type(c_ptr) :: c_handle
-  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  status = riis_surface_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
   c_handle = c_null_ptr
   status = riis_surface_create(c_handle_of(valve), options, c_handle)
-  if (status == RIIS_OK) surface = handle_of(c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
 end subroutine riisf_surface_create
 
-!> Replaces the surface by the surface of a valve that moved, with the same options. The errors are those of riisf_surface_create.
+!> Replaces the surface by the surface of a valve that moved, with the same options. The errors are those of
+!! riisf_surface_create.
 subroutine riisf_surface_update(surface, valve, status)
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_update
   use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
@@ -199,24 +216,30 @@ end subroutine riisf_surface_update
 !> Replaces the surface like riisf_surface_update, but with other options, which are those of riisf_surface_create.
 subroutine riisf_surface_place(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
-  use riis_support, only: c_handle_of, get_placement
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
-                                                          !! * half_thickness.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
-  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  status = riis_surface_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_place
 
@@ -224,27 +247,34 @@ end subroutine riisf_surface_place
 !! method.
 subroutine riisf_surface_measure(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, measure, measure_tolerance, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
-  use riis_support, only: c_handle_of, get_placement
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
-                                                          !! * half_thickness.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*.
-  real(c_double), intent(in) :: measure_tolerance        !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance.
-                                                          !! Not used by RIIS_MEASURE_TRIANGLES.
+  integer(int32), intent(in) :: measure                   !< RIIS_MEASURE_*, for closest points and marking only, usually
+                                                          !! RIIS_MEASURE_TRIANGLES, the only one for surfaces from arrays.
+  real(c_double), intent(in) :: measure_tolerance         !< A fraction of half_thickness, 1e-6 to 1; RIIS_AUTO: tolerance. Not
+                                                          !! used by RIIS_MEASURE_TRIANGLES.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
-  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  status = riis_surface_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
   options%measure = measure
   options%measure_tolerance = measure_tolerance
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
@@ -256,25 +286,31 @@ end subroutine riisf_surface_measure
 !! tolerance does not hold.
 subroutine riisf_surface_triangulate(surface, valve, half_thickness, tolerance, scale, rotation_axis, rotation_angle, &
     translation, triangulation, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update
-  use riis_support, only: c_handle_of, get_placement
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
-                                                          !! * half_thickness.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*.
+  integer(int32), intent(in) :: triangulation             !< RIIS_TRIANGULATION_*, usually RIIS_TRIANGULATION_ADAPTED.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_surface_options) :: options
-  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
+  status = riis_surface_options_init(options, c_sizeof(options))
   if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
   options%triangulation = triangulation
   status = riis_surface_update(c_handle_of(surface), c_handle_of(valve), options)
 end subroutine riisf_surface_triangulate
@@ -285,14 +321,14 @@ end subroutine riisf_surface_triangulate
 subroutine riisf_surface_update_moving(surface, valve, valve_before, dt, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_update_moving
   use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_surface_update_moving
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
-  real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative if time goes
-                                                          !! backwards.
+  real(c_double), intent(in) :: dt                        !< From valve_before to valve, 1e-30 to 1e30, or negative if time
+                                                          !! goes backwards.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt)
 end subroutine riisf_surface_update_moving
@@ -301,45 +337,57 @@ end subroutine riisf_surface_update_moving
 subroutine riisf_surface_place_moving(surface, valve, valve_before, dt, half_thickness, tolerance, scale, &
     rotation_axis, rotation_angle, translation, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_OK, riis_surface_update_moving
-  use riis_support, only: c_handle_of, get_placement
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_surface_update_moving
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve                     !< Must be created; read during the call only.
   integer(int64), intent(in) :: valve_before              !< The earlier state; read during the call only.
   real(c_double), intent(in) :: dt                        !< From valve_before to valve.
   real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
-  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most tolerance
-                                                          !! * half_thickness.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
   real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
   real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
   real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
-  real(c_double), intent(in) :: scale_before              !< For the earlier state, like the next three arguments.
-  real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
-  real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
+  real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
+  real(c_double), intent(in) :: translation_before(3)     !< The placement of the earlier state.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_surface_options) :: options, before
-  status = get_placement(half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, options)
-  if (status == RIIS_OK) status = get_placement(half_thickness, tolerance, scale_before, rotation_axis_before, &
-    rotation_angle_before, translation_before, before)
+  type(riis_surface_options) :: options
+  type(riis_surface_options) :: options_before
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_surface_options_init(options_before, c_sizeof(options_before))
   if (status /= RIIS_OK) return
-  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt, options, &
-    before)
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  options_before%scale = scale_before
+  options_before%rotation_axis = rotation_axis_before
+  options_before%rotation_angle = rotation_angle_before
+  options_before%translation = translation_before
+  options_before%half_thickness = half_thickness
+  options_before%tolerance = tolerance
+  status = riis_surface_update_moving(c_handle_of(surface), c_handle_of(valve), c_handle_of(valve_before), dt, &
+      options, options_before)
 end subroutine riisf_surface_place_moving
 
 !> Adds a direction in which the surface of a valve changes, as riis_surface_add_direction does with the surface's placement.
-!! Marking with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K. The directions count from 1, in the order of
-!! the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp out of range;
+!! Marking with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K. The directions count from 1, in the order
+!! of the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp out of range;
 !! RIIS_INVALID_PARAMETER for a state of another kind or with other patches; RIIS_LIMIT_EXCEEDED for more than 1000.
 subroutine riisf_surface_add_direction(surface, valve_after, valve_before, dp, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_add_direction
   use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_surface_add_direction
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
@@ -353,39 +401,48 @@ end subroutine riisf_surface_add_direction
 subroutine riisf_surface_add_placed(surface, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
     rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
     translation_before, status)
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_surface_options, RIIS_AUTO, RIIS_OK, riis_surface_add_direction
-  use riis_support, only: c_handle_of, get_placement
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_add_direction, riis_surface_options, riis_surface_options_init
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   integer(int64), intent(in) :: valve_after               !< The valve with the parameter a little larger than in the surface.
   integer(int64), intent(in) :: valve_before              !< The valve with the parameter a little smaller, or the same valve.
-  real(c_double), intent(in) :: dp                        !< The parameter's difference from the state before to the state after.
-  real(c_double), intent(in) :: scale_after               !< For the state after, like the next three arguments.
-  real(c_double), intent(in) :: rotation_axis_after(3)    !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle_after      !< Degrees.
-  real(c_double), intent(in) :: translation_after(3)      !< Mesh units.
-  real(c_double), intent(in) :: scale_before              !< For the state before, like the next three arguments.
-  real(c_double), intent(in) :: rotation_axis_before(3)   !< At least 1e-50 long.
-  real(c_double), intent(in) :: rotation_angle_before     !< Degrees.
-  real(c_double), intent(in) :: translation_before(3)     !< Mesh units.
+  real(c_double), intent(in) :: dp                        !< The parameter's difference from the state before to the state
+                                                          !! after.
+  real(c_double), intent(in) :: scale_after               !< The placement of the later state.
+  real(c_double), intent(in) :: rotation_axis_after(3)    !< The placement of the later state.
+  real(c_double), intent(in) :: rotation_angle_after      !< The placement of the later state.
+  real(c_double), intent(in) :: translation_after(3)      !< The placement of the later state.
+  real(c_double), intent(in) :: scale_before              !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_axis_before(3)   !< The placement of the earlier state.
+  real(c_double), intent(in) :: rotation_angle_before     !< The placement of the earlier state.
+  real(c_double), intent(in) :: translation_before(3)     !< The placement of the earlier state.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  type(riis_surface_options) :: after, before
-  status = get_placement(RIIS_AUTO, 0.05d0, scale_after, rotation_axis_after, rotation_angle_after, translation_after, after)
-  if (status == RIIS_OK) status = get_placement(RIIS_AUTO, 0.05d0, scale_before, rotation_axis_before, &
-    rotation_angle_before, translation_before, before)
+  type(riis_surface_options) :: options_after
+  type(riis_surface_options) :: options_before
+  status = riis_surface_options_init(options_after, c_sizeof(options_after))
+  if (status == RIIS_OK) status = riis_surface_options_init(options_before, c_sizeof(options_before))
   if (status /= RIIS_OK) return
-  status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp, after, &
-    before)
+  options_after%scale = scale_after
+  options_after%rotation_axis = rotation_axis_after
+  options_after%rotation_angle = rotation_angle_after
+  options_after%translation = translation_after
+  options_before%scale = scale_before
+  options_before%rotation_axis = rotation_axis_before
+  options_before%rotation_angle = rotation_angle_before
+  options_before%translation = translation_before
+  status = riis_surface_add_direction(c_handle_of(surface), c_handle_of(valve_after), c_handle_of(valve_before), dp, &
+      options_after, options_before)
 end subroutine riisf_surface_add_placed
 
 !> Destroys the surface and sets its handle to 0. Nothing happens to a handle that is 0.
 subroutine riisf_surface_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_surface_destroy
   use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_surface_destroy
   implicit none
   integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
@@ -394,47 +451,52 @@ subroutine riisf_surface_destroy(handle)
   handle = handle_of(c_handle)
 end subroutine riisf_surface_destroy
 
-!> Makes a mesh that borrows node coordinates and checks them once. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and
-!! the value.
+! -----------------------------------------------------------------------------------------------------------------
+! Meshes
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Makes a mesh that borrows node coordinates and checks them once. Errors: RIIS_INVALID_MESH naming the node, counted from 0,
+!! and the value.
 subroutine riisf_mesh_create(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, RIIS_OK, riis_mesh_create
   use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_mesh_create, riis_status
   implicit none
   integer(int32), intent(in) :: n_nodes                   !< >= 0.
-  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int64), intent(inout) :: mesh                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
   c_handle = c_null_ptr
   status = riis_mesh_create(int(n_nodes, int64), location_of(x), location_of(y), location_of(z), int(stride, int64), &
-    c_handle)
-  if (status == RIIS_OK) mesh = handle_of(c_handle)
+      c_handle)
+  if (status /= RIIS_OK) return
+  mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create
 
-!> Does the same.
+!> Does the same as riisf_mesh_create, with counts and ids of INTEGER*8.
 subroutine riisf_mesh_create_64(n_nodes, x, y, z, stride, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, RIIS_OK, riis_mesh_create
   use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_mesh_create, riis_status
   implicit none
   integer(int64), intent(in) :: n_nodes                   !< >= 0.
-  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int64), intent(inout) :: mesh                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(c_ptr) :: c_handle
   c_handle = c_null_ptr
-  status = riis_mesh_create(int(n_nodes, int64), location_of(x), location_of(y), location_of(z), int(stride, int64), &
-    c_handle)
-  if (status == RIIS_OK) mesh = handle_of(c_handle)
+  status = riis_mesh_create(n_nodes, location_of(x), location_of(y), location_of(z), stride, c_handle)
+  if (status /= RIIS_OK) return
+  mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_64
 
 !> Tells the mesh that the coordinates changed, in place or to other arrays. Call it after every change of coordinates. The
@@ -442,58 +504,55 @@ end subroutine riisf_mesh_create_64
 subroutine riisf_mesh_update(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_mesh_update
   use riis_support, only: c_handle_of, location_of
+  use riis_c, only: riis_mesh_update, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int32), intent(in) :: n_nodes                   !< >= 0.
-  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   status = riis_mesh_update(c_handle_of(mesh), int(n_nodes, int64), location_of(x), location_of(y), location_of(z), &
-    int(stride, int64))
+      int(stride, int64))
 end subroutine riisf_mesh_update
 
-!> Does the same.
+!> Does the same as riisf_mesh_update, with counts and ids of INTEGER*8.
 subroutine riisf_mesh_update_64(mesh, n_nodes, x, y, z, stride, status)
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_status, riis_mesh_update
   use riis_support, only: c_handle_of, location_of
+  use riis_c, only: riis_mesh_update, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int64), intent(in) :: n_nodes                   !< >= 0.
-  real(c_double), intent(in) :: x(*)                      !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  real(c_double), intent(in) :: y(*)                      !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  real(c_double), intent(in) :: z(*)                      !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
-  status = riis_mesh_update(c_handle_of(mesh), int(n_nodes, int64), location_of(x), location_of(y), location_of(z), &
-    int(stride, int64))
+  status = riis_mesh_update(c_handle_of(mesh), n_nodes, location_of(x), location_of(y), location_of(z), stride)
 end subroutine riisf_mesh_update_64
 
 !> Makes a mesh that copies node coordinates and checks them: REAL*4 with real_bits 32, REAL*8 with 64. The caller's arrays are
 !! not needed afterwards. Errors: RIIS_INVALID_MESH naming the node, counted from 0, and the value.
-subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, &
-    mesh, status)
+subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_create_copy, riis_points_init
   use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_mesh_create_copy, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int32), intent(in) :: n_nodes                   !< >= 0.
-  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
   integer(int64), intent(inout) :: mesh                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: nodes
   type(c_ptr) :: c_handle
-  c_handle = c_null_ptr
   status = riis_points_init(nodes, c_sizeof(nodes))
   if (status /= RIIS_OK) return
   nodes%n_points = n_nodes
@@ -502,29 +561,29 @@ subroutine riisf_mesh_create_copy(n_nodes, x, y, z, stride, real_bits, &
   nodes%z = location_of(z)
   nodes%stride = stride
   nodes%real_bits = real_bits
+  c_handle = c_null_ptr
   status = riis_mesh_create_copy(nodes, c_handle)
-  if (status == RIIS_OK) mesh = handle_of(c_handle)
+  if (status /= RIIS_OK) return
+  mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy
 
-!> Does the same.
-subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, &
-    mesh, status)
+!> Does the same as riisf_mesh_create_copy, with counts and ids of INTEGER*8.
+subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, mesh, status)
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_create_copy, riis_points_init
   use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_mesh_create_copy, riis_points, riis_points_init, riis_status
   implicit none
-  integer(int64), intent(in) :: n_nodes                   !< >= 0.
-  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
   integer(int64), intent(inout) :: mesh                   !< Written on success.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_points) :: nodes
   type(c_ptr) :: c_handle
-  c_handle = c_null_ptr
   status = riis_points_init(nodes, c_sizeof(nodes))
   if (status /= RIIS_OK) return
   nodes%n_points = n_nodes
@@ -533,23 +592,24 @@ subroutine riisf_mesh_create_copy_64(n_nodes, x, y, z, stride, real_bits, &
   nodes%z = location_of(z)
   nodes%stride = stride
   nodes%real_bits = real_bits
+  c_handle = c_null_ptr
   status = riis_mesh_create_copy(nodes, c_handle)
-  if (status == RIIS_OK) mesh = handle_of(c_handle)
+  if (status /= RIIS_OK) return
+  mesh = handle_of(c_handle)
 end subroutine riisf_mesh_create_copy_64
 
 !> Copies new coordinates into a mesh. A mesh may change between borrowed and copied coordinates.
-subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, &
-    status)
+subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_update_copy, riis_points_init
   use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_mesh_update_copy, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int32), intent(in) :: n_nodes                   !< >= 0.
-  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -565,19 +625,18 @@ subroutine riisf_mesh_update_copy(mesh, n_nodes, x, y, z, stride, real_bits, &
   status = riis_mesh_update_copy(c_handle_of(mesh), nodes)
 end subroutine riisf_mesh_update_copy
 
-!> Does the same.
-subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, &
-    status)
+!> Does the same as riisf_mesh_update_copy, with counts and ids of INTEGER*8.
+subroutine riisf_mesh_update_copy_64(mesh, n_nodes, x, y, z, stride, real_bits, status)
   use, intrinsic :: iso_c_binding, only: c_sizeof
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_points, riis_status, RIIS_OK, riis_mesh_update_copy, riis_points_init
   use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_mesh_update_copy, riis_points, riis_points_init, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
-  integer(int64), intent(in) :: n_nodes                   !< >= 0.
-  type(*), intent(in) :: x(*)                             !< Node i is x(1 + (i - 1) * stride): X or XYZ(1,1).
-  type(*), intent(in) :: y(*)                             !< Node i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
-  type(*), intent(in) :: z(*)                             !< Node i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  type(*), intent(in) :: x(*)                             !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  type(*), intent(in) :: y(*)                             !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  type(*), intent(in) :: z(*)                             !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
   integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
   integer(int32), intent(in) :: real_bits                 !< 32 for REAL*4, 64 for REAL*8.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -596,8 +655,8 @@ end subroutine riisf_mesh_update_copy_64
 !> Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them.
 subroutine riisf_mesh_prepare(mesh, n_threads, status)
   use, intrinsic :: iso_fortran_env, only: int32, int64
-  use riis_c, only: riis_status, riis_mesh_prepare
   use riis_support, only: c_handle_of
+  use riis_c, only: riis_mesh_prepare, riis_status
   implicit none
   integer(int64), intent(in) :: mesh                      !< Must be created.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
@@ -609,8 +668,8 @@ end subroutine riisf_mesh_prepare
 subroutine riisf_mesh_destroy(handle)
   use, intrinsic :: iso_c_binding, only: c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
-  use riis_c, only: riis_mesh_destroy
   use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_mesh_destroy
   implicit none
   integer(int64), intent(inout) :: handle                 !< May be 0.
   type(c_ptr) :: c_handle
@@ -618,6 +677,10 @@ subroutine riisf_mesh_destroy(handle)
   call riis_mesh_destroy(c_handle)
   handle = handle_of(c_handle)
 end subroutine riisf_mesh_destroy
+
+! -----------------------------------------------------------------------------------------------------------------
+! Errors and version
+! -----------------------------------------------------------------------------------------------------------------
 
 !> Gives the message of the calling thread's last error, truncated or padded with blanks.
 subroutine riisf_last_error(text)
@@ -643,3 +706,3808 @@ subroutine riisf_version(text)
   character(len=*), intent(out) :: text                   !< 16 characters are enough for every version.
   text = riis_c_text(riis_version_string())
 end subroutine riisf_version
+
+! -----------------------------------------------------------------------------------------------------------------
+! Adjacencies
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Gives the mesh its adjacency as compressed sparse rows, which are borrowed. If index_base is 1, the neighbours of node i are
+!! columns(offsets(i)) to columns(offsets(i + 1) - 1). Errors: RIIS_INVALID_ARGUMENT for an argument out of range,
+!! RIIS_INVALID_MESH naming the row, counted from 0, and its value. The mesh then keeps its earlier rows.
+subroutine riisf_mesh_set_adjacency(mesh, n_rows, offsets, columns, index_base, n_all, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_csr, riis_csr_init, riis_mesh_set_adjacency, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int32), intent(in) :: n_rows                    !< The mesh's n_nodes.
+  integer(int32), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
+  integer(int32), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
+                                                          !! n_rows on are ghosts, nodes of other ranks, and are ignored. 0
+                                                          !! stands for n_rows.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_csr) :: csr
+  status = riis_csr_init(csr, c_sizeof(csr))
+  if (status /= RIIS_OK) return
+  csr%n_rows = n_rows
+  csr%offsets = location_of(offsets)
+  csr%columns = location_of(columns)
+  csr%index_base = index_base
+  csr%n_all = n_all
+  csr%offset_bits = storage_size(offsets)
+  csr%column_bits = storage_size(columns)
+  status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
+end subroutine riisf_mesh_set_adjacency
+
+!> Does the same as riisf_mesh_set_adjacency, with counts and ids of INTEGER*8.
+subroutine riisf_mesh_set_adjacency_64(mesh, n_rows, offsets, columns, index_base, n_all, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_csr, riis_csr_init, riis_mesh_set_adjacency, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: n_rows                    !< The mesh's n_nodes.
+  integer(int64), intent(in) :: offsets(*)                !< (n_rows + 1), ascending from the base; a row may be empty.
+  integer(int64), intent(in) :: columns(*)                !< (offsets(n_rows + 1) - index_base), from index_base.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int64), intent(in) :: n_all                     !< Columns are below this number, at least n_rows. Columns from
+                                                          !! n_rows on are ghosts, nodes of other ranks, and are ignored. 0
+                                                          !! stands for n_rows.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_csr) :: csr
+  status = riis_csr_init(csr, c_sizeof(csr))
+  if (status /= RIIS_OK) return
+  csr%n_rows = n_rows
+  csr%offsets = location_of(offsets)
+  csr%columns = location_of(columns)
+  csr%index_base = index_base
+  csr%n_all = n_all
+  csr%offset_bits = storage_size(offsets)
+  csr%column_bits = storage_size(columns)
+  status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
+end subroutine riisf_mesh_set_adjacency_64
+
+!> Gives the mesh the rows of an adjacency that the library made. The adjacency must live until the mesh is destroyed or gets
+!! another adjacency.
+subroutine riisf_mesh_use_adjacency(mesh, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_adjacency_get_csr, riis_csr, riis_mesh_set_adjacency, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(int64), intent(in) :: adjacency                 !< Must be created. Destroy it after the mesh.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_csr) :: csr
+  status = riis_adjacency_get_csr(c_handle_of(adjacency), csr, c_sizeof(csr))
+  if (status == RIIS_OK) status = riis_mesh_set_adjacency(c_handle_of(mesh), csr)
+end subroutine riisf_mesh_use_adjacency
+
+!> Removes the mesh's adjacency. Its rows are not borrowed any more.
+subroutine riisf_mesh_clear_adjacency(mesh, status)
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: riis_mesh_set_adjacency, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_mesh_set_adjacency(c_handle_of(mesh))
+end subroutine riisf_mesh_clear_adjacency
+
+!> Makes an adjacency from cells that all have the same number of nodes, in VTK's order. Two nodes are neighbours if an edge of a
+!! cell joins them. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, RIIS_INVALID_MESH naming the cell, counted from
+!! 0, and its value.
+subroutine riisf_adjacency_from_cells(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
+  implicit none
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
+  integer(int32), intent(in) :: n_cells                   !< >= 0.
+  integer(int32), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mesh_cells) :: the_cells
+  type(c_ptr) :: c_handle
+  status = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
+  if (status /= RIIS_OK) return
+  the_cells%n_nodes = n_nodes
+  the_cells%nodes_per_cell = nodes_per_cell
+  the_cells%n_cells = n_cells
+  the_cells%node_ids = location_of(cells)
+  the_cells%index_base = index_base
+  the_cells%n_threads = n_threads
+  the_cells%id_bits = storage_size(cells)
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_cells(the_cells, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_cells
+
+!> Does the same as riisf_adjacency_from_cells, with counts and ids of INTEGER*8.
+subroutine riisf_adjacency_from_cells_64(n_nodes, nodes_per_cell, n_cells, cells, index_base, n_threads, adjacency, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int32), intent(in) :: nodes_per_cell            !< 4 tetrahedron, 5 pyramid, 6 prism, 8 hexahedron.
+  integer(int64), intent(in) :: n_cells                   !< >= 0.
+  integer(int64), intent(in) :: cells(*)                  !< CELLS(nodes_per_cell, n_cells).
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mesh_cells) :: the_cells
+  type(c_ptr) :: c_handle
+  status = riis_mesh_cells_init(the_cells, c_sizeof(the_cells))
+  if (status /= RIIS_OK) return
+  the_cells%n_nodes = n_nodes
+  the_cells%nodes_per_cell = nodes_per_cell
+  the_cells%n_cells = n_cells
+  the_cells%node_ids = location_of(cells)
+  the_cells%index_base = index_base
+  the_cells%n_threads = n_threads
+  the_cells%id_bits = storage_size(cells)
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_cells(the_cells, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_cells_64
+
+!> Makes an adjacency from cells of several shapes. If offsets begins with 1, the nodes of cell i are node_ids(offsets(i)) to
+!! node_ids(offsets(i + 1) - 1).
+subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
+  implicit none
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int32), intent(in) :: n_cells                   !< >= 0.
+  integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                          !! cell begins in node_ids, and where the last ends.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mesh_cells) :: cells
+  type(c_ptr) :: c_handle
+  status = riis_mesh_cells_init(cells, c_sizeof(cells))
+  if (status /= RIIS_OK) return
+  cells%n_nodes = n_nodes
+  cells%n_cells = n_cells
+  cells%node_ids = location_of(node_ids)
+  cells%offsets = location_of(offsets)
+  cells%index_base = index_base
+  cells%n_threads = n_threads
+  cells%id_bits = storage_size(node_ids)
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_cells(cells, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_mixed
+
+!> Does the same as riisf_adjacency_from_mixed, with counts and ids of INTEGER*8.
+subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, index_base, n_threads, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_cells, riis_mesh_cells, riis_mesh_cells_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int64), intent(in) :: n_cells                   !< >= 0.
+  integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
+                                                          !! cell begins in node_ids, and where the last ends.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mesh_cells) :: cells
+  type(c_ptr) :: c_handle
+  status = riis_mesh_cells_init(cells, c_sizeof(cells))
+  if (status /= RIIS_OK) return
+  cells%n_nodes = n_nodes
+  cells%n_cells = n_cells
+  cells%node_ids = location_of(node_ids)
+  cells%offsets = location_of(offsets)
+  cells%index_base = index_base
+  cells%n_threads = n_threads
+  cells%id_bits = storage_size(node_ids)
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_cells(cells, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_mixed_64
+
+!> Makes an adjacency from faces, for codes that mark cell centres. Two cells are neighbours if they have a common face. The
+!! errors are those of riisf_adjacency_from_cells.
+subroutine riisf_adjacency_from_faces(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_faces, riis_mesh_faces, riis_mesh_faces_init, riis_status
+  implicit none
+  integer(int32), intent(in) :: n_cells                   !< The number of cells, >= 0. The nodes of the mesh are cell centres.
+  integer(int32), intent(in) :: n_faces                   !< >= 0.
+  integer(int32), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
+                                                          !! boundary.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mesh_faces) :: faces
+  type(c_ptr) :: c_handle
+  status = riis_mesh_faces_init(faces, c_sizeof(faces))
+  if (status /= RIIS_OK) return
+  faces%n_cells = n_cells
+  faces%n_faces = n_faces
+  faces%index_base = index_base
+  faces%n_threads = n_threads
+  if (n_faces > 0) faces%owner = location_of(face_cells(1))
+  if (n_faces > 0) faces%neighbor = location_of(face_cells(2))
+  faces%stride = 2
+  faces%id_bits = storage_size(face_cells)
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_faces(faces, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_faces
+
+!> Does the same as riisf_adjacency_from_faces, with counts and ids of INTEGER*8.
+subroutine riisf_adjacency_from_faces_64(n_cells, n_faces, face_cells, index_base, n_threads, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_faces, riis_mesh_faces, riis_mesh_faces_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: n_cells                   !< The number of cells, >= 0. The nodes of the mesh are cell centres.
+  integer(int64), intent(in) :: n_faces                   !< >= 0.
+  integer(int64), intent(in) :: face_cells(*)             !< FACE_CELLS(2, n_faces); the second is index_base - 1 at the
+                                                          !! boundary.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mesh_faces) :: faces
+  type(c_ptr) :: c_handle
+  status = riis_mesh_faces_init(faces, c_sizeof(faces))
+  if (status /= RIIS_OK) return
+  faces%n_cells = n_cells
+  faces%n_faces = n_faces
+  faces%index_base = index_base
+  faces%n_threads = n_threads
+  if (n_faces > 0) faces%owner = location_of(face_cells(1))
+  if (n_faces > 0) faces%neighbor = location_of(face_cells(2))
+  faces%stride = 2
+  faces%id_bits = storage_size(face_cells)
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_faces(faces, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_faces_64
+
+!> Makes the adjacency of a structured grid, XYZ(3, ni, nj, nk). Neighbours differ by 1 in one of i, j, k.
+subroutine riisf_adjacency_from_grid(ni, nj, nk, n_threads, adjacency, status)
+  use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of
+  use riis_c, only: RIIS_OK, riis_adjacency_create_from_grid, riis_status
+  implicit none
+  integer(int32), intent(in) :: ni                        !< >= 1.
+  integer(int32), intent(in) :: nj                        !< >= 1.
+  integer(int32), intent(in) :: nk                        !< >= 1.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: adjacency              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(c_ptr) :: c_handle
+  c_handle = c_null_ptr
+  status = riis_adjacency_create_from_grid(int(ni, int64), int(nj, int64), int(nk, int64), n_threads, c_handle)
+  if (status /= RIIS_OK) return
+  adjacency = handle_of(c_handle)
+end subroutine riisf_adjacency_from_grid
+
+!> Destroys the adjacency and sets its handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_adjacency_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_adjacency_destroy
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< May be 0.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_adjacency_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_adjacency_destroy
+
+! -----------------------------------------------------------------------------------------------------------------
+! Surfaces from triangles or quads, and from frames in time
+! Triangles without area are refused.
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Makes a surface from triangles or quads, placed by x -> scale * rotation * x + translation. A quad 1 2 3 4 becomes the
+!! triangles 1 2 3 and 1 3 4. Errors: RIIS_INVALID_SURFACE naming the face or vertex and its value, RIIS_INVALID_ARGUMENT for an
+!! option out of range, RIIS_LIMIT_EXCEEDED for too many faces.
+subroutine riisf_surface_from_arrays(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, index_base, &
+    half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, &
+      riis_surface_create_from_arrays, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  arrays%id_bits = storage_size(vertex_ids)
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_arrays(arrays, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_from_arrays
+
+!> Does the same as riisf_surface_from_arrays, with counts and ids of INTEGER*8.
+subroutine riisf_surface_from_arrays_64(n_vertices, x, y, z, stride, corners_per_face, n_faces, vertex_ids, &
+    index_base, half_thickness, tolerance, scale, rotation_axis, rotation_angle, translation, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, &
+      riis_surface_create_from_arrays, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  arrays%id_bits = storage_size(vertex_ids)
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_arrays(arrays, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_from_arrays_64
+
+!> Replaces the surface by triangles or quads that moved, with the same options and with the velocities of the vertices. The
+!! placement rotates and scales velocities, but does not translate them. Errors: as for riisf_surface_from_arrays.
+subroutine riisf_surface_update_arrays(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
+    corners_per_face, n_faces, vertex_ids, index_base, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, riis_surface_update_from_arrays
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  real(c_double), intent(in) :: vx(*)                     !< Vertex i has vx(1 + (i - 1) * velocity_stride); 0: no velocities.
+  real(c_double), intent(in) :: vy(*)                     !< Like vx.
+  real(c_double), intent(in) :: vz(*)                     !< Like vx.
+  integer(int32), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%vx = location_of(vx)
+  arrays%vy = location_of(vy)
+  arrays%vz = location_of(vz)
+  arrays%velocity_stride = velocity_stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  arrays%id_bits = storage_size(vertex_ids)
+  status = riis_surface_update_from_arrays(c_handle_of(surface), arrays)
+end subroutine riisf_surface_update_arrays
+
+!> Does the same as riisf_surface_update_arrays, with counts and ids of INTEGER*8.
+subroutine riisf_surface_update_arrays_64(surface, n_vertices, x, y, z, stride, vx, vy, vz, velocity_stride, &
+    corners_per_face, n_faces, vertex_ids, index_base, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_arrays, riis_surface_arrays_init, riis_surface_update_from_arrays
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  real(c_double), intent(in) :: vx(*)                     !< Vertex i has vx(1 + (i - 1) * velocity_stride); 0: no velocities.
+  real(c_double), intent(in) :: vy(*)                     !< Like vx.
+  real(c_double), intent(in) :: vz(*)                     !< Like vx.
+  integer(int64), intent(in) :: velocity_stride           !< 1 for separate arrays, 3 for V(3,*).
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  arrays%x = location_of(x)
+  arrays%y = location_of(y)
+  arrays%z = location_of(z)
+  arrays%stride = stride
+  arrays%vx = location_of(vx)
+  arrays%vy = location_of(vy)
+  arrays%vz = location_of(vz)
+  arrays%velocity_stride = velocity_stride
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  arrays%id_bits = storage_size(vertex_ids)
+  status = riis_surface_update_from_arrays(c_handle_of(surface), arrays)
+end subroutine riisf_surface_update_arrays_64
+
+!> Makes keyframes: a surface that moves by frames in time. All frames have the same faces, but other positions of the vertices.
+!! All arrays are copied. Errors: RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value; RIIS_INVALID_SURFACE
+!! naming the frame, vertex or face.
+subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpolation, corners_per_face, n_faces, &
+    vertex_ids, index_base, keyframes, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_keyframe_arrays, riis_keyframe_arrays_init, riis_keyframes_create, riis_status, &
+      riis_surface_arrays, riis_surface_arrays_init
+  implicit none
+  integer(int32), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
+  real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
+  real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
+                                                          !! magnitude at most 1e60.
+  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
+                                                          !! key. A last key one period after the first must have the same
+                                                          !! frame. 0: the surface rests before the first key and after the
+                                                          !! last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
+                                                          !! RIIS_INTERPOLATION_LINEAR.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int32), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int32), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int64), intent(inout) :: keyframes              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_keyframe_arrays) :: frames
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_keyframe_arrays_init(frames, c_sizeof(frames))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  frames%n_keys = n_keys
+  frames%time = location_of(time)
+  frames%xyz = location_of(xyz)
+  frames%period = period
+  frames%interpolation = interpolation
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  arrays%id_bits = storage_size(vertex_ids)
+  frames%n_vertices = n_vertices
+  c_handle = c_null_ptr
+  status = riis_keyframes_create(arrays, frames, c_handle)
+  if (status /= RIIS_OK) return
+  keyframes = handle_of(c_handle)
+end subroutine riisf_keyframes_create
+
+!> Does the same as riisf_keyframes_create, with counts and ids of INTEGER*8.
+subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, interpolation, corners_per_face, n_faces, &
+    vertex_ids, index_base, keyframes, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_keyframe_arrays, riis_keyframe_arrays_init, riis_keyframes_create, riis_status, &
+      riis_surface_arrays, riis_surface_arrays_init
+  implicit none
+  integer(int64), intent(in) :: n_vertices                !< 1 to 2^31 - 1.
+  integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
+  real(c_double), intent(in) :: time(*)                   !< (n_keys), strictly ascending, magnitude at most 1e30.
+  real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
+                                                          !! magnitude at most 1e60.
+  real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
+                                                          !! key. A last key one period after the first must have the same
+                                                          !! frame. 0: the surface rests before the first key and after the
+                                                          !! last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
+                                                          !! RIIS_INTERPOLATION_LINEAR.
+  integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
+  integer(int64), intent(in) :: n_faces                   !< 1 to 16,777,216 triangles, half as many quads.
+  integer(int64), intent(in) :: vertex_ids(*)             !< (corners_per_face, n_faces), counted from index_base. The
+                                                          !! right-hand rule makes the normal.
+  integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
+  integer(int64), intent(inout) :: keyframes              !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_arrays) :: arrays
+  type(riis_keyframe_arrays) :: frames
+  type(c_ptr) :: c_handle
+  status = riis_surface_arrays_init(arrays, c_sizeof(arrays))
+  if (status == RIIS_OK) status = riis_keyframe_arrays_init(frames, c_sizeof(frames))
+  if (status /= RIIS_OK) return
+  arrays%n_vertices = n_vertices
+  frames%n_keys = n_keys
+  frames%time = location_of(time)
+  frames%xyz = location_of(xyz)
+  frames%period = period
+  frames%interpolation = interpolation
+  arrays%corners_per_face = corners_per_face
+  arrays%n_faces = n_faces
+  arrays%vertex_ids = location_of(vertex_ids)
+  arrays%index_base = index_base
+  arrays%id_bits = storage_size(vertex_ids)
+  frames%n_vertices = n_vertices
+  c_handle = c_null_ptr
+  status = riis_keyframes_create(arrays, frames, c_handle)
+  if (status /= RIIS_OK) return
+  keyframes = handle_of(c_handle)
+end subroutine riisf_keyframes_create_64
+
+!> Makes a surface from the frames around a time, with velocities. The placement is that of riisf_surface_create. Errors:
+!! RIIS_INVALID_ARGUMENT for a time or an option out of range, RIIS_INVALID_SURFACE for a face without area.
+subroutine riisf_surface_from_keyframes(keyframes, time, dt, half_thickness, tolerance, scale, rotation_axis, &
+    rotation_angle, translation, surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_create_from_keyframes, riis_surface_options, &
+      riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
+  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+  real(c_double), intent(in) :: dt                        !< The velocity is the mean from time - dt to time. 0: it is the
+                                                          !! derivative of the interpolation.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(int64), intent(inout) :: surface                !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  c_handle = c_null_ptr
+  status = riis_surface_create_from_keyframes(c_handle_of(keyframes), time, dt, options, c_handle)
+  if (status /= RIIS_OK) return
+  surface = handle_of(c_handle)
+end subroutine riisf_surface_from_keyframes
+
+!> Replaces the surface by the surface at another time, with the same options. Errors: as for riisf_surface_from_keyframes.
+subroutine riisf_surface_update_keyframes(surface, keyframes, time, dt, status)
+  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_surface_update_from_keyframes
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: keyframes                 !< Must be created; read during the call only.
+  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+  real(c_double), intent(in) :: dt                        !< As in riisf_surface_from_keyframes.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_surface_update_from_keyframes(c_handle_of(surface), c_handle_of(keyframes), time, dt)
+end subroutine riisf_surface_update_keyframes
+
+!> Destroys the keyframes and sets their handle to 0. Surfaces made from them stay. Nothing happens to a handle that is 0.
+subroutine riisf_keyframes_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_keyframes_destroy
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< May be 0.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_keyframes_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_keyframes_destroy
+
+! -----------------------------------------------------------------------------------------------------------------
+! Vertices, velocities, closest points
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Copies the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if the array is too
+!! short; only n is then written.
+subroutine riisf_surface_vertices(surface, length, n, xyz, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
+  real(c_double), intent(inout) :: xyz(*)                 !< (3, length): the vertices; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_triangles) :: triangles
+  real(c_double), pointer :: c_xyz(:)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
+  if (status /= RIIS_OK) return
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int32)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+        text_of(triangles%n_vertices))
+    return
+  end if
+  if (triangles%n_vertices == 0) return
+  call c_f_pointer(triangles%xyz, c_xyz, [3 * triangles%n_vertices])
+  xyz(:3 * triangles%n_vertices) = c_xyz
+end subroutine riisf_surface_vertices
+
+!> Does the same as riisf_surface_vertices, with counts and ids of INTEGER*8.
+subroutine riisf_surface_vertices_64(surface, length, n, xyz, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
+  real(c_double), intent(inout) :: xyz(*)                 !< (3, length): the vertices; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_triangles) :: triangles
+  real(c_double), pointer :: c_xyz(:)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
+  if (status /= RIIS_OK) return
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int64)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+        text_of(triangles%n_vertices))
+    return
+  end if
+  if (triangles%n_vertices == 0) return
+  call c_f_pointer(triangles%xyz, c_xyz, [3 * triangles%n_vertices])
+  xyz(:3 * triangles%n_vertices) = c_xyz
+end subroutine riisf_surface_vertices_64
+
+!> Copies the velocities of the surface's vertices, after placement, into the caller's array. Errors: RIIS_INVALID_ARGUMENT if
+!! the last update gave none, or if the array is too short; only n is then written.
+subroutine riisf_surface_vertex_velocities(surface, length, n, velocity, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
+  real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_triangles) :: triangles
+  real(c_double), pointer :: c_velocity(:)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
+  if (status /= RIIS_OK) return
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int32)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+        text_of(triangles%n_vertices))
+    return
+  end if
+  if (triangles%n_vertices == 0) return
+  if (.not. c_associated(triangles%velocity)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'surface has no velocities: its last update gave none')
+    return
+  end if
+  call c_f_pointer(triangles%velocity, c_velocity, [3 * triangles%n_vertices])
+  velocity(:3 * triangles%n_vertices) = c_velocity
+end subroutine riisf_surface_vertex_velocities
+
+!> Does the same as riisf_surface_vertex_velocities, with counts and ids of INTEGER*8.
+subroutine riisf_surface_vertex_velocities_64(surface, length, n, velocity, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_status, riis_surface_get_triangles, riis_triangles
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
+  real(c_double), intent(inout) :: velocity(*)            !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_triangles) :: triangles
+  real(c_double), pointer :: c_velocity(:)
+  status = riis_surface_get_triangles(c_handle_of(surface), triangles, c_sizeof(triangles))
+  if (status /= RIIS_OK) return
+  n = int(min(triangles%n_vertices, int(huge(n), int64)), int64)
+  if (triangles%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+        text_of(triangles%n_vertices))
+    return
+  end if
+  if (triangles%n_vertices == 0) return
+  if (.not. c_associated(triangles%velocity)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'surface has no velocities: its last update gave none')
+    return
+  end if
+  call c_f_pointer(triangles%velocity, c_velocity, [3 * triangles%n_vertices])
+  velocity(:3 * triangles%n_vertices) = c_velocity
+end subroutine riisf_surface_vertex_velocities_64
+
+!> Copies the edges at which tissue or a stent holds the leaflets of a valve (riis_surface_get_attachment in riis.h) into the
+!! caller's arrays. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, or if the arrays are too short; only n is then
+!! written.
+subroutine riisf_surface_attachment(surface, length, n, edges, leaflet_id, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_attachment, riis_status, riis_surface_get_attachment
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of edges, even if an array is too short.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
+                                                          !! riis_reaction.edges; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_attachment) :: attachment
+  real(c_double), pointer :: c_edges(:, :, :)
+  integer(int32), pointer :: c_leaflet_id(:)
+  status = riis_surface_get_attachment(c_handle_of(surface), attachment, c_sizeof(attachment))
+  if (status /= RIIS_OK) return
+  n = int(min(attachment%n_edges, int(huge(n), int64)), int32)
+  if (attachment%n_edges > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges: ' // text_of(attachment%n_edges))
+    return
+  end if
+  if (attachment%n_edges == 0) return
+  call c_f_pointer(attachment%edges, c_edges, [3_int64, 2_int64, attachment%n_edges])
+  edges(:, :, :n) = c_edges
+  call c_f_pointer(attachment%leaflet_id, c_leaflet_id, [attachment%n_edges])
+  leaflet_id(:n) = c_leaflet_id
+end subroutine riisf_surface_attachment
+
+!> Does the same as riisf_surface_attachment, with counts and ids of INTEGER*8.
+subroutine riisf_surface_attachment_64(surface, length, n, edges, leaflet_id, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_attachment, riis_status, riis_surface_get_attachment
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of edges, even if an array is too short.
+  real(c_double), intent(inout) :: edges(3, 2, *)         !< (3, 2, length): both ends of each edge, in the layout of
+                                                          !! riis_reaction.edges; written up to n.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (length): the leaflet that is attached there; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_attachment) :: attachment
+  real(c_double), pointer :: c_edges(:, :, :)
+  integer(int32), pointer :: c_leaflet_id(:)
+  status = riis_surface_get_attachment(c_handle_of(surface), attachment, c_sizeof(attachment))
+  if (status /= RIIS_OK) return
+  n = int(min(attachment%n_edges, int(huge(n), int64)), int64)
+  if (attachment%n_edges > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges: ' // text_of(attachment%n_edges))
+    return
+  end if
+  if (attachment%n_edges == 0) return
+  call c_f_pointer(attachment%edges, c_edges, [3_int64, 2_int64, attachment%n_edges])
+  edges(:, :, :n) = c_edges
+  call c_f_pointer(attachment%leaflet_id, c_leaflet_id, [attachment%n_edges])
+  leaflet_id(:n) = c_leaflet_id
+end subroutine riisf_surface_attachment_64
+
+!> Copies the rates of the surface's vertices in a direction (riis_surface_get_direction in riis.h) into the caller's array.
+!! Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks, or if the array is too short; only n is then written.
+subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area_rate, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_direction, riis_status, riis_surface_get_direction
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
+  real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
+                                                          !! from all triangles.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_direction) :: direction
+  real(c_double), pointer :: c_rate(:)
+  status = riis_surface_get_direction(c_handle_of(surface), int(direction_num, int64) - 1, direction, &
+      c_sizeof(direction))
+  if (status /= RIIS_OK) return
+  n = int(min(direction%n_vertices, int(huge(n), int64)), int32)
+  if (direction%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+        text_of(direction%n_vertices))
+    return
+  end if
+  if (direction%n_vertices == 0) return
+  call c_f_pointer(direction%rate, c_rate, [3 * direction%n_vertices])
+  rate(:3 * direction%n_vertices) = c_rate
+  area_rate = direction%area_rate
+end subroutine riisf_surface_direction
+
+!> Does the same as riisf_surface_direction, with counts and ids of INTEGER*8.
+subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, area_rate, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_direction, riis_status, riis_surface_get_direction
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: direction_num             !< The direction, from 1. A message counts from 0.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
+  real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
+  real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
+                                                          !! from all triangles.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_direction) :: direction
+  real(c_double), pointer :: c_rate(:)
+  status = riis_surface_get_direction(c_handle_of(surface), int(direction_num, int64) - 1, direction, &
+      c_sizeof(direction))
+  if (status /= RIIS_OK) return
+  n = int(min(direction%n_vertices, int(huge(n), int64)), int64)
+  if (direction%n_vertices > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; vertices: ' // &
+        text_of(direction%n_vertices))
+    return
+  end if
+  if (direction%n_vertices == 0) return
+  call c_f_pointer(direction%rate, c_rate, [3 * direction%n_vertices])
+  rate(:3 * direction%n_vertices) = c_rate
+  area_rate = direction%area_rate
+end subroutine riisf_surface_direction_64
+
+!> Finds the closest points of the surface to many points, in parallel. No array may overlap another. Errors:
+!! RIIS_INVALID_ARGUMENT naming the first bad point, counted from 0, or for a surface that measures distances by sampling or
+!! minimisation, because it has no sides. Nothing is then written.
+subroutine riisf_closest_points(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
+    normal, triangle_id, leaflet_id, side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
+      riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: n_points                  !< 0 to 2^40.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
+                                                          !! zeros. HUGE(1D0): no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: points
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  status = riis_points_init(points, c_sizeof(points))
+  if (status == RIIS_OK) status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
+end subroutine riisf_closest_points
+
+!> Does the same as riisf_closest_points, with counts and ids of INTEGER*8.
+subroutine riisf_closest_points_64(surface, n_points, x, y, z, stride, distance_limit, n_threads, distance, point, &
+    normal, triangle_id, leaflet_id, side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
+      riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: n_points                  !< 0 to 2^40.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
+                                                          !! zeros. HUGE(1D0): no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: points
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  status = riis_points_init(points, c_sizeof(points))
+  if (status == RIIS_OK) status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
+end subroutine riisf_closest_points_64
+
+!> Works like riisf_closest_points, but for a list of points. Only these points are read, and only their entries are written.
+subroutine riisf_closest_points_listed(surface, n_points, x, y, z, stride, n_listed, point_num, distance_limit, &
+    n_threads, distance, point, normal, triangle_id, leaflet_id, side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
+      riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: n_points                  !< 0 to 2^40.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int32), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int32), intent(in) :: n_listed                  !< 0 to n_points.
+  integer(int32), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, like the nodes of
+                                                          !! riisf_marked; copied.
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
+                                                          !! zeros. HUGE(1D0): no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_point_num(:)
+  type(riis_points) :: points
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  integer :: stat
+  status = riis_points_init(points, c_sizeof(points))
+  if (status == RIIS_OK) status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  allocate (c_point_num(max(n_listed, 1_int32)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  options%n_point_ids = n_listed
+  c_point_num(:n_listed) = int(point_num(:n_listed), int64) - 1
+  options%point_ids = c_loc(c_point_num)
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
+end subroutine riisf_closest_points_listed
+
+!> Does the same as riisf_closest_points_listed, with counts and ids of INTEGER*8.
+subroutine riisf_closest_points_listed_64(surface, n_points, x, y, z, stride, n_listed, point_num, distance_limit, &
+    n_threads, distance, point, normal, triangle_id, leaflet_id, side, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_closest_arrays, riis_closest_arrays_init, riis_closest_options, &
+      riis_closest_options_init, riis_closest_points, riis_points, riis_points_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: n_points                  !< 0 to 2^40.
+  real(c_double), intent(in) :: x(*)                      !< Entry i is x(1 + (i - 1) * stride): X or XYZ(1,1).
+  real(c_double), intent(in) :: y(*)                      !< Entry i is y(1 + (i - 1) * stride): Y or XYZ(2,1).
+  real(c_double), intent(in) :: z(*)                      !< Entry i is z(1 + (i - 1) * stride): Z or XYZ(3,1).
+  integer(int64), intent(in) :: stride                    !< 1 for separate arrays, 3 for XYZ(3,*).
+  integer(int64), intent(in) :: n_listed                  !< 0 to n_points.
+  integer(int64), intent(in) :: point_num(*)              !< (n_listed), strictly ascending, from 1, like the nodes of
+                                                          !! riisf_marked; copied.
+  real(c_double), intent(in) :: distance_limit            !< >= 0. Farther points get RIIS_FAR_DISTANCE, ids -1, side 0 and
+                                                          !! zeros. HUGE(1D0): no limit.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  real(c_double), intent(inout) :: distance(*)            !< (n_points), >= 0.
+  real(c_double), intent(inout) :: point(*)               !< (3, n_points): the closest points.
+  real(c_double), intent(inout) :: normal(*)              !< (3, n_points): the triangle's unit normal.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_points), from 0. INTEGER*8.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_points): RIIS_LEAFLET_*, or the caller's.
+  integer(int32), intent(inout) :: side(*)                !< (n_points): 1 downstream, -1 upstream, 0 on the surface or level
+                                                          !! with its rim.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_point_num(:)
+  type(riis_points) :: points
+  type(riis_closest_options) :: options
+  type(riis_closest_arrays) :: arrays
+  integer :: stat
+  status = riis_points_init(points, c_sizeof(points))
+  if (status == RIIS_OK) status = riis_closest_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_closest_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  allocate (c_point_num(max(n_listed, 1_int64)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  points%n_points = n_points
+  points%x = location_of(x)
+  points%y = location_of(y)
+  points%z = location_of(z)
+  points%stride = stride
+  options%n_point_ids = n_listed
+  c_point_num(:n_listed) = int(point_num(:n_listed), int64) - 1
+  options%point_ids = c_loc(c_point_num)
+  options%n_threads = n_threads
+  arrays%distance = location_of(distance)
+  arrays%point = location_of(point)
+  arrays%normal = location_of(normal)
+  arrays%triangle_id = location_of(triangle_id)
+  arrays%leaflet_id = location_of(leaflet_id)
+  arrays%side = location_of(side)
+  if (distance_limit < huge(distance_limit)) options%distance_limit = distance_limit
+  status = riis_closest_points(c_handle_of(surface), points, options, arrays)
+end subroutine riisf_closest_points_listed_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Marking
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Finds every node whose distance to the surface is at most the half thickness (marked) or the distance limit. Use the same
+!! marks in every time step, because they keep their memory. Errors: RIIS_INVALID_ARGUMENT for an option out of range; the marks
+!! are then as they were.
+subroutine riisf_mark_nodes(surface, mesh, distance_limit, search, n_threads, marks, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_mark_nodes, riis_mark_options, riis_mark_options_init, riis_marks_create, &
+      riis_marks_destroy, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
+                                                          !! thickness.
+  integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%distance_limit = distance_limit
+  options%search = search
+  options%n_threads = n_threads
+  c_handle = c_handle_of(marks)
+  if (marks == 0) status = riis_marks_create(c_handle)
+  if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
+  ! The handle stays 0 if it was 0 and an error occurred.
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle)
+  marks = handle_of(c_handle)
+end subroutine riisf_mark_nodes
+
+!> Copies the marked nodes into the caller's arrays, ascending by node. Errors: RIIS_INVALID_ARGUMENT if the arrays are too
+!! short; only n is then written.
+subroutine riisf_marked(marks, length, n, node_num, distance, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, &
+      riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  integer(int64), pointer :: c_node_num(:)
+  real(c_double), pointer :: c_distance(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  call c_f_pointer(list%node_id, c_node_num, [list%n_nodes])
+  if (maxval(c_node_num) >= huge(n)) then
+    status = fail(RIIS_LIMIT_EXCEEDED, 'node ' // text_of(maxval(c_node_num)) // &
+        ' is more than an INTEGER*4 can count: use riisf_marked_64')
+    return
+  end if
+  node_num(:n) = int(c_node_num + 1, int32)
+  call c_f_pointer(list%distance, c_distance, [list%n_nodes])
+  distance(:n) = c_distance
+end subroutine riisf_marked
+
+!> Does the same as riisf_marked, with counts and ids of INTEGER*8.
+subroutine riisf_marked_64(marks, length, n, node_num, distance, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  integer(int64), pointer :: c_node_num(:)
+  real(c_double), pointer :: c_distance(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  call c_f_pointer(list%node_id, c_node_num, [list%n_nodes])
+  node_num(:n) = int(c_node_num + 1, int64)
+  call c_f_pointer(list%distance, c_distance, [list%n_nodes])
+  distance(:n) = c_distance
+end subroutine riisf_marked_64
+
+!> Copies all nodes within the distance limit, marked or not, into the caller's arrays, ascending by node. Errors:
+!! RIIS_INVALID_ARGUMENT if the arrays are too short; only n is then written.
+subroutine riisf_within_limit(marks, length, n, node_num, distance, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, &
+      riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  integer(int32), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  integer(int64), pointer :: c_node_num(:)
+  real(c_double), pointer :: c_distance(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  call c_f_pointer(list%node_id, c_node_num, [list%n_nodes])
+  if (maxval(c_node_num) >= huge(n)) then
+    status = fail(RIIS_LIMIT_EXCEEDED, 'node ' // text_of(maxval(c_node_num)) // &
+        ' is more than an INTEGER*4 can count: use riisf_within_limit_64')
+    return
+  end if
+  node_num(:n) = int(c_node_num + 1, int32)
+  call c_f_pointer(list%distance, c_distance, [list%n_nodes])
+  distance(:n) = c_distance
+end subroutine riisf_within_limit
+
+!> Does the same as riisf_within_limit, with counts and ids of INTEGER*8.
+subroutine riisf_within_limit_64(marks, length, n, node_num, distance, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, riis_marks_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  integer(int64), intent(inout) :: node_num(*)            !< (length), from 1; written up to n.
+  real(c_double), intent(inout) :: distance(*)            !< (length): mesh units; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  integer(int64), pointer :: c_node_num(:)
+  real(c_double), pointer :: c_distance(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  call c_f_pointer(list%node_id, c_node_num, [list%n_nodes])
+  node_num(:n) = int(c_node_num + 1, int64)
+  call c_f_pointer(list%distance, c_distance, [list%n_nodes])
+  distance(:n) = c_distance
+end subroutine riisf_within_limit_64
+
+!> Writes every node's distance. Errors: RIIS_INVALID_ARGUMENT for a far_distance within the distance limit.
+subroutine riisf_dense_distance(marks, n_nodes, far_distance, distance, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: far_distance              !< The distance of other nodes, outside [0, distance_limit]; usually
+                                                          !! RIIS_FAR_DISTANCE.
+  real(c_double), intent(inout) :: distance(*)            !< (n_nodes): the distance of nodes within the distance limit,
+                                                          !! far_distance for others.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_dense_arrays) :: arrays
+  status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  arrays%n_nodes = n_nodes
+  arrays%far_distance = far_distance
+  arrays%distance = location_of(distance)
+  status = riis_marks_get_dense(c_handle_of(marks), arrays)
+end subroutine riisf_dense_distance
+
+!> Writes every node's closest triangle.
+subroutine riisf_dense_triangle(marks, n_nodes, triangle_id, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int64), intent(inout) :: triangle_id(*)         !< (n_nodes): the closest triangle of nodes within the distance
+                                                          !! limit, -1 for others.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_dense_arrays) :: arrays
+  status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  arrays%n_nodes = n_nodes
+  arrays%triangle_id = location_of(triangle_id)
+  status = riis_marks_get_dense(c_handle_of(marks), arrays)
+end subroutine riisf_dense_triangle
+
+!> Writes every node's closest leaflet.
+subroutine riisf_dense_leaflet(marks, n_nodes, leaflet_id, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int32), intent(inout) :: leaflet_id(*)          !< (n_nodes): RIIS_LEAFLET_* for nodes within the distance limit,
+                                                          !! else -1.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_dense_arrays) :: arrays
+  status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  arrays%n_nodes = n_nodes
+  arrays%leaflet_id = location_of(leaflet_id)
+  status = riis_marks_get_dense(c_handle_of(marks), arrays)
+end subroutine riisf_dense_leaflet
+
+!> Writes every node's mark.
+subroutine riisf_dense_mark(marks, n_nodes, mark, status)
+  use, intrinsic :: iso_c_binding, only: c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int8, int32, int64
+  use riis_support, only: c_handle_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_dense_arrays, riis_dense_arrays_init, riis_marks_get_dense, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  integer(int32), intent(inout) :: mark(*)                !< (n_nodes): 1 for marked nodes, 0 for others.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int8), allocatable, target :: c_mark(:)
+  type(riis_dense_arrays) :: arrays
+  integer :: stat
+  status = riis_dense_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  allocate (c_mark(max(n_nodes, 1_int32)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  arrays%n_nodes = n_nodes
+  arrays%mark = c_loc(c_mark)
+  status = riis_marks_get_dense(c_handle_of(marks), arrays)
+  if (status /= RIIS_OK) return
+  mark(:n_nodes) = c_mark(:n_nodes)
+end subroutine riisf_dense_mark
+
+!> Destroys the marks and sets their handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_marks_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_marks_destroy
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< May be 0.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_marks_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_marks_destroy
+
+! -----------------------------------------------------------------------------------------------------------------
+! Fields of closest points
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Marks nodes like riisf_mark_nodes, and the marks also keep fields of the closest points. Errors: RIIS_INVALID_ARGUMENT for
+!! fields that the surface lacks, such as RIIS_FIELD_VELOCITY without riisf_surface_update_moving.
+subroutine riisf_mark_with_fields(surface, mesh, distance_limit, search, n_threads, fields, marks, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_mark_nodes, riis_mark_options, riis_mark_options_init, riis_marks_create, &
+      riis_marks_destroy, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
+                                                          !! thickness.
+  integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(c_ptr) :: c_handle
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%distance_limit = distance_limit
+  options%search = search
+  options%n_threads = n_threads
+  options%fields = fields
+  c_handle = c_handle_of(marks)
+  if (marks == 0) status = riis_marks_create(c_handle)
+  if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
+  ! The handle stays 0 if it was 0 and an error occurred.
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle)
+  marks = handle_of(c_handle)
+end subroutine riisf_mark_with_fields
+
+!> Copies a field of the nodes that are marked into the caller's array, in the order of riisf_marked. RIIS_FIELD_POINT, _NORMAL,
+!! _BARYCENTRIC and _VELOCITY have three values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one for each direction. Errors:
+!! RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is then written.
+subroutine riisf_marked_reals(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_GRADIENT, RIIS_FIELD_NORMAL, RIIS_FIELD_POINT, RIIS_FIELD_UV, &
+      RIIS_FIELD_VELOCITY, RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, riis_marks_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  real(c_double), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_POINT)
+    location = list%point
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_NORMAL)
+    location = list%normal
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_BARYCENTRIC)
+    location = list%barycentric
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_UV)
+    location = list%uv
+    n_values = 2 * list%n_nodes
+  case (RIIS_FIELD_VELOCITY)
+    location = list%velocity
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = list%distance_gradient
+    n_values = list%n_directions * list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_marked_reals
+
+!> Does the same as riisf_marked_reals, with counts and ids of INTEGER*8.
+subroutine riisf_marked_reals_64(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_GRADIENT, RIIS_FIELD_NORMAL, RIIS_FIELD_POINT, RIIS_FIELD_UV, &
+      RIIS_FIELD_VELOCITY, RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, riis_marks_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  real(c_double), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_POINT)
+    location = list%point
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_NORMAL)
+    location = list%normal
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_BARYCENTRIC)
+    location = list%barycentric
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_UV)
+    location = list%uv
+    n_values = 2 * list%n_nodes
+  case (RIIS_FIELD_VELOCITY)
+    location = list%velocity
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = list%distance_gradient
+    n_values = list%n_directions * list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_marked_reals_64
+
+!> Copies a field of the nodes within the distance limit into the caller's array, in the order of riisf_within_limit.
+!! RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC and _VELOCITY have three values per node, RIIS_FIELD_UV two, RIIS_FIELD_GRADIENT one
+!! for each direction. Errors: RIIS_INVALID_ARGUMENT for another field, or if the array is too short; only n is then written.
+subroutine riisf_within_limit_reals(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_GRADIENT, RIIS_FIELD_NORMAL, RIIS_FIELD_POINT, RIIS_FIELD_UV, &
+      RIIS_FIELD_VELOCITY, RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, &
+      riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  real(c_double), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_POINT)
+    location = list%point
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_NORMAL)
+    location = list%normal
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_BARYCENTRIC)
+    location = list%barycentric
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_UV)
+    location = list%uv
+    n_values = 2 * list%n_nodes
+  case (RIIS_FIELD_VELOCITY)
+    location = list%velocity
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = list%distance_gradient
+    n_values = list%n_directions * list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_within_limit_reals
+
+!> Does the same as riisf_within_limit_reals, with counts and ids of INTEGER*8.
+subroutine riisf_within_limit_reals_64(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_BARYCENTRIC, RIIS_FIELD_GRADIENT, RIIS_FIELD_NORMAL, RIIS_FIELD_POINT, RIIS_FIELD_UV, &
+      RIIS_FIELD_VELOCITY, RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, &
+      riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  real(c_double), intent(inout) :: values(*)              !< (3, length), (2, length) for RIIS_FIELD_UV, or (number of
+                                                          !! directions, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  real(c_double), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_POINT)
+    location = list%point
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_NORMAL)
+    location = list%normal
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_BARYCENTRIC)
+    location = list%barycentric
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_UV)
+    location = list%uv
+    n_values = 2 * list%n_nodes
+  case (RIIS_FIELD_VELOCITY)
+    location = list%velocity
+    n_values = 3 * list%n_nodes
+  case (RIIS_FIELD_GRADIENT)
+    location = list%distance_gradient
+    n_values = list%n_directions * list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_POINT, _NORMAL, _BARYCENTRIC, _UV, _VELOCITY, _GRADIENT')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_within_limit_reals_64
+
+!> Copies the field RIIS_FIELD_SIDE, RIIS_FIELD_RIM or RIIS_FIELD_PATCH, which has one value per node.
+subroutine riisf_marked_integers(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_PATCH, RIIS_FIELD_RIM, RIIS_FIELD_SIDE, RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, &
+      RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  integer(int32), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_SIDE)
+    location = list%side
+    n_values = list%n_nodes
+  case (RIIS_FIELD_RIM)
+    location = list%rim
+    n_values = list%n_nodes
+  case (RIIS_FIELD_PATCH)
+    location = list%patch_id
+    n_values = list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_marked_integers
+
+!> Does the same as riisf_marked_integers, with counts and ids of INTEGER*8.
+subroutine riisf_marked_integers_64(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_PATCH, RIIS_FIELD_RIM, RIIS_FIELD_SIDE, RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, &
+      RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  integer(int32), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_SIDE)
+    location = list%side
+    n_values = list%n_nodes
+  case (RIIS_FIELD_RIM)
+    location = list%rim
+    n_values = list%n_nodes
+  case (RIIS_FIELD_PATCH)
+    location = list%patch_id
+    n_values = list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_marked_integers_64
+
+!> Copies the field RIIS_FIELD_SIDE, RIIS_FIELD_RIM or RIIS_FIELD_PATCH, which has one value per node.
+subroutine riisf_within_limit_integers(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_PATCH, RIIS_FIELD_RIM, RIIS_FIELD_SIDE, RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, &
+      RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  integer(int32), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_SIDE)
+    location = list%side
+    n_values = list%n_nodes
+  case (RIIS_FIELD_RIM)
+    location = list%rim
+    n_values = list%n_nodes
+  case (RIIS_FIELD_PATCH)
+    location = list%patch_id
+    n_values = list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_within_limit_integers
+
+!> Does the same as riisf_within_limit_integers, with counts and ids of INTEGER*8.
+subroutine riisf_within_limit_integers_64(marks, field, length, n, values, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_FIELD_PATCH, RIIS_FIELD_RIM, RIIS_FIELD_SIDE, RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, &
+      RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields.
+  integer(int32), intent(in) :: field                     !< One of RIIS_FIELD_*.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  integer(int32), intent(inout) :: values(*)              !< (length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  type(c_ptr) :: location
+  integer(int64) :: n_values
+  integer(int32), pointer :: c_values(:)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  select case (field)
+  case (RIIS_FIELD_SIDE)
+    location = list%side
+    n_values = list%n_nodes
+  case (RIIS_FIELD_RIM)
+    location = list%rim
+    n_values = list%n_nodes
+  case (RIIS_FIELD_PATCH)
+    location = list%patch_id
+    n_values = list%n_nodes
+  case default
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // &
+        '; it must be one of RIIS_FIELD_SIDE, _RIM, _PATCH')
+    return
+  end select
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(location)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'field is ' // text_of(field) // ', which the marking did not keep')
+    return
+  end if
+  call c_f_pointer(location, c_values, [n_values])
+  values(:n_values) = c_values
+end subroutine riisf_within_limit_integers_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Resistance
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Marks nodes like riisf_mark_with_fields, and also computes K and K u_surface of the nodes in the lists. K u_surface exists if
+!! the surface has velocities. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+subroutine riisf_mark_with_resistance(surface, mesh, distance_limit, search, n_threads, fields, R, half_thickness, &
+    rim, marks, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_mark_nodes, riis_mark_options, riis_mark_options_init, riis_marks_create, &
+      riis_marks_destroy, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: mesh                      !< Must be created.
+  real(c_double), intent(in) :: distance_limit            !< Nodes get their distance up to this limit; RIIS_AUTO: the half
+                                                          !! thickness.
+  integer(int32), intent(in) :: search                    !< RIIS_SEARCH_*, usually RIIS_SEARCH_AUTO.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(in) :: fields                    !< A sum of RIIS_FIELD_*, for the nodes of riis_mark_list. Usually 0.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit; RIIS_AUTO: the half thickness.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND or RIIS_RIM_CUT.
+  integer(int64), intent(inout) :: marks                  !< 0, which creates them, or from an earlier call.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(riis_resistance), target :: resistance
+  type(c_ptr) :: c_handle
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status /= RIIS_OK) return
+  options%distance_limit = distance_limit
+  options%search = search
+  options%n_threads = n_threads
+  options%fields = fields
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  options%resistance = c_loc(resistance)
+  c_handle = c_handle_of(marks)
+  if (marks == 0) status = riis_marks_create(c_handle)
+  if (status == RIIS_OK) status = riis_mark_nodes(c_handle_of(surface), c_handle_of(mesh), options, c_handle)
+  ! The handle stays 0 if it was 0 and an error occurred.
+  if (status /= RIIS_OK .and. marks == 0) call riis_marks_destroy(c_handle)
+  marks = handle_of(c_handle)
+end subroutine riisf_mark_with_resistance
+
+!> Copies K and K u_surface of the nodes that are marked, in the order of riisf_marked. Without velocities K u_surface is zero.
+!! Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short; only n is then written.
+subroutine riisf_marked_resistance(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: c_K(:)
+  real(c_double), pointer :: c_K_u_surface(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(list%K)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+    return
+  end if
+  call c_f_pointer(list%K, c_K, [list%n_nodes])
+  K(:n) = c_K
+  if (c_associated(list%K_u_surface)) then
+    call c_f_pointer(list%K_u_surface, c_K_u_surface, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = c_K_u_surface
+  else
+    K_u_surface(:, :n) = 0
+  end if
+end subroutine riisf_marked_resistance
+
+!> Does the same as riisf_marked_resistance, with counts and ids of INTEGER*8.
+subroutine riisf_marked_resistance_64(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_MARKED, RIIS_OK, riis_mark_list, riis_marks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes that are marked, even if an array is too
+                                                          !! short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: c_K(:)
+  real(c_double), pointer :: c_K_u_surface(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_MARKED, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes that are marked: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(list%K)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+    return
+  end if
+  call c_f_pointer(list%K, c_K, [list%n_nodes])
+  K(:n) = c_K
+  if (c_associated(list%K_u_surface)) then
+    call c_f_pointer(list%K_u_surface, c_K_u_surface, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = c_K_u_surface
+  else
+    K_u_surface(:, :n) = 0
+  end if
+end subroutine riisf_marked_resistance_64
+
+!> Copies K and K u_surface of the nodes within the distance limit, in the order of riisf_within_limit. Without velocities K
+!! u_surface is zero. Errors: RIIS_INVALID_ARGUMENT without riisf_mark_with_resistance, or if the arrays are too short; only n is
+!! then written.
+subroutine riisf_within_limit_resistance(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, riis_marks_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: c_K(:)
+  real(c_double), pointer :: c_K_u_surface(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int32)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(list%K)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+    return
+  end if
+  call c_f_pointer(list%K, c_K, [list%n_nodes])
+  K(:n) = c_K
+  if (c_associated(list%K_u_surface)) then
+    call c_f_pointer(list%K_u_surface, c_K_u_surface, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = c_K_u_surface
+  else
+    K_u_surface(:, :n) = 0
+  end if
+end subroutine riisf_within_limit_resistance
+
+!> Does the same as riisf_within_limit_resistance, with counts and ids of INTEGER*8.
+subroutine riisf_within_limit_resistance_64(marks, length, n, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIST_WITHIN_LIMIT, RIIS_OK, riis_mark_list, riis_marks_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_resistance.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of nodes within the distance limit, even if an array is
+                                                          !! too short.
+  real(c_double), intent(inout) :: K(*)                   !< (length); written up to n.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, length); written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_list) :: list
+  real(c_double), pointer :: c_K(:)
+  real(c_double), pointer :: c_K_u_surface(:, :)
+  status = riis_marks_get_list(c_handle_of(marks), RIIS_LIST_WITHIN_LIMIT, list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_nodes, int(huge(n), int64)), int64)
+  if (list%n_nodes > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; nodes within the distance limit: ' // &
+        text_of(list%n_nodes))
+    return
+  end if
+  if (list%n_nodes == 0) return
+  if (.not. c_associated(list%K)) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'the nodes have no K: mark with riisf_mark_with_resistance')
+    return
+  end if
+  call c_f_pointer(list%K, c_K, [list%n_nodes])
+  K(:n) = c_K
+  if (c_associated(list%K_u_surface)) then
+    call c_f_pointer(list%K_u_surface, c_K_u_surface, [3_int64, list%n_nodes])
+    K_u_surface(:, :n) = c_K_u_surface
+  else
+    K_u_surface(:, :n) = 0
+  end if
+end subroutine riisf_within_limit_resistance_64
+
+!> Adds the resistance K = (R / eps) delta(d) to the caller's array, so that several valves add up. At a distance d below eps,
+!! delta(d) is (1 + cos(pi d / eps)) / (2 eps). Errors: RIIS_INVALID_ARGUMENT for an argument out of range, another number of
+!! nodes, or a field that the marks lack.
+subroutine riisf_add_resistance(marks, R, half_thickness, rim, n_nodes, K, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
+      riis_resistance_arrays_init, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_resistance_arrays) :: arrays
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  arrays%n_nodes = n_nodes
+  arrays%K = location_of(K)
+  status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
+end subroutine riisf_add_resistance
+
+!> Does the same as riisf_add_resistance, with counts and ids of INTEGER*8.
+subroutine riisf_add_resistance_64(marks, R, half_thickness, rim, n_nodes, K, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
+      riis_resistance_arrays_init, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_resistance_arrays) :: arrays
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  arrays%n_nodes = n_nodes
+  arrays%K = location_of(K)
+  status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
+end subroutine riisf_add_resistance_64
+
+!> Adds K like riisf_add_resistance, but for a surface that moves, and also adds K u_surface. A scheme uses (sum of K) u - (sum
+!! of K u_surface).
+subroutine riisf_add_moving_resistance(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
+      riis_resistance_arrays_init, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, n_nodes): K u_surface is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_resistance_arrays) :: arrays
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  arrays%n_nodes = n_nodes
+  arrays%K = location_of(K)
+  arrays%K_u_surface(1) = location_of(K_u_surface(1, 1))
+  arrays%K_u_surface(2) = location_of(K_u_surface(2, 1))
+  arrays%K_u_surface(3) = location_of(K_u_surface(3, 1))
+  arrays%K_u_surface_stride = 3
+  status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
+end subroutine riisf_add_moving_resistance
+
+!> Does the same as riisf_add_moving_resistance, with counts and ids of INTEGER*8.
+subroutine riisf_add_moving_resistance_64(marks, R, half_thickness, rim, n_nodes, K, K_u_surface, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_marks_add_resistance, riis_resistance, riis_resistance_arrays, &
+      riis_resistance_arrays_init, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_VELOCITY.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(inout) :: K(*)                   !< (n_nodes): K is added.
+  real(c_double), intent(inout) :: K_u_surface(3, *)      !< (3, n_nodes): K u_surface is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_resistance_arrays) :: arrays
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_resistance_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  arrays%n_nodes = n_nodes
+  arrays%K = location_of(K)
+  arrays%K_u_surface(1) = location_of(K_u_surface(1, 1))
+  arrays%K_u_surface(2) = location_of(K_u_surface(2, 1))
+  arrays%K_u_surface(3) = location_of(K_u_surface(3, 1))
+  arrays%K_u_surface_stride = 3
+  status = riis_marks_add_resistance(c_handle_of(marks), resistance, arrays)
+end subroutine riisf_add_moving_resistance_64
+
+!> Adds the force of the flow on the surface: the sum of weight * K * (velocity - u_surface). Ranks sum their forces by a
+!! reduction. u_surface is used if the marking had RIIS_FIELD_VELOCITY, and is 0 otherwise. Errors: as for riisf_add_resistance.
+subroutine riisf_add_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  reaction%force = location_of(force)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_reaction
+
+!> Does the same as riisf_add_reaction, with counts and ids of INTEGER*8.
+subroutine riisf_add_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, force, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes or riisf_mark_with_fields.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(inout) :: force(3)               !< The force is added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  reaction%force = location_of(force)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_reaction_64
+
+!> Adds the force of the flow and its moment about a point, for the whole surface and for each leaflet. The force of a node acts
+!! at the closest point of the surface. Ranks pass the same point, and add their sums by a reduction. Errors: as for
+!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for too few leaflets, naming the leaflet id.
+subroutine riisf_add_leaflet_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
+    force, moment, leaflet_force, leaflet_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
+                                                          !! most 1e60. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  reaction%about = about
+  reaction%n_leaflets = n_leaflets
+  reaction%force = location_of(force)
+  reaction%moment = location_of(moment)
+  reaction%leaflet_force = location_of(leaflet_force)
+  reaction%leaflet_moment = location_of(leaflet_moment)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_leaflet_reaction
+
+!> Does the same as riisf_add_leaflet_reaction, with counts and ids of INTEGER*8.
+subroutine riisf_add_leaflet_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, about, n_leaflets, &
+    force, moment, leaflet_force, leaflet_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(in) :: about(3)                  !< The reference point of moment and leaflet_moment; magnitude at
+                                                          !! most 1e60. Usually 0.
+  integer(int32), intent(in) :: n_leaflets                !< More than the surface's largest leaflet id.
+  real(c_double), intent(inout) :: force(3)               !< The force on the whole surface is added.
+  real(c_double), intent(inout) :: moment(3)              !< The moment on the whole surface is added.
+  real(c_double), intent(inout) :: leaflet_force(3, *)    !< (3, n_leaflets): forces are added; leaflet 0 has column 1.
+  real(c_double), intent(inout) :: leaflet_moment(3, *)   !< (3, n_leaflets): moments are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  reaction%about = about
+  reaction%n_leaflets = n_leaflets
+  reaction%force = location_of(force)
+  reaction%moment = location_of(moment)
+  reaction%leaflet_force = location_of(leaflet_force)
+  reaction%leaflet_moment = location_of(leaflet_moment)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_leaflet_reaction_64
+
+!> Adds the force of the flow, and its moment about the edge's middle, to edges. The force of a node goes to the edge nearest to
+!! its closest point, or to the first of several equally near edges. The sums of edges are loads for tissue codes. They do not
+!! model how a membrane carries loads to its edges. Ranks pass the same edges, and add their sums by a reduction. Errors: as for
+!! riisf_add_reaction; RIIS_INVALID_ARGUMENT also for a bad edge, and for a leaflet without an edge.
+subroutine riisf_add_edge_reaction(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
+    edge_leaflet_id, edge_force, edge_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int32), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
+                                                          !! If the first entry is -1, the other entries are not read, and each
+                                                          !! edge serves all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  reaction%n_edges = n_edges
+  reaction%edges = location_of(edges)
+  reaction%edge_force = location_of(edge_force)
+  reaction%edge_moment = location_of(edge_moment)
+  if (edge_leaflet_id(1) /= -1) reaction%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_edge_reaction
+
+!> Does the same as riisf_add_edge_reaction, with counts and ids of INTEGER*8.
+subroutine riisf_add_edge_reaction_64(marks, R, half_thickness, rim, n_nodes, velocity, weight, n_edges, edges, &
+    edge_leaflet_id, edge_force, edge_moment, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_flow_arrays, riis_flow_arrays_init, riis_marks_add_reaction, riis_reaction, &
+      riis_reaction_init, riis_resistance, riis_resistance_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_POINT.
+  real(c_double), intent(in) :: R                         !< 0 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps, at most the distance limit of the marking; RIIS_AUTO: the
+                                                          !! half thickness of the marking.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_ROUND, or RIIS_RIM_CUT, which needs RIIS_FIELD_RIM.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes), the flow's velocity.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  integer(int64), intent(in) :: n_edges                   !< At least 1.
+  real(c_double), intent(in) :: edges(3, 2, *)            !< (3, 2, n_edges): both ends of each edge.
+  integer(int32), intent(in) :: edge_leaflet_id(*)        !< (n_edges): a node's force goes to the nearest edge of its leaflet.
+                                                          !! If the first entry is -1, the other entries are not read, and each
+                                                          !! edge serves all leaflets.
+  real(c_double), intent(inout) :: edge_force(3, *)       !< (3, n_edges): forces are added.
+  real(c_double), intent(inout) :: edge_moment(3, *)      !< (3, n_edges): moments about each edge's middle are added.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_flow_arrays) :: flow
+  type(riis_reaction) :: reaction
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status == RIIS_OK) status = riis_flow_arrays_init(flow, c_sizeof(flow))
+  if (status == RIIS_OK) status = riis_reaction_init(reaction, c_sizeof(reaction))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  flow%n_nodes = n_nodes
+  flow%velocity(1) = location_of(velocity(1, 1))
+  flow%velocity(2) = location_of(velocity(2, 1))
+  flow%velocity(3) = location_of(velocity(3, 1))
+  flow%velocity_stride = 3
+  flow%weight = location_of(weight)
+  reaction%n_edges = n_edges
+  reaction%edges = location_of(edges)
+  reaction%edge_force = location_of(edge_force)
+  reaction%edge_moment = location_of(edge_moment)
+  if (edge_leaflet_id(1) /= -1) reaction%edge_leaflet_id = location_of(edge_leaflet_id)
+  status = riis_marks_add_reaction(c_handle_of(marks), resistance, flow, reaction)
+end subroutine riisf_add_edge_reaction_64
+
+!> Sums a value, such as the pressure, over the nodes at a distance from inner to outer, separately for each side. Nodes whose
+!! closest point is on the rim, or that are on neither side, are left out. If the valve is open, the two sides have no meaning.
+!! Errors: RIIS_INVALID_ARGUMENT for a distance out of range, another number of nodes, or a field that the marks lack.
+subroutine riisf_band_sums(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
+  real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+  real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+  integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
+  real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
+  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_band) :: band
+  type(riis_band_sums) :: sums
+  status = riis_band_init(band, c_sizeof(band))
+  if (status /= RIIS_OK) return
+  band%inner = inner
+  band%outer = outer
+  band%n_nodes = n_nodes
+  band%value = location_of(value)
+  band%weight = location_of(weight)
+  status = riis_marks_get_band_sums(c_handle_of(marks), band, sums, c_sizeof(sums))
+  if (status /= RIIS_OK) return
+  sum_of_values = sums%sum
+  sum_of_weights = sums%weight
+  n_in_band = sums%n_nodes
+end subroutine riisf_band_sums
+
+!> Does the same as riisf_band_sums, with counts and ids of INTEGER*8.
+subroutine riisf_band_sums_64(marks, inner, outer, n_nodes, value, weight, sum_of_values, sum_of_weights, n_in_band, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_band, riis_band_init, riis_band_sums, riis_marks_get_band_sums, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_with_fields with RIIS_FIELD_SIDE and _RIM.
+  real(c_double), intent(in) :: inner                     !< Mesh units, from 0 to outer.
+  real(c_double), intent(in) :: outer                     !< Mesh units, at most the distance limit of the marking.
+  integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
+  real(c_double), intent(in) :: value(*)                  !< (n_nodes), such as the pressure.
+  real(c_double), intent(in) :: weight(*)                 !< (n_nodes), volume around a node, 0 for nodes of other ranks.
+  real(c_double), intent(inout) :: sum_of_values(2)       !< The sum of weight * value: 1 is upstream, 2 downstream.
+  real(c_double), intent(inout) :: sum_of_weights(2)      !< The sum of weight.
+  integer(int64), intent(inout) :: n_in_band(2)           !< The number of nodes. INTEGER*8.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_band) :: band
+  type(riis_band_sums) :: sums
+  status = riis_band_init(band, c_sizeof(band))
+  if (status /= RIIS_OK) return
+  band%inner = inner
+  band%outer = outer
+  band%n_nodes = n_nodes
+  band%value = location_of(value)
+  band%weight = location_of(weight)
+  status = riis_marks_get_band_sums(c_handle_of(marks), band, sums, c_sizeof(sums))
+  if (status /= RIIS_OK) return
+  sum_of_values = sums%sum
+  sum_of_weights = sums%weight
+  n_in_band = sums%n_nodes
+end subroutine riisf_band_sums_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Leaks
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Finds every edge of the mesh's adjacency that leaks: it crosses the surface between two unmarked nodes. Edges that are at most
+!! two half thicknesses long do not leak. Gaps of the surface itself are not found. Errors: RIIS_INVALID_ARGUMENT if the mesh has
+!! no adjacency, or if the marks do not come from a marking with this mesh and half thickness.
+subroutine riisf_find_leaks(surface, mesh, marks, n_threads, leaks, n_edges, longest, middle, half_thickness, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_find_leaks, riis_leak_list, riis_leaks_create, riis_leaks_destroy, &
+      riis_leaks_get_list, riis_mark_options, riis_mark_options_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< The surface of the marking.
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(inout) :: leaks                  !< 0, which creates them, or from an earlier call.
+  integer(int64), intent(inout) :: n_edges                !< The number of edges that leak, INTEGER*8.
+  real(c_double), intent(inout) :: longest                !< The length of the longest edge; 0 if none leaks.
+  real(c_double), intent(inout) :: middle(3)              !< The middle of the longest edge.
+  real(c_double), intent(inout) :: half_thickness         !< The smallest half thickness that closes all edges; 0 if none
+                                                          !! leaks.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  type(riis_leak_list) :: list
+  type(c_ptr) :: c_handle
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  c_handle = c_handle_of(leaks)
+  if (leaks == 0) status = riis_leaks_create(c_handle)
+  if (status == RIIS_OK) status = riis_find_leaks(c_handle_of(surface), c_handle_of(mesh), c_handle_of(marks), &
+      options, c_handle)
+  if (status == RIIS_OK) status = riis_leaks_get_list(c_handle, list, c_sizeof(list))
+  ! The handle stays 0 if it was 0 and an error occurred.
+  if (status /= RIIS_OK .and. leaks == 0) call riis_leaks_destroy(c_handle)
+  leaks = handle_of(c_handle)
+  if (status /= RIIS_OK) return
+  n_edges = list%n_edges
+  longest = list%longest_length
+  middle = list%longest_middle
+  half_thickness = list%half_thickness
+end subroutine riisf_find_leaks
+
+!> Copies the edges of the last riisf_find_leaks into the caller's array, ascending. Errors: RIIS_INVALID_ARGUMENT if the array
+!! is too short; only n is then written.
+subroutine riisf_leaking_edges(leaks, length, n, node_num, status)
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_leak_list, riis_leaks_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
+  integer(int32), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
+                                                          !! to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_leak_list) :: list
+  integer(int64), pointer :: c_node_num(:, :)
+  status = riis_leaks_get_list(c_handle_of(leaks), list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_edges, int(huge(n), int64)), int32)
+  if (list%n_edges > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges that leak: ' // &
+        text_of(list%n_edges))
+    return
+  end if
+  if (list%n_edges == 0) return
+  call c_f_pointer(list%node_id, c_node_num, [2_int64, list%n_edges])
+  if (maxval(c_node_num) >= huge(n)) then
+    status = fail(RIIS_LIMIT_EXCEEDED, 'node ' // text_of(maxval(c_node_num)) // &
+        ' is more than an INTEGER*4 can count: use riisf_leaking_edges_64')
+    return
+  end if
+  node_num(:, :n) = int(c_node_num + 1, int32)
+end subroutine riisf_leaking_edges
+
+!> Does the same as riisf_leaking_edges, with counts and ids of INTEGER*8.
+subroutine riisf_leaking_edges_64(leaks, length, n, node_num, status)
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_leak_list, riis_leaks_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: leaks                     !< From riisf_find_leaks.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of edges that leak, even if an array is too short.
+  integer(int64), intent(inout) :: node_num(2, *)         !< (2, length): the two nodes, the lower id first, from 1; written up
+                                                          !! to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_leak_list) :: list
+  integer(int64), pointer :: c_node_num(:, :)
+  status = riis_leaks_get_list(c_handle_of(leaks), list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_edges, int(huge(n), int64)), int64)
+  if (list%n_edges > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; edges that leak: ' // &
+        text_of(list%n_edges))
+    return
+  end if
+  if (list%n_edges == 0) return
+  call c_f_pointer(list%node_id, c_node_num, [2_int64, list%n_edges])
+  node_num(:, :n) = int(c_node_num + 1, int64)
+end subroutine riisf_leaking_edges_64
+
+!> Destroys the leaks and sets their handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_leaks_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_leaks_destroy
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< May be 0.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_leaks_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_leaks_destroy
+
+!> Labels the open regions. They are the connected components of unmarked nodes along the edges of the mesh's adjacency. Edges to
+!! ghost nodes are ignored. Errors: RIIS_INVALID_ARGUMENT if the mesh has no adjacency, or if the marks do not come from a
+!! marking with this mesh.
+subroutine riisf_label_open_regions(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_label_open_regions, riis_mark_options, riis_mark_options_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+  integer(int32), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1; 0
+                                                          !! for marked nodes.
+  integer(int32), intent(inout) :: n_regions              !< The number of regions.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_region_num(:)
+  integer(int64) :: c_n_regions
+  type(riis_mark_options) :: options
+  integer :: stat
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  allocate (c_region_num(max(n_nodes, 1_int32)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  status = riis_label_open_regions(c_handle_of(mesh), c_handle_of(marks), options, int(n_nodes, int64), c_region_num, &
+      c_n_regions)
+  if (status /= RIIS_OK) return
+  region_num(:n_nodes) = int(c_region_num(:n_nodes) + 1, int32)
+  n_regions = int(c_n_regions, int32)
+end subroutine riisf_label_open_regions
+
+!> Does the same as riisf_label_open_regions, with counts and ids of INTEGER*8.
+subroutine riisf_label_open_regions_64(mesh, marks, n_threads, n_nodes, region_num, n_regions, status)
+  use, intrinsic :: iso_c_binding, only: c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_label_open_regions, riis_mark_options, riis_mark_options_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
+  integer(int64), intent(inout) :: region_num(*)          !< (n_nodes): the lowest node of the node's region, counted from 1; 0
+                                                          !! for marked nodes.
+  integer(int64), intent(inout) :: n_regions              !< The number of regions.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_mark_options) :: options
+  status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%n_threads = n_threads
+  status = riis_label_open_regions(c_handle_of(mesh), c_handle_of(marks), options, n_nodes, region_num, n_regions)
+  if (status /= RIIS_OK) return
+  region_num(:n_nodes) = region_num(:n_nodes) + 1
+end subroutine riisf_label_open_regions_64
+
+!> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
+!! smallest distance to the surface is largest. A path includes its ends. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
+!! adjacency, or for a node that the mesh lacks, or that is within the half thickness.
+subroutine riisf_find_passage(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
+    point, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_find_passage, riis_mark_options, riis_mark_options_init, riis_passage, &
+      riis_passage_ends, riis_passage_ends_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< A surface.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int32), intent(in) :: n_from                    !< At least 1.
+  integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int32), intent(in) :: n_to                      !< At least 1.
+  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
+  integer(int32), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
+  real(c_double), intent(inout) :: distance               !< That node's distance, the smallest half thickness that closes the
+                                                          !! path.
+  real(c_double), intent(inout) :: point(3)               !< That node's coordinates.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_from_num(:)
+  integer(int64), allocatable, target :: c_to_num(:)
+  type(riis_passage_ends) :: ends
+  type(riis_mark_options) :: options
+  type(riis_passage) :: passage
+  integer :: stat
+  status = riis_passage_ends_init(ends, c_sizeof(ends))
+  if (status == RIIS_OK) status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  allocate (c_from_num(max(n_from, 1_int32)), c_to_num(max(n_to, 1_int32)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  ends%n_from = n_from
+  c_from_num(:n_from) = int(from_num(:n_from), int64) - 1
+  ends%from = c_loc(c_from_num)
+  ends%n_to = n_to
+  c_to_num(:n_to) = int(to_num(:n_to), int64) - 1
+  ends%to = c_loc(c_to_num)
+  options%n_threads = n_threads
+  status = riis_find_passage(c_handle_of(surface), c_handle_of(mesh), ends, options, passage, c_sizeof(passage))
+  if (status /= RIIS_OK) return
+  state = passage%state
+  node_num = int(passage%node_id + 1, int32)
+  distance = passage%distance
+  point = passage%point
+end subroutine riisf_find_passage
+
+!> Does the same as riisf_find_passage, with counts and ids of INTEGER*8.
+subroutine riisf_find_passage_64(surface, mesh, n_from, from_num, n_to, to_num, n_threads, state, node_num, distance, &
+    point, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_find_passage, riis_mark_options, riis_mark_options_init, riis_passage, &
+      riis_passage_ends, riis_passage_ends_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< A surface.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int64), intent(in) :: n_from                    !< At least 1.
+  integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int64), intent(in) :: n_to                      !< At least 1.
+  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(inout) :: state                  !< RIIS_PASSAGE_*.
+  integer(int64), intent(inout) :: node_num               !< The path's node nearest to the surface, from 1; 0 without a path.
+  real(c_double), intent(inout) :: distance               !< That node's distance, the smallest half thickness that closes the
+                                                          !! path.
+  real(c_double), intent(inout) :: point(3)               !< That node's coordinates.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_from_num(:)
+  integer(int64), allocatable, target :: c_to_num(:)
+  type(riis_passage_ends) :: ends
+  type(riis_mark_options) :: options
+  type(riis_passage) :: passage
+  integer :: stat
+  status = riis_passage_ends_init(ends, c_sizeof(ends))
+  if (status == RIIS_OK) status = riis_mark_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  allocate (c_from_num(max(n_from, 1_int64)), c_to_num(max(n_to, 1_int64)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  ends%n_from = n_from
+  c_from_num(:n_from) = int(from_num(:n_from), int64) - 1
+  ends%from = c_loc(c_from_num)
+  ends%n_to = n_to
+  c_to_num(:n_to) = int(to_num(:n_to), int64) - 1
+  ends%to = c_loc(c_to_num)
+  options%n_threads = n_threads
+  status = riis_find_passage(c_handle_of(surface), c_handle_of(mesh), ends, options, passage, c_sizeof(passage))
+  if (status /= RIIS_OK) return
+  state = passage%state
+  node_num = passage%node_id + 1
+  distance = passage%distance
+  point = passage%point
+end subroutine riisf_find_passage_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Crossings
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Finds every pair of the surface's triangles that go through each other by more than a depth. Triangles of one leaflet that
+!! share a vertex do not count as a pair. Errors: RIIS_INVALID_ARGUMENT naming the depth or n_threads.
+subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, length, deepest, point, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: RIIS_OK, riis_crossing_list, riis_crossing_options, riis_crossing_options_init, &
+      riis_crossings_create, riis_crossings_destroy, riis_crossings_get_list, riis_find_crossings, riis_status
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
+                                                          !! only touch.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 per processor.
+  integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
+  integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
+  real(c_double), intent(inout) :: length                 !< The total length of their intersections.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair, which is the first one of equally
+                                                          !! deep pairs.
+  real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_crossing_options) :: options
+  type(riis_crossing_list) :: list
+  type(c_ptr) :: c_handle
+  status = riis_crossing_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%depth = depth
+  options%n_threads = n_threads
+  c_handle = c_handle_of(crossings)
+  if (crossings == 0) status = riis_crossings_create(c_handle)
+  if (status == RIIS_OK) status = riis_find_crossings(c_handle_of(surface), options, c_handle)
+  if (status == RIIS_OK) status = riis_crossings_get_list(c_handle, list, c_sizeof(list))
+  ! The handle stays 0 if it was 0 and an error occurred.
+  if (status /= RIIS_OK .and. crossings == 0) call riis_crossings_destroy(c_handle)
+  crossings = handle_of(c_handle)
+  if (status /= RIIS_OK) return
+  n_pairs = list%n_pairs
+  length = list%total_length
+  deepest = list%deepest_depth
+  point = list%deepest_point
+end subroutine riisf_find_crossings
+
+!> Destroys the crossings and sets their handle to 0. Nothing happens to a handle that is 0.
+subroutine riisf_crossings_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_crossings_destroy
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< May be 0.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_crossings_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_crossings_destroy
+
+!> Copies the pairs of the last riisf_find_crossings into the caller's arrays, ascending. Errors: RIIS_INVALID_ARGUMENT if the
+!! arrays are too short; only n is then written.
+subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_LIMIT_EXCEEDED, RIIS_OK, riis_crossing_list, riis_crossings_get_list, &
+      riis_status
+  implicit none
+  integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
+  integer(int32), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int32), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
+  integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
+                                                          !! written up to n.
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
+                                                          !! meet; written up to n.
+  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_crossing_list) :: list
+  integer(int64), pointer :: c_triangle_num(:, :)
+  real(c_double), pointer :: c_point(:, :)
+  real(c_double), pointer :: c_depth(:)
+  status = riis_crossings_get_list(c_handle_of(crossings), list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_pairs, int(huge(n), int64)), int32)
+  if (list%n_pairs > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; pairs that cross: ' // &
+        text_of(list%n_pairs))
+    return
+  end if
+  if (list%n_pairs == 0) return
+  call c_f_pointer(list%triangle_id, c_triangle_num, [2_int64, list%n_pairs])
+  if (maxval(c_triangle_num) >= huge(n)) then
+    status = fail(RIIS_LIMIT_EXCEEDED, 'triangle ' // text_of(maxval(c_triangle_num)) // &
+        ' is more than an INTEGER*4 can count: use riisf_crossing_pairs_64')
+    return
+  end if
+  triangle_num(:, :n) = int(c_triangle_num + 1, int32)
+  call c_f_pointer(list%point, c_point, [3_int64, list%n_pairs])
+  point(:, :n) = c_point
+  call c_f_pointer(list%depth, c_depth, [list%n_pairs])
+  depth(:n) = c_depth
+end subroutine riisf_crossing_pairs
+
+!> Does the same as riisf_crossing_pairs, with counts and ids of INTEGER*8.
+subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, depth, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, fail, text_of
+  use riis_c, only: RIIS_INVALID_ARGUMENT, RIIS_OK, riis_crossing_list, riis_crossings_get_list, riis_status
+  implicit none
+  integer(int64), intent(in) :: crossings                 !< From riisf_find_crossings.
+  integer(int64), intent(in) :: length                    !< The number of entries for which the arrays have room.
+  integer(int64), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
+  integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
+                                                          !! written up to n.
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
+                                                          !! meet; written up to n.
+  real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_crossing_list) :: list
+  integer(int64), pointer :: c_triangle_num(:, :)
+  real(c_double), pointer :: c_point(:, :)
+  real(c_double), pointer :: c_depth(:)
+  status = riis_crossings_get_list(c_handle_of(crossings), list, c_sizeof(list))
+  if (status /= RIIS_OK) return
+  n = int(min(list%n_pairs, int(huge(n), int64)), int64)
+  if (list%n_pairs > length) then
+    status = fail(RIIS_INVALID_ARGUMENT, 'length is ' // text_of(length) // '; pairs that cross: ' // &
+        text_of(list%n_pairs))
+    return
+  end if
+  if (list%n_pairs == 0) return
+  call c_f_pointer(list%triangle_id, c_triangle_num, [2_int64, list%n_pairs])
+  triangle_num(:, :n) = int(c_triangle_num + 1, int64)
+  call c_f_pointer(list%point, c_point, [3_int64, list%n_pairs])
+  point(:, :n) = c_point
+  call c_f_pointer(list%depth, c_depth, [list%n_pairs])
+  depth(:n) = c_depth
+end subroutine riisf_crossing_pairs_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Measures for a flow
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Gives the number of the surface's leaflets.
+subroutine riisf_surface_n_leaflets(surface, n_leaflets, status)
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_get_n_leaflets
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(inout) :: n_leaflets             !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64) :: c_n_leaflets
+  status = riis_surface_get_n_leaflets(c_handle_of(surface), c_n_leaflets)
+  if (status /= RIIS_OK) return
+  n_leaflets = int(c_n_leaflets, int32)
+end subroutine riisf_surface_n_leaflets
+
+!> Gives the sizes of a leaflet. Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks.
+subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_edge, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_leaflet, riis_status, riis_surface_get_leaflet
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int32), intent(in) :: leaflet_num               !< 1 to n_leaflets, ascending by leaflet_id.
+  integer(int32), intent(inout) :: leaflet_id             !< From 0.
+  real(c_double), intent(inout) :: area                   !< The area of its triangles.
+  real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
+                                                          !! patches has. Of a surface from arrays: the edges that only one of
+                                                          !! its triangles has, without the outline of riis_orifice. 0 for a
+                                                          !! skirt.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_leaflet) :: sizes
+  status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))
+  if (status /= RIIS_OK) return
+  leaflet_id = sizes%leaflet_id
+  area = sizes%area
+  free_edge = sizes%free_edge
+end subroutine riisf_surface_leaflet
+
+!> Measures the orifice of a surface, along its axis. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_area, perimeter, effective_area, outline, &
+    status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_orifice, riis_resistance, riis_resistance_init, riis_status, riis_surface_get_orifice
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline only axis and
+                                                          !! rim_reach differ from 0.
+  real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
+                                                          !! first moved inwards by a tenth of the half thickness, so that
+                                                          !! narrower slits do not count. Parts of the edge on the outline are
+                                                          !! walls and do not count.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
+                                                          !! edge along the triangles is moved inwards by rim_reach *
+                                                          !! half_thickness. To first order the result is area - rim_reach *
+                                                          !! half_thickness * perimeter. It is never below 0.
+  integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_orifice) :: orifice
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status /= RIIS_OK) return
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  status = riis_surface_get_orifice(c_handle_of(surface), resistance, orifice, c_sizeof(orifice))
+  if (status /= RIIS_OK) return
+  area = orifice%area
+  outline_area = orifice%outline_area
+  perimeter = orifice%perimeter
+  effective_area = orifice%effective_area
+  outline = orifice%outline
+end subroutine riisf_surface_orifice
+
+!> Measures the coaptation of leaflets: the area and the length of free edge that lie within reach of another leaflet. Errors:
+!! RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range.
+subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_coaptation, riis_status, riis_surface_get_coaptation
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  real(c_double), intent(in) :: reach                     !< Mesh units; RIIS_AUTO: the surface's half thickness.
+  integer(int32), intent(in) :: leaflet_id                !< From 0; RIIS_ALL_LEAFLETS: the sum over all leaflets.
+  real(c_double), intent(inout) :: area                   !< The area of the points of the leaflet's triangles that lie within
+                                                          !! reach of another leaflet.
+  real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
+                                                          !! reach of another leaflet.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_coaptation) :: coaptation
+  status = riis_surface_get_coaptation(c_handle_of(surface), reach, leaflet_id, coaptation, c_sizeof(coaptation))
+  if (status /= RIIS_OK) return
+  area = coaptation%area
+  edge = coaptation%edge
+end subroutine riisf_surface_coaptation
+
+!> Measures the gap between the attachment of a valve and a wall, along the direction of a skirt. Errors: RIIS_INVALID_ARGUMENT
+!! for a surface from arrays, and for one without an attachment.
+subroutine riisf_surface_gap(surface, wall, least, mean, most, missed, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_gap, riis_status, riis_surface_get_gap
+  implicit none
+  integer(int64), intent(in) :: surface                   !< A surface made from a valve.
+  integer(int64), intent(in) :: wall                      !< A surface in the same frame.
+  real(c_double), intent(inout) :: least                  !< The least gap; negative where the wall is inside.
+  real(c_double), intent(inout) :: mean                   !< The mean along the attachment.
+  real(c_double), intent(inout) :: most                   !< The widest gap.
+  integer(int32), intent(inout) :: missed                 !< The number of ends of edges whose line misses the wall.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_gap) :: gap
+  status = riis_surface_get_gap(c_handle_of(surface), c_handle_of(wall), gap=gap, struct_size=c_sizeof(gap))
+  if (status /= RIIS_OK) return
+  least = gap%least
+  mean = gap%mean
+  most = gap%most
+  missed = int(gap%n_without_wall, int32)
+end subroutine riisf_surface_gap
+
+!> Gives a valve a skirt that reaches a wall, and no farther. Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther
+!! than longest; RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area.
+subroutine riisf_valve_skirt_to_wall(valve, wall, longest, half_thickness, tolerance, scale, rotation_axis, &
+    rotation_angle, translation, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_valve_set_skirt_to_wall
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created.
+  integer(int64), intent(in) :: wall                      !< A surface in the frame of the placed valve.
+  real(c_double), intent(in) :: longest                   !< The longest length to accept, mesh units.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%half_thickness = half_thickness
+  options%tolerance = tolerance
+  options%scale = scale
+  options%rotation_axis = rotation_axis
+  options%rotation_angle = rotation_angle
+  options%translation = translation
+  status = riis_valve_set_skirt_to_wall(c_handle_of(valve), c_handle_of(wall), longest, options)
+end subroutine riisf_valve_skirt_to_wall
+
+!> Tells the ideal leak of a closed surface: the volume flow through it at a pressure drop. The flow is drop * (eps / R) * area.
+!! The bileaflet housing does not count. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+subroutine riisf_surface_leak(surface, R, half_thickness, drop, flow, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_resistance, riis_resistance_init, riis_status, riis_surface_get_leak
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created and closed.
+  real(c_double), intent(in) :: R                         !< 1e-60 to 1e60, mass / (length time): kg/(m s).
+  real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
+  real(c_double), intent(in) :: drop                      !< Upstream minus downstream pressure, magnitude at most 1e30.
+  real(c_double), intent(inout) :: flow                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status /= RIIS_OK) return
+  resistance%R = R
+  resistance%half_thickness = half_thickness
+  status = riis_surface_get_leak(c_handle_of(surface), resistance, drop, flow)
+end subroutine riisf_surface_leak
+
+!> Gives the number of mesh edges across the band around the surface, from the lengths of the edges with a marked node. Errors:
+!! RIIS_INVALID_ARGUMENT for a mesh without an adjacency, and for marks that do not come from a marking with this mesh.
+subroutine riisf_cells_across(marks, mesh, least, mean, most, mean_edge, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_cells_across, riis_marks_get_cells_across, riis_status
+  implicit none
+  integer(int64), intent(in) :: marks                     !< From riisf_mark_nodes.
+  integer(int64), intent(in) :: mesh                      !< The mesh of the marking, with an adjacency.
+  real(c_double), intent(inout) :: least                  !< 2 half thicknesses / longest edge; 0 without an edge.
+  real(c_double), intent(inout) :: mean                   !< 2 half thicknesses / mean edge.
+  real(c_double), intent(inout) :: most                   !< 2 half thicknesses / shortest edge.
+  real(c_double), intent(inout) :: mean_edge              !< The mean length of the edges.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_cells_across) :: cells
+  status = riis_marks_get_cells_across(c_handle_of(marks), c_handle_of(mesh), cells, c_sizeof(cells))
+  if (status /= RIIS_OK) return
+  least = cells%least
+  mean = cells%mean
+  most = cells%most
+  mean_edge = cells%mean_edge
+end subroutine riisf_cells_across
+
+!> Gives the volume that a valve sweeps between two openings: the integral of u_surface . n over surface and time, positive along
+!! the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and for a leaflet that the valve lacks;
+!! RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve with one state unless both are 0.
+subroutine riisf_valve_swept_volume(valve, opening_from, opening_to, scale, leaflet_id, volume, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_status, riis_surface_options, riis_surface_options_init, riis_valve_get_swept_volume
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
+  real(c_double), intent(in) :: opening_from              !< 0 to 1.
+  real(c_double), intent(in) :: opening_to                !< 0 to 1.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  integer(int32), intent(in) :: leaflet_id                !< RIIS_LEAFLET_* or RIIS_ALL_LEAFLETS.
+  real(c_double), intent(inout) :: volume                 !< Written on success, mesh units cubed.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_surface_options) :: options
+  status = riis_surface_options_init(options, c_sizeof(options))
+  if (status /= RIIS_OK) return
+  options%scale = scale
+  status = riis_valve_get_swept_volume(c_handle_of(valve), opening_from, opening_to, options, leaflet_id, volume)
+end subroutine riisf_valve_swept_volume
+
+!> Finds the opening at which riisf_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
+!! halves the last step. Errors: those of riisf_surface_create and riisf_find_passage, with the opening.
+subroutine riisf_find_first_passage(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
+    rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_find_first_passage, riis_first_passage, riis_first_passage_options, &
+      riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
+      riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int32), intent(in) :: n_from                    !< At least 1.
+  integer(int32), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int32), intent(in) :: n_to                      !< At least 1.
+  integer(int32), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
+  real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
+                                                          !! passage. Else: `opening`.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_from_num(:)
+  integer(int64), allocatable, target :: c_to_num(:)
+  type(riis_passage_ends) :: ends
+  type(riis_first_passage_options) :: options
+  type(riis_first_passage) :: first
+  type(riis_surface_options), target :: surface
+  type(riis_mark_options), target :: marking
+  integer :: stat
+  status = riis_passage_ends_init(ends, c_sizeof(ends))
+  if (status == RIIS_OK) status = riis_first_passage_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_surface_options_init(surface, c_sizeof(surface))
+  if (status == RIIS_OK) status = riis_mark_options_init(marking, c_sizeof(marking))
+  if (status /= RIIS_OK) return
+  allocate (c_from_num(max(n_from, 1_int32)), c_to_num(max(n_to, 1_int32)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  ends%n_from = n_from
+  c_from_num(:n_from) = int(from_num(:n_from), int64) - 1
+  ends%from = c_loc(c_from_num)
+  ends%n_to = n_to
+  c_to_num(:n_to) = int(to_num(:n_to), int64) - 1
+  ends%to = c_loc(c_to_num)
+  surface%half_thickness = half_thickness
+  surface%tolerance = tolerance
+  surface%scale = scale
+  surface%rotation_axis = rotation_axis
+  surface%rotation_angle = rotation_angle
+  surface%translation = translation
+  options%tolerance = opening_tolerance
+  marking%n_threads = n_threads
+  surface%n_threads = n_threads
+  options%surface = c_loc(surface)
+  options%marking = c_loc(marking)
+  status = riis_find_first_passage(c_handle_of(valve), c_handle_of(mesh), ends, options, first, c_sizeof(first))
+  if (status /= RIIS_OK) return
+  state = first%state
+  opening = first%opening
+  closed_opening = first%closed_opening
+end subroutine riisf_find_first_passage
+
+!> Does the same as riisf_find_first_passage, with counts and ids of INTEGER*8.
+subroutine riisf_find_first_passage_64(valve, mesh, n_from, from_num, n_to, to_num, half_thickness, tolerance, scale, &
+    rotation_axis, rotation_angle, translation, opening_tolerance, n_threads, state, opening, closed_opening, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, out_of_memory
+  use riis_c, only: RIIS_OK, riis_find_first_passage, riis_first_passage, riis_first_passage_options, &
+      riis_first_passage_options_init, riis_mark_options, riis_mark_options_init, riis_passage_ends, &
+      riis_passage_ends_init, riis_status, riis_surface_options, riis_surface_options_init
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Must be created. Its own opening has no effect.
+  integer(int64), intent(in) :: mesh                      !< A mesh with an adjacency. A marking is not needed.
+  integer(int64), intent(in) :: n_from                    !< At least 1.
+  integer(int64), intent(in) :: from_num(n_from)          !< Nodes where paths begin, counted from 1, in any order.
+  integer(int64), intent(in) :: n_to                      !< At least 1.
+  integer(int64), intent(in) :: to_num(n_to)              !< Nodes where paths end.
+  real(c_double), intent(in) :: half_thickness            !< Mesh units; RIIS_AUTO: 0.1 * scale.
+  real(c_double), intent(in) :: tolerance                 !< 1e-6 to 1, usually 0.05. The error of distances is at most
+                                                          !! tolerance * half_thickness.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12; 1 leaves the size.
+  real(c_double), intent(in) :: rotation_axis(3)          !< At least 1e-50 long.
+  real(c_double), intent(in) :: rotation_angle            !< Degrees; 0 for no rotation.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; 0 for no translation.
+  real(c_double), intent(in) :: opening_tolerance         !< Tolerance of the opening, 1e-6 to 1. Usually 1e-3.
+  integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
+  integer(int32), intent(inout) :: state                  !< RIIS_FIRST_PASSAGE_*.
+  real(c_double), intent(inout) :: opening                !< The opening that was tried and has a passage.
+  real(c_double), intent(inout) :: closed_opening         !< FOUND: the largest tried opening below `opening`, which has no
+                                                          !! passage. Else: `opening`.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  integer(int64), allocatable, target :: c_from_num(:)
+  integer(int64), allocatable, target :: c_to_num(:)
+  type(riis_passage_ends) :: ends
+  type(riis_first_passage_options) :: options
+  type(riis_first_passage) :: first
+  type(riis_surface_options), target :: surface
+  type(riis_mark_options), target :: marking
+  integer :: stat
+  status = riis_passage_ends_init(ends, c_sizeof(ends))
+  if (status == RIIS_OK) status = riis_first_passage_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_surface_options_init(surface, c_sizeof(surface))
+  if (status == RIIS_OK) status = riis_mark_options_init(marking, c_sizeof(marking))
+  if (status /= RIIS_OK) return
+  allocate (c_from_num(max(n_from, 1_int64)), c_to_num(max(n_to, 1_int64)), stat=stat)
+  status = out_of_memory(stat)
+  if (status /= RIIS_OK) return
+  ends%n_from = n_from
+  c_from_num(:n_from) = int(from_num(:n_from), int64) - 1
+  ends%from = c_loc(c_from_num)
+  ends%n_to = n_to
+  c_to_num(:n_to) = int(to_num(:n_to), int64) - 1
+  ends%to = c_loc(c_to_num)
+  surface%half_thickness = half_thickness
+  surface%tolerance = tolerance
+  surface%scale = scale
+  surface%rotation_axis = rotation_axis
+  surface%rotation_angle = rotation_angle
+  surface%translation = translation
+  options%tolerance = opening_tolerance
+  marking%n_threads = n_threads
+  surface%n_threads = n_threads
+  options%surface = c_loc(surface)
+  options%marking = c_loc(marking)
+  status = riis_find_first_passage(c_handle_of(valve), c_handle_of(mesh), ends, options, first, c_sizeof(first))
+  if (status /= RIIS_OK) return
+  state = first%state
+  opening = first%opening
+  closed_opening = first%closed_opening
+end subroutine riisf_find_first_passage_64
+
+! -----------------------------------------------------------------------------------------------------------------
+! Laws of opening
+! The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
+! The pressure difference is upstream pressure minus downstream pressure, and flow is positive downstream, so positive values of
+! both open a valve. A state is an array. If a restart file contains it, unformatted or in full precision, the law continues
+! with the same bits. To repeat a step, start from a copy of the state. The rate is the derivative of the opening by time.
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Gives the opening at a time from a table of keys. Errors: RIIS_INVALID_ARGUMENT naming the key, counted from 0, and its value.
+subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, interpolation, time, opening, rate, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis_support, only: location_of
+  use riis_c, only: RIIS_OK, riis_opening_from_table, riis_opening_table, riis_opening_table_init, riis_status
+  implicit none
+  integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
+  real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
+  real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
+  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within a period of the first
+                                                          !! key. A last key one period after the first must have the same
+                                                          !! opening. 0: the opening is constant before the first key and after
+                                                          !! the last.
+  integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
+  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+  real(c_double), intent(inout) :: opening                !< Written on success.
+  real(c_double), intent(inout) :: rate                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_opening_table) :: table
+  status = riis_opening_table_init(table, c_sizeof(table))
+  if (status /= RIIS_OK) return
+  table%n_keys = n_keys
+  table%time = location_of(key_time)
+  table%opening = location_of(key_opening)
+  table%period = period
+  table%interpolation = interpolation
+  status = riis_opening_from_table(table, time, opening, rate)
+end subroutine riisf_opening_from_table
+
+!> Gives the opening at a time from the times of opening and closing. The ramps are of fifth degree: neither the rate nor its
+!! derivative jumps. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
+subroutine riisf_opening_from_times(opening_start, opening_duration, closing_start, closing_duration, closed, open, &
+    period, time, opening, rate, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use riis_c, only: RIIS_OK, riis_opening_from_times, riis_opening_times, riis_opening_times_init, riis_status
+  implicit none
+  real(c_double), intent(in) :: opening_start             !< When the valve begins to open.
+  real(c_double), intent(in) :: opening_duration          !< How long opening takes, > 0.
+  real(c_double), intent(in) :: closing_start             !< When the valve begins to close, at least opening_start +
+                                                          !! opening_duration.
+  real(c_double), intent(in) :: closing_duration          !< How long closing takes, > 0.
+  real(c_double), intent(in) :: closed                    !< The opening when closed, 0 to 1; usually 0.
+  real(c_double), intent(in) :: open                      !< The opening when open, 0 to 1; usually 1.
+  real(c_double), intent(in) :: period                    !< > 0: the valve opens and closes once in each period. 0: only once.
+  real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
+  real(c_double), intent(inout) :: opening                !< Written on success.
+  real(c_double), intent(inout) :: rate                   !< Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_opening_times) :: times
+  status = riis_opening_times_init(times, c_sizeof(times))
+  if (status /= RIIS_OK) return
+  times%opening_start = opening_start
+  times%opening_duration = opening_duration
+  times%closing_start = closing_start
+  times%closing_duration = closing_duration
+  times%closed = closed
+  times%open = open
+  times%period = period
+  status = riis_opening_from_times(times, time, opening, rate)
+end subroutine riisf_opening_from_times
+
+!> Fills the state of a switch with a closed valve at time 0.
+subroutine riisf_opening_switch_init(state, phase, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis_c, only: RIIS_OK, riis_opening_switch_state, riis_opening_switch_state_init, riis_status
+  implicit none
+  real(c_double), intent(inout) :: state(7)               !< As for riisf_opening_switch_advance.
+  integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_CLOSING.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_opening_switch_state) :: the_state
+  status = riis_opening_switch_state_init(the_state, c_sizeof(the_state))
+  if (status /= RIIS_OK) return
+  state = [the_state%time, the_state%opening, the_state%rate, the_state%progress, the_state%pressure_difference, &
+      the_state%flow, the_state%turn_time]
+  phase = the_state%phase
+end subroutine riisf_opening_switch_init
+
+!> Advances a switch to a time. The valve opens when the pressure difference exceeds open_above, and closes when the flow falls
+!! below close_below. The phase changes at the end of the step in which this happens, so the opening is accurate to first order
+!! in the time step. Errors: RIIS_INVALID_ARGUMENT naming the argument and its value.
+subroutine riisf_opening_switch_advance(opening_duration, closing_duration, open_above, close_below, filter_time, &
+    dwell_time, time, pressure_difference, flow, state, phase, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32
+  use riis_c, only: RIIS_OK, riis_opening_switch, riis_opening_switch_advance, riis_opening_switch_init, &
+      riis_opening_switch_state, riis_opening_switch_state_init, riis_status
+  implicit none
+  real(c_double), intent(in) :: opening_duration          !< Time from closed to open, > 0.
+  real(c_double), intent(in) :: closing_duration          !< Time from open to closed, > 0.
+  real(c_double), intent(in) :: open_above                !< Pressure difference. Usually 0.
+  real(c_double), intent(in) :: close_below               !< Flow. Usually 0.
+  real(c_double), intent(in) :: filter_time               !< Time constant of a filter of pressure difference and flow, >= 0.
+                                                          !! 0: no filter.
+  real(c_double), intent(in) :: dwell_time                !< The least time from one change of phase to the next, >= 0. Usually
+                                                          !! 0.
+  real(c_double), intent(in) :: time                      !< At least state(1).
+  real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
+  real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
+  real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, progress, filtered pressure difference,
+                                                          !! filtered flow, time of the last change of phase (NaN: none yet).
+                                                          !! Written on success.
+  integer(int32), intent(inout) :: phase                  !< RIIS_PHASE_*, a part of the state. Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_opening_switch) :: law
+  type(riis_opening_switch_state) :: before
+  type(riis_opening_switch_state) :: now
+  status = riis_opening_switch_init(law, c_sizeof(law))
+  if (status == RIIS_OK) status = riis_opening_switch_state_init(before, c_sizeof(before))
+  if (status /= RIIS_OK) return
+  law%opening_duration = opening_duration
+  law%closing_duration = closing_duration
+  law%open_above = open_above
+  law%close_below = close_below
+  law%filter_time = filter_time
+  law%dwell_time = dwell_time
+  before%time = state(1)
+  before%opening = state(2)
+  before%rate = state(3)
+  before%progress = state(4)
+  before%pressure_difference = state(5)
+  before%flow = state(6)
+  before%turn_time = state(7)
+  before%phase = phase
+  now = before
+  status = riis_opening_switch_advance(law, before, time, pressure_difference, flow, now)
+  if (status /= RIIS_OK) return
+  state = [now%time, now%opening, now%rate, now%progress, now%pressure_difference, now%flow, now%turn_time]
+  phase = now%phase
+end subroutine riisf_opening_switch_advance
+
+!> Fills the state of an angle law with a closed valve at rest, at time 0. Its angle 0 means angle_min.
+subroutine riisf_opening_angle_init(state, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use riis_c, only: RIIS_OK, riis_opening_angle_state, riis_opening_angle_state_init, riis_status
+  implicit none
+  real(c_double), intent(inout) :: state(7)               !< As for riisf_opening_angle_advance.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_opening_angle_state) :: the_state
+  status = riis_opening_angle_state_init(the_state, c_sizeof(the_state))
+  if (status /= RIIS_OK) return
+  state = [the_state%time, the_state%opening, the_state%rate, the_state%angle, the_state%angle_rate, &
+      the_state%pressure_difference, the_state%flow]
+end subroutine riisf_opening_angle_init
+
+!> Advances the angle law of Korakianitis and Shi (2006) to a time: angle'' = -friction angle' + (pressure_gain dp + flow_gain Q)
+!! cos(angle) - vortex_gain max(Q, 0) sin(2 angle), in radians, between stops that absorb all speed. The paper's values, for
+!! mmHg, ml and s: pressure_gain 5500, flow_gain 2, friction 50, vortex_gain 7 for the aortic and 3.5 for the mitral valve.
+!! Errors: RIIS_INVALID_ARGUMENT naming the argument and its value; RIIS_LIMIT_EXCEEDED for a step so long that it would need
+!! more than a million inner steps.
+subroutine riisf_opening_angle_advance(pressure_gain, flow_gain, friction, vortex_gain, angle_min, angle_max, time, &
+    pressure_difference, flow, state, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use riis_c, only: RIIS_OK, riis_opening_angle, riis_opening_angle_advance, riis_opening_angle_init, &
+      riis_opening_angle_state, riis_opening_angle_state_init, riis_status
+  implicit none
+  real(c_double), intent(in) :: pressure_gain             !< K_p, >= 0.
+  real(c_double), intent(in) :: flow_gain                 !< K_q, >= 0.
+  real(c_double), intent(in) :: friction                  !< K_f, >= 0.
+  real(c_double), intent(in) :: vortex_gain               !< K_v, >= 0.
+  real(c_double), intent(in) :: angle_min                 !< Degrees, 0 to 90: closed. Usually 0.
+  real(c_double), intent(in) :: angle_max                 !< Degrees, above angle_min, at most 90: open. Usually 75.
+  real(c_double), intent(in) :: time                      !< At least state(1).
+  real(c_double), intent(in) :: pressure_difference       !< Upstream minus downstream, at the given time.
+  real(c_double), intent(in) :: flow                      !< Positive downstream, at the given time.
+  real(c_double), intent(inout) :: state(7)               !< Time, opening, rate, angle in degrees, its rate, pressure
+                                                          !! difference, flow (NaN: none yet). Written on success.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_opening_angle) :: law
+  type(riis_opening_angle_state) :: before
+  type(riis_opening_angle_state) :: now
+  status = riis_opening_angle_init(law, c_sizeof(law))
+  if (status == RIIS_OK) status = riis_opening_angle_state_init(before, c_sizeof(before))
+  if (status /= RIIS_OK) return
+  law%pressure_gain = pressure_gain
+  law%flow_gain = flow_gain
+  law%friction = friction
+  law%vortex_gain = vortex_gain
+  law%angle_min = angle_min
+  law%angle_max = angle_max
+  before%time = state(1)
+  before%opening = state(2)
+  before%rate = state(3)
+  before%angle = state(4)
+  before%angle_rate = state(5)
+  before%pressure_difference = state(6)
+  before%flow = state(7)
+  now = before
+  status = riis_opening_angle_advance(law, before, time, pressure_difference, flow, now)
+  if (status /= RIIS_OK) return
+  state = [now%time, now%opening, now%rate, now%angle, now%angle_rate, now%pressure_difference, now%flow]
+end subroutine riisf_opening_angle_advance
+
+! -----------------------------------------------------------------------------------------------------------------
+! Placing and warping by a patient's landmarks
+! -----------------------------------------------------------------------------------------------------------------
+
+!> Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement, for riisf_surface_create. Lengths that
+!! no landmark bears on keep the valve's proportions. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one
+!! place, collinear, mirrored or not those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and
+!! for sizes that do not fit together.
+subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
+    rotation_angle, translation, residual, size_state, status)
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, end_for_c, location_of
+  use riis_c, only: RIIS_OK, riis_landmarks, riis_landmarks_init, riis_place, riis_placement, riis_placement_arrays, &
+      riis_placement_arrays_init, riis_status
+  implicit none
+  integer(int64), intent(in) :: valve                     !< A kind of valve. Unchanged on an error.
+  integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
+  integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): of a nadir or a point of the attachment, its
+                                                          !! cusp and -1; of a commissure, its two cusps, in any order. -1 and
+                                                          !! -1: not known. Enough of an aortic valve's must be known to name
+                                                          !! all. Without names, cusp 0 of three equal cusps is at the first
+                                                          !! nadir.
+  real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
+                                                          !! metres. Must be set.
+  real(c_double), intent(in) :: noise                     !< The scatter of the landmarks, each coordinate's standard
+                                                          !! deviation, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
+  real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
+  character(len=*), intent(in) :: held                    !< Parameters that keep their values, separated by blanks; ' ': none.
+  real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
+  real(c_double), intent(inout) :: rotation_angle         !< Degrees, 0 to 180.
+  real(c_double), intent(inout) :: translation(3)         !< Mesh units.
+  real(c_double), intent(inout) :: residual(*)            !< (n_landmarks): distances from the landmarks to their places, mesh
+                                                          !! units.
+  integer(int32), intent(inout) :: size_state(*)          !< (number of parameters): RIIS_SIZE_*.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  character(len=len_trim(held) + 1, kind=c_char) :: c_held
+  type(riis_landmarks) :: landmarks
+  type(riis_placement_arrays) :: arrays
+  type(riis_placement) :: placement
+  status = riis_landmarks_init(landmarks, c_sizeof(landmarks))
+  if (status == RIIS_OK) status = riis_placement_arrays_init(arrays, c_sizeof(arrays))
+  if (status /= RIIS_OK) return
+  landmarks%n_landmarks = n_landmarks
+  landmarks%x = location_of(xyz(1, 1))
+  landmarks%y = location_of(xyz(2, 1))
+  landmarks%z = location_of(xyz(3, 1))
+  landmarks%stride = 3
+  landmarks%role = location_of(role)
+  landmarks%leaflet_id = location_of(leaflet_id)
+  landmarks%scale = scale
+  landmarks%noise = noise
+  landmarks%flow = flow
+  call end_for_c(held, c_held)
+  arrays%residual = location_of(residual)
+  arrays%size_state = location_of(size_state)
+  status = riis_place(c_handle_of(valve), landmarks, c_held, arrays, placement, c_sizeof(placement))
+  if (status /= RIIS_OK) return
+  rotation_axis = placement%rotation_axis
+  rotation_angle = placement%rotation_angle
+  translation = placement%translation
+end subroutine riisf_place
+
+!> Makes a warp from landmarks on a valve, which are in mesh units: give the placement of riisf_surface_create. Until
+!! riisf_warp_set_targets, it is the identity. Errors: RIIS_INVALID_ARGUMENT naming the landmark, counted from 0. Two landmarks
+!! in one place are refused, and so are landmarks on a line.
+subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rotation_angle, translation, warp, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_null_ptr, c_ptr, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_points, riis_points_init, riis_status, riis_surface_options, &
+      riis_surface_options_init, riis_warp_create, riis_warp_options, riis_warp_options_init
+  implicit none
+  integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
+  real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
+                                                          !! The map is smoothed until it misses the targets by about that
+                                                          !! much. 0: it meets the targets exactly.
+  real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
+  real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
+  real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,
+                                                          !! usually 0.
+  real(c_double), intent(in) :: translation(3)            !< Mesh units; -1e50 to 1e50, usually 0. Refused for a valve if
+                                                          !! coordinates would be rounded by more than a thousandth of
+                                                          !! tolerance * half_thickness.
+  integer(int64), intent(inout) :: warp                   !< Written on success. Free it with riisf_warp_destroy.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: sources
+  type(riis_warp_options) :: options
+  type(riis_surface_options), target :: placement
+  type(c_ptr) :: c_handle
+  status = riis_points_init(sources, c_sizeof(sources))
+  if (status == RIIS_OK) status = riis_warp_options_init(options, c_sizeof(options))
+  if (status == RIIS_OK) status = riis_surface_options_init(placement, c_sizeof(placement))
+  if (status /= RIIS_OK) return
+  sources%n_points = n_landmarks
+  sources%x = location_of(xyz(1, 1))
+  sources%y = location_of(xyz(2, 1))
+  sources%z = location_of(xyz(3, 1))
+  sources%stride = 3
+  options%noise = noise
+  placement%scale = scale
+  placement%rotation_axis = rotation_axis
+  placement%rotation_angle = rotation_angle
+  placement%translation = translation
+  options%placement = c_loc(placement)
+  c_handle = c_null_ptr
+  status = riis_warp_create(sources, options, c_handle)
+  if (status /= RIIS_OK) return
+  warp = handle_of(c_handle)
+end subroutine riisf_warp_create
+
+!> Takes the landmarks to these places, in each time step. Valves that have the warp keep the map until riisf_valve_set_warp.
+!! Errors: RIIS_INVALID_ARGUMENT naming the landmark; RIIS_INVALID_PARAMETER for a warp that folds, with the place.
+subroutine riisf_warp_set_targets(warp, n_landmarks, xyz, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of, location_of
+  use riis_c, only: RIIS_OK, riis_points, riis_points_init, riis_status, riis_warp_set_targets
+  implicit none
+  integer(int64), intent(in) :: warp                      !< Unchanged on an error.
+  integer(int32), intent(in) :: n_landmarks               !< As many as the warp has.
+  real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), mesh units.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_points) :: targets
+  status = riis_points_init(targets, c_sizeof(targets))
+  if (status /= RIIS_OK) return
+  targets%n_points = n_landmarks
+  targets%x = location_of(xyz(1, 1))
+  targets%y = location_of(xyz(2, 1))
+  targets%z = location_of(xyz(3, 1))
+  targets%stride = 3
+  status = riis_warp_set_targets(c_handle_of(warp), targets)
+end subroutine riisf_warp_set_targets
+
+!> Gives a valve copies of the maps of two warps. Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`;
+!! RIIS_INVALID_PARAMETER for a bileaflet valve.
+subroutine riisf_valve_set_warp(valve, closed, open, status)
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: riis_status, riis_valve_set_warp
+  implicit none
+  integer(int64), intent(in) :: valve                     !< Unchanged on an error.
+  integer(int64), intent(in) :: closed                    !< The warp at opening 0; 0: the valve loses its warp.
+  integer(int64), intent(in) :: open                      !< The warp at opening 1; 0: the same as `closed`.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  status = riis_valve_set_warp(c_handle_of(valve), c_handle_of(closed), c_handle_of(open))
+end subroutine riisf_valve_set_warp
+
+!> Frees a warp and sets its handle to 0.
+subroutine riisf_warp_destroy(handle)
+  use, intrinsic :: iso_c_binding, only: c_ptr
+  use, intrinsic :: iso_fortran_env, only: int64
+  use riis_support, only: c_handle_of, handle_of
+  use riis_c, only: riis_warp_destroy
+  implicit none
+  integer(int64), intent(inout) :: handle                 !< May be 0.
+  type(c_ptr) :: c_handle
+  c_handle = c_handle_of(handle)
+  call riis_warp_destroy(c_handle)
+  handle = handle_of(c_handle)
+end subroutine riisf_warp_destroy

@@ -7,6 +7,7 @@ module riis_measures
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64
   use riis_c, c_find_first_passage => riis_find_first_passage
   use riis_support
+  use riis_calls
   use riis_valves, only: riis_valve
   use riis_surfaces, only: riis_surface
   use riis_meshes, only: riis_mesh
@@ -288,7 +289,7 @@ contains
     integer(int8), allocatable, target :: bytes(:)
     if (code == RIIS_OK) code = check_created(valve%c_handle(), 'the valve')
     if (code == RIIS_OK) code = check_created(mesh%c_handle(), 'mesh')
-    if (code == RIIS_OK) code = riis_passage_ends_init(ends, c_sizeof(ends))
+    if (code == RIIS_OK) code = describe_ends(from, to, ends)
     if (code == RIIS_OK) code = riis_mark_options_init(marking, c_sizeof(marking))
     if (code == RIIS_OK) code = riis_first_passage_options_init(options, c_sizeof(options))
     call get_mask(node_mask, bytes, code)
@@ -297,10 +298,6 @@ contains
       if (size(node_mask) > 0) marking%node_mask = c_loc(bytes)
     end if
     if (code /= RIIS_OK) return
-    ends%n_from = size(from, kind=int64)
-    ends%from = location_of(from)
-    ends%n_to = size(to, kind=int64)
-    ends%to = location_of(to)
     marking%n_threads = surface%n_threads
     options%surface = c_loc(surface)
     options%marking = c_loc(marking)

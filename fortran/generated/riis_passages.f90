@@ -278,9 +278,11 @@ contains
     class(*), intent(in), optional :: n_threads
     integer(riis_status), intent(inout) :: code
     type(riis_mark_options) :: options
+    type(riis_passage_ends) :: ends
     if (code == RIIS_OK) code = check_created(surface%c_handle(), 'surface')
     call get_options(mesh, mask, n_threads, options, code)
-    if (code == RIIS_OK) code = find_passage_between(surface%c_handle(), mesh%c_handle(), options, &
-      size(from, kind=int64), from, size(to, kind=int64), to, passage)
+    if (code == RIIS_OK) code = describe_ends(from, to, ends)
+    if (code == RIIS_OK) &
+      code = c_find_passage(surface%c_handle(), mesh%c_handle(), ends, options, passage, c_sizeof(passage))
   end subroutine find
 end module riis_passages

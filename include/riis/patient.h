@@ -188,7 +188,9 @@ typedef struct riis_gap {
  *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
  *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
  *             misses the wall. NULL if it is not wanted
- * The gap is the distance along the skirt's direction: outwards from the valve's axis and perpendicular to it (docs/theory/skirt.md). Of all places at which that line meets the wall, the nearest counts. The gap is negative if the wall lies inside.
+ * The gap is the distance along the skirt's direction: outwards from the valve's axis and perpendicular to it
+ * (docs/theory/skirt.md). Of all places at which that line meets the wall, the nearest counts. The gap is negative if the
+ * wall lies inside.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for one without an attachment, and for an attachment that
  * encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,

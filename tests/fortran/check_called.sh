@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_called.sh HEADER OBJECT_FILES...
-# The Fortran tests and the modules that they use must call every function of the header and of those that it includes by name.
+# Module riis and the subroutines for Fortran 77 must call every function of the header and of those that it includes by name.
+# check_procedures.sh checks that the tests call each of their procedures.
 set -euo pipefail
 header=$1
 mapfile -t headers < <("$(dirname "$0")/../abi/headers.sh" "$header")
@@ -16,7 +17,7 @@ fi
 called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)
 uncalled=$(comm -23 <(sort <<<"$functions") <(echo "$called"))
 if [ -n "$uncalled" ]; then
-  echo "not called by the Fortran tests:" "$uncalled" >&2
+  echo "not called by module riis or by a subroutine riisf_*:" "$uncalled" >&2
   exit 1
 fi
 echo "$(wc -l <<<"$functions") functions"

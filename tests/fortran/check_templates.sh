@@ -53,13 +53,12 @@ copy() {
   local name
   rm -rf "$scratch/copy"
   mkdir -p "$scratch/copy/templates" "$scratch/copy/generated"
-  cp "$folder/expand_templates.sh" "$folder/interfaces.py" "$scratch/copy"
+  cp "$folder/expand_templates.sh" "$scratch/copy"
   cp "$folder/templates/kinds.fypp" "$scratch/copy/templates"
-  for name in riis_meshes riis_f77_marking; do
+  for name in riis_meshes riis_frames; do
     cp "$folder/generated/$name.f90" "$scratch/copy/generated"
     cp "$folder/templates/$name.fypp" "$scratch/copy/templates"
   done
-  python3 -B "$scratch/copy/interfaces.py" "$scratch/copy/generated"
 }
 
 check "$folder" >&2
@@ -71,9 +70,6 @@ refused 'riis_meshes.f90 is not what its template expands to'
 copy
 sed -i 's/must be one more/must be more/' "$scratch/copy/templates/riis_meshes.fypp"
 refused 'riis_meshes.f90 is not what its template expands to'
-copy
-sed -i '/riisf_mark_nodes/d' "$scratch/copy/generated/riisf.f90"
-refused 'riisf.f90 is not what its template expands to'
 copy
 rm "$scratch/copy/templates/riis_meshes.fypp"
 refused 'riis_meshes.f90 says that it is generated, and has no template'

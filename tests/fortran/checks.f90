@@ -1,12 +1,12 @@
 ! SPDX-License-Identifier: Apache-2.0
-! Helpers of the Fortran tests: checks that count failures, and a comparison of memory.
+! Helpers of the Fortran tests: checks that count failures, and a comparison of bits.
 module checks
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int8_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: error_unit
   use riis_c
   implicit none
   private
-  public :: check, check_ok, check_refused, check_same_bytes, finish, same
+  public :: check, check_ok, check_refused, finish, same
 
   integer :: n_checks = 0, n_failed = 0
 
@@ -42,20 +42,7 @@ contains
       riis_c_text(riis_last_error()))
   end subroutine check_refused
 
-  ! Compares bit for bit. Comparing reals by value would treat -0 and 0 as equal, and NaN as different from itself.
-  subroutine check_same_bytes(a, b, n_bytes, what)
-    type(c_ptr), intent(in) :: a, b
-    integer(c_int64_t), intent(in) :: n_bytes
-    character(len=*), intent(in) :: what
-    integer(c_int8_t), pointer :: bytes_a(:), bytes_b(:)
-    call check(n_bytes > 0 .and. c_associated(a) .and. c_associated(b), what // ': there is something to compare')
-    if (n_bytes <= 0 .or. .not. (c_associated(a) .and. c_associated(b))) return
-    call c_f_pointer(a, bytes_a, [n_bytes])
-    call c_f_pointer(b, bytes_b, [n_bytes])
-    call check(all(bytes_a == bytes_b), what // ': the same bits from Fortran and from C')
-  end subroutine check_same_bytes
-
-  ! Returns whether two numbers have the same bits.
+  ! Returns whether two numbers have the same bits. By value, -0 would be equal to 0, and NaN would differ from itself.
   elemental function same(a, b)
     real(c_double), intent(in) :: a, b
     logical :: same

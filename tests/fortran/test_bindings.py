@@ -18,9 +18,9 @@ import check_keywords
 import generate
 from header import with_included
 
-HEADER, TABLE = generate.HEADER, generate.TABLE
+HEADER, TABLE, SUBROUTINES = generate.HEADER, generate.TABLE, generate.SUBROUTINES
 HEADERS = [os.path.relpath(path, SOURCES) for path in with_included(os.path.join(SOURCES, HEADER))]
-MODULE, FIXED, LAYOUTS = generate.WIDTHS
+MODULE, FIXED, EXTERNAL, INTERFACES = generate.WIDTHS
 BEFORE_FUNCTION = "/* Destroys the valve. Surfaces"  # a comment of a header; functions are planted before it
 IN_LAST_HEADER = "/* The phases of a switch. */"
 FUNCTION = "RIIS_API riis_status riis_valve_planted(const riis_valve *valve, {});\n"
@@ -31,7 +31,7 @@ class Planted(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = folder.name
-        for path in (*HEADERS, TABLE, *generate.TEMPLATES, MODULE, FIXED, LAYOUTS):
+        for path in (*HEADERS, TABLE, SUBROUTINES, *generate.WIDTHS, *map(generate.template_of, generate.WIDTHS)):
             os.makedirs(os.path.dirname(os.path.join(self.root, path)), exist_ok=True)
             shutil.copy(os.path.join(SOURCES, path), os.path.join(self.root, path))
         self.before = self.generated()
@@ -41,7 +41,7 @@ class Planted(unittest.TestCase):
             return file.read()
 
     def generated(self):
-        return [self.text(path) for path in (MODULE, FIXED, LAYOUTS)]
+        return [self.text(path) for path in generate.WIDTHS]
 
     def plant(self, path, old, new):
         """Replaces the only occurrence of the old text. Returns its line number. HEADER stands for the header with the text.
@@ -80,11 +80,10 @@ class Planted(unittest.TestCase):
         self.assertEqual(status, 0, text)
 
     def refuses(self, *messages):
-        for words in ((), ("--check",)):
-            status, text = self.run_it(*words)
-            self.assertEqual(status, 1, text)
-            for message in messages:
-                self.assertIn(message, text)
+        status, text = self.run_it()
+        self.assertEqual(status, 1, text)
+        for message in messages:
+            self.assertIn(message, text)
         self.assertEqual(self.generated(), self.before)
 
     def function(self, name):
@@ -97,11 +96,12 @@ class Planted(unittest.TestCase):
 class Committed(Planted):
     def test_is_what_is_generated(self):
         status, text = self.run_it("--check")
-        self.assertEqual((status, text), (0, "3 of 3 files were as they should be\n"))
+        self.assertEqual((status, text), (0, "4 of 4 files were as they should be\n"))
 
     def test_a_line_by_hand_is_seen_and_shown(self):
         for path, line in ((MODULE, "    integer(c_int64_t) :: n_curves\n"), (FIXED, "      PARAMETER (RIIS_OK = 0)\n"),
-                           (LAYOUTS, ", AT(reserved))\n")):
+                           (EXTERNAL, "subroutine riisf_valve_copy(valve, copy, status)\n"),
+                           (INTERFACES, "    subroutine riisf_valve_copy(valve, copy, status)\n")):
             self.setUp()
             text = self.text(path)
             place = text.index(line)
@@ -113,7 +113,7 @@ class Committed(Planted):
             self.assertRegex(text, r"(?m)^\+.*" + line.strip().split("(")[0])
 
     def test_a_missing_file_is_written(self):
-        for path in (MODULE, FIXED, LAYOUTS):
+        for path in generate.WIDTHS:
             os.remove(os.path.join(self.root, path))
         self.assertEqual(self.run_it("--check")[0], 1)
         self.assertEqual(self.run_it()[0], 0)
@@ -127,14 +127,12 @@ class Fields(Planted):
         self.writes()
         self.assertIn("    integer(c_int32_t) :: instructions\n    real(c_double) :: planted(2), other\n"
                       "    integer(c_int32_t) :: last\n  end type riis_mark_options\n", self.text(MODULE))
-        self.assertIn("       AT(n_threads), AT(instructions), AT(planted), AT(other), AT(last))\n", self.text(LAYOUTS))
 
     def test_the_order_is_that_of_the_header(self):
         self.plant(HEADER, "  int64_t n_curves;          /* 1 to", "  int64_t planted;\n  int64_t n_curves;          /* 1 to")
         self.writes()
         self.assertIn(":: struct_size\n    integer(c_int64_t) :: planted\n    integer(c_int64_t) :: n_curves\n",
                       self.text(MODULE))
-        self.assertIn("LAYOUT(riis_patches, AT(struct_size), AT(planted), AT(n_curves),", self.text(LAYOUTS))
 
     def test_a_pointer_needs_its_shape(self):
         line = self.plant(HEADER, "} riis_patches;", "  const double *planted;\n} riis_patches;")
@@ -183,7 +181,6 @@ class Fields(Planted):
         self.writes()
         self.assertIn("  type, bind(c) :: riis_planted\n    integer(c_int32_t) :: a, b\n  end type riis_planted\n",
                       self.text(MODULE))
-        self.assertIn("\nLAYOUT(riis_planted, AT(a), AT(b))\n", self.text(LAYOUTS))
 
 
 class Constants(Planted):
@@ -327,6 +324,7 @@ riis_valve_planted  What it does not say elsewhere.
                       "      integer(c_int32_t), value :: a\n    end subroutine", self.text(MODULE))
 
     def test_a_renamed_argument(self):
+        self.plant(SUBROUTINES, "  status  Any value.\n", "  status = planted  Any value.\n")
         self.plant(HEADER, "riis_status_name(riis_status status)", "riis_status_name(riis_status planted)")
         self.writes()
         self.assertIn("function riis_status_name(planted)", self.text(MODULE))
@@ -419,7 +417,45 @@ class Words(Planted):
                      "riis_patches: degree is in ", "already")
 
 
-INTERFACES = "fortran/generated/riisf.f90"
+class Subroutines(Planted):
+    """The table of the external subroutines."""
+
+    ENTRY = "riisf_mesh_prepare = riis_mesh_prepare\n"
+
+    def test_an_entry_makes_a_subroutine_and_its_interface(self):
+        self.plant(SUBROUTINES, self.ENTRY, "riisf_planted, _64 = riis_warp_set_targets\n  ! Planted.\n  warp  A warp.\n"
+                   "  n = n_points, x(*), y(*), z(*), stride\n  > targets%real_bits = 64\n\n" + self.ENTRY)
+        self.writes()
+        for path, indent in ((EXTERNAL, ""), (INTERFACES, "    ")):
+            text = self.text(path)
+            self.assertIn(f"{indent}subroutine riisf_planted(warp, n, x, y, z, stride, status)\n", text)
+            self.assertRegex(text.partition("subroutine riisf_planted_64(")[2], r"\n +integer\(int64\), intent\(in\) :: n[ \n]")
+        self.assertIn("  targets%n_points = n\n  targets%x = location_of(x)\n", self.text(EXTERNAL))
+        self.assertIn("  targets%real_bits = 64\n  status = riis_warp_set_targets(c_handle_of(warp), targets)\n",
+                      self.text(EXTERNAL))
+        self.assertIn("\n!> Planted.\nsubroutine riisf_planted(", self.text(EXTERNAL))
+
+    def test_a_text_of_the_header(self):
+        self.plant(HEADER, "double depth;", "double depth; /* planted, default 3. NULL: none */ double other_depth;")
+        self.writes()
+        self.assertRegex(self.text(EXTERNAL), r"real\(c_double\), intent\(in\) :: depth +!< Planted, usually 3\.\n")
+
+    def test_a_function_that_is_gone(self):
+        self.plant(HEADER, "RIIS_API riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads);\n", "")
+        self.refuses(f"{SUBROUTINES}:", "riisf_mesh_prepare: riis.h has no riis_mesh_prepare\n")
+
+    def test_faulty_entries(self):
+        for old, new, message in (
+                (self.ENTRY, "riisf_mesh_prepare\n", "'riisf_mesh_prepare' is not understood"),
+                ("  mesh, n_threads\n", "  mesh, (3)\n", "the argument '(3)' is not understood"),
+                ("  mesh, n_threads\n", "  mesh, planted\n", "riisf_mesh_prepare: riis.h has no planted"),
+                ("  mesh, n_threads\n", "  mesh, n_threads = csr%planted\n", "riisf_mesh_prepare: riis.h has no csr%planted"),
+                ("  mesh, n_threads\n", "  mesh\n", "riisf_mesh_prepare: no argument gives n_threads of riis_mesh_prepare"),
+                ("  mesh, n_threads\n", "  mesh, planted = n_threads\n", "riisf_mesh_prepare: planted has no text"),
+                (self.ENTRY, self.ENTRY + "    mesh\n", "nothing is above that the second line could belong to")):
+            self.setUp()
+            self.plant(SUBROUTINES, old, new)
+            self.refuses(f"{SUBROUTINES}:", message)
 
 
 class Page(Planted):
@@ -463,8 +499,8 @@ class Page(Planted):
         self.says("the Fortran sources have no riis_valve%planted", "riis_valve%unset belongs to no call")
 
     def test_a_line_that_changes(self):
-        before = "    subroutine riisf_valve_unset(valve, "
-        self.plant(INTERFACES, before + "name,", before + "planted,")
+        self.plant(INTERFACES, "    subroutine riisf_valve_unset(valve, name,",
+                   "    subroutine riisf_valve_unset(valve, planted,")
         self.says("+CALL RIISF_VALVE_UNSET(VALVE, PLANTED, STATUS)", "./run bindings writes it anew")
         self.assertEqual(self.judge()[0], 0)
         self.assertEqual(self.judge("--check")[0], 0)

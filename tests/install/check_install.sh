@@ -36,9 +36,7 @@ expected=$source/tests/install/expected
 
 # The installed Fortran sources, in the order in which they use each other.
 fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
-  riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis riis_f77 riis_f77_adjacency
-  riis_f77_marking riis_f77_leaks riis_f77_crossings riis_f77_fields riis_f77_resistance riis_f77_arrays riis_f77_queries
-  riis_f77_measures riis_f77_laws riis_f77_placing riisf)
+  riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis riis_f77 riisf)
 
 
 configure_consumer() { # arguments: source directory, build directory, prefix, more options

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Bounds the difference between the velocities of a surface's triangles and those of the smooth valve (docs/theory/velocity.md), at equal patch, u and v. */
+ * Bounds the difference between the velocities of a surface's triangles and those of the smooth valve
+ * (docs/theory/velocity.md), at equal patch, u and v. */
 #ifndef RIIS_TEST_VELOCITY_BOUND_H
 #define RIIS_TEST_VELOCITY_BOUND_H
 
