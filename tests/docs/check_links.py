@@ -100,7 +100,8 @@ def long_pages(folder):
 
 def missing_sources(folder):
     """Yields the source files that docs/walks.md and the pages of docs/theory and docs/design name and that do not exist."""
-    sources = [path.relative_to(folder).as_posix() for part in ("include", "src", "tests") for path in (folder / part).rglob("*")]
+    parts = ("include", "src", "fortran", "tests")
+    sources = [path.relative_to(folder).as_posix() for part in parts for path in (folder / part).rglob("*")]
     for page in [*folder.glob("docs/walks.md"), *pages_of_books(folder)]:
         named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", page.read_text(encoding="utf-8"))
         if not named and page.name == "walks.md":
