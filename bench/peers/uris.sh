@@ -45,7 +45,8 @@ END
 export_in_duct() {
   local time_step=${4-0.002}
   rm -rf "$1"
-  "$build/bin/riis" export "$1" "$1.msh" --valve "${5-$build/uris/flat.json}" --resistance 1e4 --time-step "$time_step" \
+  RIIS_PYTHON=${RIIS_PYTHON-$(python_of_packages)} \
+    "$build/bin/riis" export "$1" "$1.msh" --valve "${5-$build/uris/flat.json}" --resistance 1e4 --time-step "$time_step" \
     --opening-seconds "$time_step" --closing-seconds "$time_step" --half-thickness "$2" --largest-edge "${6-0.03}" \
     --translate "0,0,$3" >"$1.xml" 2>/dev/null
 }

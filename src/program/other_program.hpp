@@ -2,6 +2,9 @@
 // Runs other programs without a shell.
 #pragma once
 
+#include <cstdio>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,8 +18,26 @@ struct ProgramEnd {
 // nothing, its output is lost, and its messages are written to a file.
 ProgramEnd run_program(const std::vector<std::string> &words, const std::string &log);
 
+struct CloseFile {
+  void operator()(std::FILE *file) const { std::fclose(file); }
+};
+// A file without a name. It is gone when it is closed.
+using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
+// Returns NULL, and sets errno, if the file cannot be made.
+TemporaryFile temporary_file();
+
+struct LinesEnd : ProgramEnd {
+  std::string last_message;  // the last line on its stderr
+};
+// Runs the words as run_program does. The program reads `input` from its position, and `read` gets each line of its output.
+LinesEnd read_program(const std::vector<std::string> &words, std::FILE *input,
+                      const std::function<void(const std::string &)> &read);
+
+// Returns the Python that the program starts: `python3`, or the one that the environment variable RIIS_PYTHON names.
+std::string python_of_user();
+
 // Implements `riis view`: replaces this process by `python3 -m riis view` with the same words. Returns only by a Refusal, which
-// says how to install the Python package riis if it is missing. The environment variable RIIS_PYTHON names another Python.
+// says how to install the Python package riis if it is missing.
 [[noreturn]] void run_view(int argc, char **argv);
 
 }  // namespace riis::program

@@ -102,7 +102,7 @@ ShapeFunctions shapes_at(Shape shape, const std::vector<Place> &nodes, const Pla
   return functions;
 }
 
-// ---- Nodes and faces ----
+// ---- Nodes ----
 
 std::vector<Place> tetrahedron_nodes(std::size_t n) {
   std::vector<Place> nodes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
@@ -126,23 +126,6 @@ std::vector<Place> hexahedron_nodes(std::size_t n) {
                               {0, 0, -1},   {0, 0, 1},   {0, 0, 0}};
   nodes.resize(n);
   return nodes;
-}
-
-// Returns the functions that vanish on one face each.
-std::vector<double> face_functions(Shape shape, const Place &at) {
-  if (shape == Shape::tetrahedron) return {at[0], at[1], at[2], 1 - at[0] - at[1] - at[2]};
-  if (shape == Shape::wedge) return {at[0], at[1], 1 - at[0] - at[1], 1 - at[2], 1 + at[2]};
-  return {1 - at[0], 1 + at[0], 1 - at[1], 1 + at[1], 1 - at[2], 1 + at[2]};
-}
-
-std::vector<std::vector<std::size_t>> faces_of(Shape shape, const std::vector<Place> &nodes) {
-  std::vector<std::vector<std::size_t>> faces(face_functions(shape, nodes[0]).size());
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const std::vector<double> functions = face_functions(shape, nodes[a]);
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      if (std::abs(functions[f]) < 1e-12) faces[f].push_back(a);
-  }
-  return faces;
 }
 
 // ---- Points of integration ----
@@ -223,7 +206,6 @@ SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, s
   element.node_places = shape == Shape::tetrahedron ? tetrahedron_nodes(n_nodes)
                         : shape == Shape::wedge     ? wedge_nodes()
                                                     : hexahedron_nodes(n_nodes);
-  element.faces = faces_of(shape, element.node_places);
   element.has_one_gradient = n_nodes == 4 || n_nodes == 6;
   element.gauss = shape == Shape::tetrahedron ? tetrahedron_gauss(n_nodes)
                   : shape == Shape::wedge     ? wedge_gauss()

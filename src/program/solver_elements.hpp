@@ -26,7 +26,6 @@ struct SolverElement {
   std::uint8_t vtk_type;
   std::size_t n_nodes, n_corners;
   std::vector<std::array<double, 3>> node_places;  // in the coordinates of the reference element
-  std::vector<std::vector<std::size_t>> faces;     // the nodes of each face
   // The solver evaluates the gradients of some elements at its first Gauss point only.
   bool has_one_gradient;
   std::vector<ReferencePoint> gauss;

@@ -39,7 +39,14 @@ class Forecaster {
         ", median edge " + shown(median_edge_));
     check_closed(motion.closing.back());
     check_open(motion.opening.back());
-    find_drop(motion.closing.back());
+    try {
+      find_drop(motion.closing.back());
+    } catch (const NoFlow &no_flow) {
+      say("expected drop: not computed, because " + no_flow.reason);
+      warn("the drop across the closed valve was not computed, nor whether the leaflets separate two sides of " +
+           options_.mesh + ", because " + no_flow.reason +
+           "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
+    }
     const std::size_t n = motion.opening.size() + motion.closing.size();
     StepProgress progress("reading frames as the solver does", n, options_.quiet);
     std::string &table = forecast_.table;
@@ -130,7 +137,7 @@ class Forecaster {
     const double reach = std::max(2.5 * half_thickness, half_thickness + 2 * median_edge_);
     const ClosedDrop drop =
         closed_drop(mesh_, distances, wide, near, reach, half_thickness,
-                    {options_.resistance, options_.density, options_.viscosity, options_.time_step});
+                    {options_.resistance, options_.density, options_.viscosity, options_.time_step}, options_.quiet);
     Expected expected;
     expected.state = !drop.is_separated ? Expected::let_past
                      : drop.is_solved   ? Expected::separated
@@ -142,7 +149,6 @@ class Forecaster {
   }
 
   void find_drop(double opening) {
-    const Stage stage("computing the drop across the closed valve", options_.quiet);
     const SolverDistances distances = distances_at(opening, true);
     warn_of_negative_shapes(distances);
     const std::vector<double> near =
@@ -172,7 +178,12 @@ class Forecaster {
            " of (R/eps) u across the closed valve: its stabilisation needs a density of about 1, as in grams and cm");
     }
     if (expected.drop >= enough) return;
-    const std::string needed = thickness_for(wide, near);
+    std::string needed;
+    try {
+      needed = thickness_for(wide, near);
+    } catch (const NoFlow &no_flow) {
+      needed = "the half thickness that the mesh needs was not computed, because " + no_flow.reason;
+    }
     say("  " + needed);
     warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
   }

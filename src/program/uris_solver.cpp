@@ -145,12 +145,11 @@ double determinant(const double m[3][3]) {
 // weights with and without that swap, so only the determinant's sign changes.
 void turn_elements(SolverMesh &mesh, const std::string &path) {
   const SolverElement &element = *mesh.element;
-  ElementMap map;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
-    map_element(mesh, e, element.at_gauss[0], map);
-    if (map.determinant > 0) continue;
+    const double volume = determinant_at(mesh, e, element.at_gauss[0]);
+    if (volume > 0) continue;
     const std::string subject = path + ": volume element " + std::to_string(e);
-    if (!(map.determinant < 0)) throw Refusal{exit_bad_data, subject + " has no volume"};
+    if (!(volume < 0)) throw Refusal{exit_bad_data, subject + " has no volume"};
     std::int64_t *const nodes = mesh.nodes.data() + e * static_cast<std::int64_t>(element.n_nodes);
     if (element.n_corners == 8)
       throw Refusal{exit_bad_data, subject + " is inside out, and svMultiPhysics does not turn hexahedra"};
@@ -167,12 +166,12 @@ std::vector<double> node_volumes(const SolverMesh &mesh) {
   const SolverElement &element = *mesh.element;
   std::vector<double> volume;
   resize(volume, mesh.n_nodes);
-  ElementMap map;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
+    double determinant = 0;
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
-      if (g == 0 || !element.has_one_gradient) map_element(mesh, e, element.at_gauss[g], map);
+      if (g == 0 || !element.has_one_gradient) determinant = determinant_at(mesh, e, element.at_gauss[g]);
       for (std::size_t a = 0; a < element.n_nodes; ++a)
-        view(volume)[mesh.nodes_of(e)[a]] += element.gauss[g].weight * map.determinant * element.at_gauss[g].values[a];
+        view(volume)[mesh.nodes_of(e)[a]] += element.gauss[g].weight * determinant * element.at_gauss[g].values[a];
     }
   }
   return volume;
@@ -212,31 +211,14 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path) {
   return mesh;
 }
 
-void map_element(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions, ElementMap &map) {
-  const std::size_t n = mesh.element->n_nodes;
+double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions) {
   const std::int64_t *const nodes = mesh.nodes_of(e);
   double to[3][3] = {};  // first index: coordinate in space; second index: coordinate in the reference element
-  for (std::size_t a = 0; a < n; ++a)
+  for (std::size_t a = 0; a < mesh.element->n_nodes; ++a)
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 3; ++k)
         to[i][k] += mesh.xyz[3 * nodes[a] + static_cast<std::int64_t>(i)] * functions.slopes[a][k];
-  map.determinant = determinant(to);
-  double back[3][3];
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-      back[k][i] = (to[i1][k1] * to[i2][k2] - to[i1][k2] * to[i2][k1]) / map.determinant;
-    }
-  }
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      map.metric[i][j] = back[0][i] * back[0][j] + back[1][i] * back[1][j] + back[2][i] * back[2][j];
-  map.metric_trace = map.metric[0][0] + map.metric[1][1] + map.metric[2][2];
-  map.gradients.resize(n);
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t i = 0; i < 3; ++i)
-      map.gradients[a][i] = functions.slopes[a][0] * back[0][i] + functions.slopes[a][1] * back[1][i] +
-                            functions.slopes[a][2] * back[2][i];
+  return determinant(to);
 }
 
 SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
@@ -346,16 +328,14 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
 double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness) {
   const SolverElement &element = *mesh.element;
   double integral = 0;
-  ElementMap map;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
-    bool is_mapped = false;
+    double determinant = 0;
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
       const double delta = solver_delta(mesh, e, element.at_gauss[g], distances, half_thickness);
       if (delta == 0) continue;
-      if (!element.has_one_gradient || !is_mapped)
-        map_element(mesh, e, element.at_gauss[element.has_one_gradient ? 0 : g], map);
-      is_mapped = true;
-      integral += element.gauss[g].weight * map.determinant * delta;
+      if (!element.has_one_gradient || determinant == 0)
+        determinant = determinant_at(mesh, e, element.at_gauss[element.has_one_gradient ? 0 : g]);
+      integral += element.gauss[g].weight * determinant * delta;
     }
   }
   return half_thickness * integral;
@@ -386,7 +366,6 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
   const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
   std::vector<double> xyz, weights;
-  ElementMap map;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
     double nearest = infinity, size = 0;
     for (std::size_t a = 0; a < element.n_nodes; ++a) {
@@ -398,8 +377,8 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     for (std::size_t g = 0; g < points.size(); ++g) {
-      map_element(mesh, e, functions[at_solver_points && element.has_one_gradient ? 0 : g], map);
-      weights.push_back(points[g].weight * map.determinant);
+      const ShapeFunctions &mapped = functions[at_solver_points && element.has_one_gradient ? 0 : g];
+      weights.push_back(points[g].weight * determinant_at(mesh, e, mapped));
       for (std::int64_t k = 0; k < 3; ++k) {
         double x = 0;
         for (std::size_t a = 0; a < element.n_nodes; ++a)

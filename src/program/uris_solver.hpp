@@ -35,14 +35,8 @@ struct SolverMesh {
 // Refuses meshes that the solver refuses. `path` names the mesh in refusals.
 SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path);
 
-// The map from the reference element at one point: gradients of shape functions, the determinant, and the solver's metric.
-struct ElementMap {
-  std::vector<std::array<double, 3>> gradients;  // by node
-  double determinant = 0;
-  double metric[3][3];  // the sum of grad(xi_k) grad(xi_k)^T
-  double metric_trace = 0;
-};
-void map_element(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions, ElementMap &map);
+// Returns the determinant of the map from the reference element at one point.
+double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions);
 
 // The distances of one frame.
 struct SolverDistances {

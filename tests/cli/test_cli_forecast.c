@@ -10,6 +10,8 @@
 #include "test_support.h"
 /* clang-format on */
 
+#include <sys/stat.h>
+
 #include "brick_meshes.h"
 #include "program.h"
 #include "scratch.h"
@@ -371,8 +373,16 @@ static double number_after(const char *text, const char *key) {
   return strtod(at + strlen(key), NULL);
 }
 
+/* A Python with SciPy computes the drop. The tests of the drop are skipped without it. */
+static void need_scipy(void) {
+  if (system("\"${RIIS_PYTHON:-python3}\" -c 'import scipy.sparse.linalg' 2>/dev/null") == 0) return;
+  puts("skipped: Python has no SciPy (Debian: python3-scipy)");
+  skip();
+}
+
 /* A plate that fills a square tube. The fluids differ in how strong the solver's stabilisation is. */
 TEST(test_drop) {
+  need_scipy();
   static double distance[most_nodes];
   const fluid fluids[] = {{1e4, 1.06, 0.04, 0.01}, {3e3, 3, 0.3, 0.01}};
   for (int i = 0; i < 4; ++i) {
@@ -476,6 +486,7 @@ TEST(test_refusals) {
 
 /* A valve that leaves a gap in its mesh, and a valve whose drop is too small. Both are exported, with a warning. */
 TEST(test_warnings) {
+  need_scipy();
   write_tube("coarse.vtk", -3.1, 2.9);
   run_program("export", scratch_path("thin"), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
               "--half-thickness", "0.35", "--largest-edge", "0.1", NULL);
@@ -498,6 +509,78 @@ TEST(test_warnings) {
               "--half-thickness", "0.1", "--scale", "0.1", "--strict", NULL);
   assert_int_equal(program_exit_code, 4);
   assert_non_null(strstr(program_err, "the closed leaflets do not separate two sides of"));
+}
+
+/* ---- Without SciPy ---- */
+
+static const char *write_python(const char *name, const char *text) {
+  const char *path = scratch_path(name);
+  FILE *file = fopen(path, "w");
+  assert_non_null(file);
+  fprintf(file, "#!/bin/sh\n%s\n", text);
+  assert_int_equal(fclose(file), 0);
+  assert_int_equal(chmod(path, 0700), 0);
+  return path;
+}
+
+/* Exports with the Python that is named, or with the one of the test. Returns the table. */
+static char *exported_with(const char *python, const char *folder) {
+  char *old = getenv("RIIS_PYTHON") ? strdup(getenv("RIIS_PYTHON")) : NULL;
+  char table[64];
+  if (python) setenv("RIIS_PYTHON", python, 1);
+  run_program("export", scratch_path(folder), scratch_path("coarse.vtk"), RAMPS, "--valve", scratch_path("flap.json"),
+              "--half-thickness", "0.7", "--largest-edge", "0.2", NULL);
+  if (old) setenv("RIIS_PYTHON", old, 1);
+  if (python && !old) unsetenv("RIIS_PYTHON");
+  free(old);
+  assert_int_equal(program_exit_code, 0);
+  snprintf(table, sizeof table, "%s/forecast.csv", folder);
+  return scratch_read(scratch_path(table), NULL);
+}
+
+/* Copies the lines of the block that neither tell the drop nor name the folder. */
+static void other_lines(char *to) {
+  for (char *line = strtok(program_out, "\n"); line; line = strtok(NULL, "\n"))
+    if (!strstr(line, "drop") && !strstr(line, "u is the flow") && !strstr(line, "_file_path"))
+      to += sprintf(to, "%s\n", line);
+}
+
+/* Without SciPy only the drop is missing, and the export says so. Other faults of Python are also told. */
+TEST(test_without_scipy) {
+  static char with_lines[1 << 14], without_lines[1 << 14], python[256];
+  write_tube("coarse.vtk", -3.1, 2.9);
+  char *const with = exported_with(NULL, "with");
+  assert_true(strlen(program_out) < sizeof with_lines);
+  other_lines(with_lines);
+  const struct {
+    const char *name, *text, *reason;
+  } faults[] = {
+      {"lacking", "exec python3 -I -S \"$@\"", "lacking lacks numpy"}, /* -S leaves out the folders of packages */
+      {"old", "echo step 5; echo lacks scipy", "old lacks scipy"},
+      {"failing", "echo step 5; echo MemoryError >&2; exit 1", "failing failed: MemoryError"},
+      {"killed", "kill -9 $$", "killed failed"},
+      {"odd", "echo drop 3", "odd printed 'drop 3'"},
+      {NULL, NULL, "none cannot be run: No such file or directory"},
+  };
+  for (size_t i = 0; i < sizeof faults / sizeof faults[0]; ++i) {
+    char folder[16], said[256];
+    snprintf(folder, sizeof folder, "without_%zu", i);
+    if (faults[i].name)
+      snprintf(python, sizeof python, "%s", write_python(faults[i].name, faults[i].text));
+    else
+      snprintf(python, sizeof python, "%s", scratch_path("none"));
+    char *const without = exported_with(python, folder);
+    assert_string_equal(without, with);
+    free(without);
+    if (!strstr(program_out, "expected drop: not computed, because ") || !strstr(program_out, faults[i].reason))
+      fail_msg("'%s' is not in:\n%s", faults[i].reason, program_out);
+    snprintf(said, sizeof said, "%s; it needs NumPy and SciPy (Debian: python3-scipy)", faults[i].reason);
+    assert_non_null(strstr(program_err, "the drop across the closed valve was not computed, nor whether the leaflets"));
+    assert_non_null(strstr(program_err, said));
+    other_lines(without_lines);
+    assert_string_equal(without_lines, with_lines);
+  }
+  free(with);
 }
 
 /* The flap fills the tube from -1 to 1 when closed, and turns about the side y = -1. The other one jumps far away. */
