@@ -264,10 +264,10 @@ void Tiles::place_vertices_of(const Tile &tile) {
   if (!how_.earlier) return;
   const std::ptrdiff_t image = tile.image - set_.patches[tile.patch].images.data();
   const PatchImage &before = how_.earlier->patches_before.patches[tile.patch].images[static_cast<std::size_t>(image)];
-  const ImageVelocity image(*tile.image, before, how_.placement, *how_.earlier);
+  const ImageVelocity image_velocity(*tile.image, before, how_.placement, *how_.earlier);
   for (std::int64_t i = 0; i < points.size(); ++i)
     put_vector(triangles_.velocity.data() + 3 * tile.first_vertex, i,
-               image.velocity(points[i], view(of_patch.displacements)[i]));
+               image_velocity.velocity(points[i], view(of_patch.displacements)[i]));
 }
 
 void Tiles::make_room_for_triangles() {
