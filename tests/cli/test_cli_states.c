@@ -198,11 +198,11 @@ TEST(test_mitral) {
 
 /* Without --count there are 101 openings. With the table on stdout, the program prints nothing else. */
 TEST(test_stdout) {
-  RUN_STATES("--valve", RIIS_EXAMPLES "/prosthesis.json", "--quiet");
+  RUN_STATES("--valve", "bileaflet", "--quiet");
   assert_string_equal(program_out, "");
   assert_int_equal(table.n_rows, 101);
   for (int i = 0; i <= 100; ++i) assert_true(cell(i, "opening") == i / 100.0);
-  RUN_FINE("states", "-", "--valve", RIIS_EXAMPLES "/prosthesis.json");
+  RUN_FINE("states", "-", "--valve", "bileaflet");
   char *text = scratch_read(scratch_path("states.csv"), NULL);
   assert_string_equal(program_out, text);
   free(text);

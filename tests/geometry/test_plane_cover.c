@@ -56,7 +56,7 @@ TEST(test_ring) {
  * x is the worst case. */
 TEST(test_half) {
   random_source random = random_start("test_plane_cover");
-  for (int turn = 0; turn < fewer_if_sanitized(60); ++turn) {
+  for (int turn = 0; turn < trials_of(60); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = 1.1, angle = turn < 4 ? turn * pi / 2 : random_between(&random, 0, 2 * pi);
     const double up = turn % 2 ? random_between(&random, -0.5, 0.5) : 0; /* distance from the centre to the edge */
@@ -155,7 +155,7 @@ TEST(test_growing) {
 TEST(test_growing_square) {
   random_source random = random_start("test_plane_cover");
   const int64_t ids[6] = {0, 1, 2, 0, 2, 3};
-  for (int turn = 0; turn < fewer_if_sanitized(24); ++turn) {
+  for (int turn = 0; turn < trials_of(24); ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double half = 0.5, reach = turn % 3 ? random_between(&random, 0.01, 0.2) : 0;
     const double angle = turn < 4 ? turn * pi / 4 : random_between(&random, 0, 2 * pi);

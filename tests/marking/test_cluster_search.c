@@ -245,7 +245,7 @@ TEST(surfaces_from_arrays) {
   static int32_t ids[3 * max_triangles];
   for (int i = 0; i < 3 * max_triangles; ++i) ids[i] = i;
   most_within = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(150); ++trial) {
+  for (int trial = 0; trial < trials_of(150); ++trial) {
     const int owned_before = n_owned();
     const int64_t n_triangles = 8 + (int64_t)(random_bits(&rng) % (max_triangles - 8));
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -45, 45),
@@ -368,7 +368,7 @@ static void any_point(const riis_surface *surface, int i) {
 TEST(every_distance_of_random_valves) {
   static const char *const kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   enum { n_kinds = 5 };
-  const int64_t n_wanted = is_long_test() ? 10000000 : fewer_if_sanitized(80000);
+  const int64_t n_wanted = is_long_test() ? 10000000 : trials_of(80000);
   int64_t n_compared = 0;
   for (int trial = 0; n_compared < n_wanted; ++trial) {
     const int owned_before = n_owned();
@@ -417,7 +417,7 @@ TEST(large_leaves_near_small_triangles) {
 /* --- If single precision does not suffice ---------------------------------------------------------------------------- */
 
 TEST(where_it_cannot_be_used_the_exhaustive_search_runs) {
-  const int n = fewer_if_sanitized(500);
+  const int n = trials_of(500);
   riis_surface *surface = aortic_surface(NULL);
   const struct {
     double size, at, limit;

@@ -10,7 +10,6 @@
 #include "searches.h"
 
 #include "cluster_checks.h"
-#include "sanitized.h"
 
 enum { max_nodes = 9000 };
 static double xyz[3 * max_nodes];
@@ -49,7 +48,7 @@ TEST(nodes_that_moved_without_a_word) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mark_options options = mark_options();
   riis_marks *result = new_result(), *expected = new_result();
-  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
     const int owned_before = n_owned();
     const double far = trial % 4 ? random_power_of_ten(&rng, -12, 50) : 0;
     for (int i = 0; i < 3 * max_nodes; ++i) xyz[i] = random_between(&rng, -far, far);

@@ -3,13 +3,12 @@
  * scalar kernel. Single precision is off by no more than the library allows for (docs/theory/clusters.md). No pair that
  * matters is left out, however small the buffer for pairs is. */
 #include "internals.h"
-#include "sanitized.h"
 #include "test_support.h"
 
 static random_source rng;
 
 /* Returns whether a count is above n. Sanitized builds run a third of the trials, so there the limit is a third of n. */
-static int is_more(int64_t count, int n) { return count > fewer_if_sanitized(n); }
+static int is_more(int64_t count, int n) { return count > trials_of(n); }
 
 static double sign(void) { return random_bits(&rng) & 1 ? 1 : -1; }
 static void random_point(double size, double *p) {
@@ -121,7 +120,7 @@ TEST(decisions_have_the_bits_of_the_scalar_kernel) {
   static double on[3 * max_pairs], weights[3 * max_pairs];
   static int32_t point[max_pairs], triangle[max_pairs];
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(500); ++trial) {
+  for (int trial = 0; trial < trials_of(500); ++trial) {
     /* Some trials are in other units, some far from the origin, where coordinates round. */
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -50, 50),
                  far = trial % 2 ? 0 : random_power_of_ten(&rng, 0, 9);
@@ -173,7 +172,7 @@ TEST(located_points_have_the_bits_of_the_scalar_kernel) {
   enum { n = 8 };
   static const int32_t each[n] = {0, 1, 2, 3, 4, 5, 6, 7};
   int64_t n_compared = 0, n_inside = 0, n_edge = 0, n_corner = 0, n_without_area = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(20000); ++trial) {
+  for (int trial = 0; trial < trials_of(20000); ++trial) {
     double corners[9 * n], points[3 * n], sq[n], on[3 * n], weight[3 * n];
     double expected_sq[n], expected_on[3 * n], expected_weight[3 * n];
     const double unit = trial % 3 ? 1 : random_power_of_ten(&rng, -50, 50),
@@ -213,7 +212,7 @@ TEST(located_points_have_the_bits_of_the_scalar_kernel) {
   }
   printf("%lld located; %lld pairs inside, %lld at edges, %lld at corners, %lld without area\n", (long long)n_compared,
          (long long)n_inside, (long long)n_edge, (long long)n_corner, (long long)n_without_area);
-  assert_true(n_compared >= 8 * fewer_if_sanitized(20000) && is_more(n_inside, 5000) && is_more(n_edge, 5000) &&
+  assert_true(n_compared >= 8 * trials_of(20000) && is_more(n_inside, 5000) && is_more(n_edge, 5000) &&
               is_more(n_corner, 5000) && is_more(n_without_area, 5000));
 }
 
@@ -253,7 +252,7 @@ TEST(single_precision_is_right_to_its_error) {
     if (!kernels_there(set)) continue;
     double nearer = 0, farther = 0;
     int64_t n_compared = 0;
-    for (int trial = 0; trial < fewer_if_sanitized(20000); ++trial) {
+    for (int trial = 0; trial < trials_of(20000); ++trial) {
       double corners[9 * n_lanes], decided[n_lanes + 7];
       float filtered[n_lanes];
       const int n = 1 + (int)(random_bits(&rng) % n_lanes);
@@ -402,7 +401,7 @@ TEST(lower_bounds_and_boxes_lose_nothing) {
     if (!kernels_there(set)) continue;
     double below = -1;
     int64_t n_near = 0, n_far = 0, n_cleared = 0, n_own_cleared = 0;
-    for (int trial = 0; trial < fewer_if_sanitized(3000); ++trial) {
+    for (int trial = 0; trial < trials_of(3000); ++trial) {
       static leaf_case c;
       static float lower_sq[32 * max_groups];
       uint16_t near[max_groups], own[max_groups], given[max_groups];
@@ -468,7 +467,7 @@ TEST(no_pair_that_matters_is_lost) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     int64_t n_closest = 0, n_ties = 0, n_left = 0, n_all = 0, n_resumed = 0, n_full = 0;
-    for (int trial = 0; trial < fewer_if_sanitized(1500); ++trial) {
+    for (int trial = 0; trial < trials_of(1500); ++trial) {
       static leaf_case c;
       make_case(set, trial, &c);
       for (size_t k = 0; c.n_nodes > 0 && k < sizeof rooms / sizeof rooms[0]; ++k) {
@@ -533,7 +532,7 @@ TEST(corners_are_bounded_and_framed) {
   enum { most = 100, n_lanes = 16 };
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
-    for (int trial = 0; trial < fewer_if_sanitized(2000); ++trial) {
+    for (int trial = 0; trial < trials_of(2000); ++trial) {
       static double vertices[3 * most], corners[9 * most + 1];
       static int64_t id[3 * most];
       const int64_t n = 1 + (int64_t)(random_bits(&rng) % most);
@@ -572,7 +571,7 @@ TEST(corners_are_bounded_and_framed) {
 /* The nodes of a leaf have the bits of a plain loop. Some coordinates are far outside the frame, infinite or not numbers. */
 TEST(leaves_are_framed) {
   enum { n_nodes = 32 };
-  for (int trial = 0; trial < fewer_if_sanitized(5000); ++trial) {
+  for (int trial = 0; trial < trials_of(5000); ++trial) {
     double nodes[3 * n_nodes], centre[3];
     const double scale = ldexp(1, (int)(random_bits(&rng) % 40) - 20);
     for (int c = 0; c < 3; ++c) centre[c] = random_between(&rng, -1, 1) * random_power_of_ten(&rng, -3, 3);
@@ -606,7 +605,7 @@ TEST(triangles_without_area_are_noticed) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     int n_flat = 0, n_high = 0;
-    for (int trial = 0; trial < fewer_if_sanitized(20000); ++trial) {
+    for (int trial = 0; trial < trials_of(20000); ++trial) {
       enum { most = 8 };
       double vertices[9 * most];
       int64_t id[3 * most];
@@ -666,7 +665,7 @@ TEST(triangles_keep_their_area_when_corners_move) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
     int n_passed = 0, n_stopped = 0;
-    for (int trial = 0; trial < fewer_if_sanitized(20000); ++trial) {
+    for (int trial = 0; trial < trials_of(20000); ++trial) {
       const double size = random_power_of_ten(&rng, -20, 20), height = random_power_of_ten(&rng, -13, 0),
                    shift = size * random_power_of_ten(&rng, -13, 0);
       const double foot = random_between(&rng, -1, 2);
@@ -704,7 +703,7 @@ TEST(points_are_placed) {
   enum { most = 20 };
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
-    for (int trial = 0; trial < fewer_if_sanitized(2000); ++trial) {
+    for (int trial = 0; trial < trials_of(2000); ++trial) {
       double points[3 * most], placed[3 * most + 3], first[12], second[12];
       const int64_t n = (int64_t)(random_bits(&rng) % (most + 1));
       const double scale = random_power_of_ten(&rng, -2, 2), untouched = 17;
@@ -734,7 +733,7 @@ TEST(portable_kernels_have_the_bits_of_the_baseline) {
   enum { n_both = 2 };
   static const int sets[n_both] = {baseline_set, portable_set};
   int64_t n_pairs_compared = 0, n_near = 0, n_cleared = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(2000); ++trial) {
+  for (int trial = 0; trial < trials_of(2000); ++trial) {
     static leaf_case c;
     static float lower_sq[n_both][32 * max_groups], distance_sq[n_both][16];
     uint16_t near[n_both][max_groups], own[n_both][max_groups];
@@ -794,7 +793,7 @@ TEST(portable_kernels_have_the_bits_of_the_baseline) {
 
 TEST(keys_are_ranked) {
   enum { n_keys = 64 };
-  for (int trial = 0; trial < fewer_if_sanitized(5000); ++trial) {
+  for (int trial = 0; trial < trials_of(5000); ++trial) {
     int32_t key[n_keys], n_less[n_keys];
     const int32_t n = (int32_t)(random_bits(&rng) % (n_keys + 1));
     const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many keys are equal, or few */
@@ -817,7 +816,7 @@ TEST(keys_are_ranked) {
 
 /* The arrays have exactly the promised sizes, so a sanitizer finds what is read or written beyond them. */
 TEST(marked_numbers_are_selected) {
-  for (int trial = 0; trial < fewer_if_sanitized(3000); ++trial) {
+  for (int trial = 0; trial < trials_of(3000); ++trial) {
     const int32_t n = (int32_t)(random_bits(&rng) % 100), bit = (int32_t)(random_bits(&rng) % 16);
     int32_t *numbers = malloc((size_t)n * sizeof *numbers), *to = malloc((size_t)n * sizeof *to);
     uint16_t *marks = malloc((size_t)n * sizeof *marks);

@@ -11,7 +11,6 @@
 #include "searches.h"
 
 #include "random_meshes.h"
-#include "sanitized.h"
 
 /* --- Brute force ------------------------------------------------------------------------------------------------------ */
 
@@ -334,7 +333,7 @@ TEST(boxes_leave_nothing_out) {
 
 TEST(random_cases_equal_brute_force) {
   const int is_long = is_long_test();
-  const int64_t n_cases = fewer_if_sanitized(140), n_pairs = is_long ? 10000000 : 0;
+  const int64_t n_cases = trials_of(140), n_pairs = is_long ? 10000000 : 0;
   int64_t n_meshes = 0;
   for (; n_meshes < n_cases || totals.pairs < n_pairs; ++n_meshes)
     one_case((int)(n_meshes % n_kinds), (int64_t)pow(10, random_between(&rng, 0.5, is_long ? 4.7 : 4)),
@@ -363,7 +362,7 @@ TEST(random_cases_equal_brute_force) {
   assert_int_equal(totals.different_distances, 0);
   assert_int_equal(totals.different_marks, 0);
   /* The random cases must not be trivial. */
-  assert_true(totals.pairs >= (is_long ? n_pairs : fewer_if_sanitized(50000)));
+  assert_true(totals.pairs >= (is_long ? n_pairs : trials_of(50000)));
   assert_true(totals.pairs_within > totals.pairs / 50);
   assert_true(totals.undecided < totals.pairs / 1000);
 }

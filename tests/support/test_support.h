@@ -75,6 +75,9 @@ static inline int is_long_test(void) {
   return given && strcmp(given, "1") == 0;
 }
 
+/* Returns how many of n random trials to make: a third, or all with RIIS_TEST_LONG=1. */
+static inline int trials_of(int n) { return is_long_test() ? n : (n + 2) / 3; }
+
 static inline uint64_t random_bits(random_source *random) {
   uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;

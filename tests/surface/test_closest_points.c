@@ -9,7 +9,6 @@
 #include "test_support.h"
 
 #include "handles.h"
-#include "sanitized.h"
 
 static random_source rng;
 
@@ -264,13 +263,11 @@ static void check_many_points(int64_t n, bool are_in_order) {
 }
 
 /* The points fill several batches, which all threads share. */
-TEST(many_points_equal_single_queries) {
-  check_many_points(is_long_test() ? 3000000 : fewer_if_sanitized(140000), false);
-}
+TEST(many_points_equal_single_queries) { check_many_points(is_long_test() ? 3000000 : trials_of(140000), false); }
 
 /* Near points follow each other, so each thread takes batches of its own. */
 TEST(many_points_in_order_equal_single_queries) {
-  check_many_points(is_long_test() ? 3000000 : fewer_if_sanitized(140000), true);
+  check_many_points(is_long_test() ? 3000000 : trials_of(140000), true);
 }
 
 /* Points in a plane, in a line, in one place, most of them in a small part of their box, or near the valve except one. They are

@@ -212,7 +212,7 @@ static compared compare(const states *now, const states *before, double seconds,
 /* Some quads of the mitral valve are split. A vertex from a split has a velocity between those of the quad's corners. */
 TEST(vertices_move_as_the_oracles) {
   double share = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
     const double opening = random_between(&rng, 0, 1), opening_before = random_between(&rng, 0, 1);
     const double tolerance = pow(10, random_between(&rng, -1.7, -0.5));
     const double seconds = (trial % 2 ? 1 : -1) * pow(10, random_between(&rng, -3, 1));

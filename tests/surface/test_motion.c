@@ -130,7 +130,7 @@ static void random_placement(riis_surface_options *options) {
 TEST(triangles_are_those_of_a_plain_update) {
   static const int32_t threads[] = {0, 2, 3, 7};
   riis_surface *moving = new_surface(random_valve(0), NULL);
-  for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3), *before = copy_of(valve);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", any_of(5) ? between(0, 1) : (double)any_of(2)));
@@ -194,7 +194,7 @@ static double largest_speed(const riis_surface *surface, int32_t leaflet_id) {
 }
 
 TEST(nothing_moves_where_nothing_changed) {
-  for (int trial = 0; trial < fewer_if_sanitized(30); ++trial) {
+  for (int trial = 0; trial < trials_of(30); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3);
     riis_surface_options options = surface_options();
@@ -279,7 +279,7 @@ static void before_of(const riis_surface_options *now, const riis_surface_option
 /* A valve at rest is translated, turned, scaled, or all three. */
 TEST(placements_move) {
   double worst = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(60); ++trial) {
+  for (int trial = 0; trial < trials_of(60); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = random_valve(trial % 3);
     riis_surface_options now = surface_options(), then;
@@ -319,7 +319,7 @@ TEST(placements_move) {
  * length as parameter. The other state may be earlier or later. */
 TEST(patches_grow_and_drift) {
   double worst = 0;
-  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
     const int owned_before = n_owned();
     const strip shape = random_strip(trial % 4 ? 1 : 0);
     const double growth = trial % 5 ? between(-0.5, 0.5) : 0, dt = (any_of(2) ? 1 : -1) * between(0.01, 0.5);

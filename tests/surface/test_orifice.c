@@ -387,7 +387,7 @@ TEST(outlines_seen_edge_on_are_none) {
     add_line(&wings, 1, 0, 0, 1, side, 0);
     add_patch(&wings, first, first + 1, first + 2, first + 3);
   }
-  for (int trial = 0; trial < fewer_if_sanitized(40); ++trial) {
+  for (int trial = 0; trial < trials_of(40); ++trial) {
     riis_surface_options options = surface_options();
     options.scale = pow(10, between(-3, 3));
     options.rotation_angle = between(-180, 180);
