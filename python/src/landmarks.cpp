@@ -1,71 +1,276 @@
 // SPDX-License-Identifier: Apache-2.0
-// riis_place. The Python file _place.py reads landmarks and calls this function.
+// The files of patients: landmarks and placed valves. The program's own sources read them, judge them and write them.
+#include <exception>
+#include <optional>
 #include <vector>
 
 #include "arguments.hpp"
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "module.hpp"
+#include "program/parameters.hpp"
+#include "program/placed_valve.hpp"
+#include "program/placing.hpp"
+#include "program/refusal.hpp"
+#include "program/text.hpp"
+#include "program/warp_source.hpp"
 
 namespace riis_python {
 namespace {
 
-nb::tuple place_landmarks(nb::handle valve_, nb::handle xyz_, nb::handle role_, nb::handle leaflet_id_,
-                          nb::handle scale, nb::handle noise, nb::handle flow, nb::handle held_) {
+namespace program = riis::program;
+constexpr program::Reader reader = program::Reader::python;
+
+// Calls code of the program without the interpreter's lock, and throws its refusals as Python's exceptions. `subject` begins most
+// refusals; it may be a path, in which no words are replaced.
+template <class Call>
+void call_program(const std::string &subject, const Call &call) {
+  check_not_logging();
+  std::optional<program::Refusal> refusal;
+  {
+    const nb::gil_scoped_release release;
+    const Inside inside;
+    try {
+      call();
+    } catch (const program::Refusal &thrown) {
+      refusal = thrown;
+    }
+  }
+  if (!refusal) return;
+  const std::string begin = refusal->text.rfind(subject + ": ", 0) == 0 ? subject + ": " : "";
+  raise_status(refusal->status, begin + (begin.empty() ? refusal->text : in_python(&refusal->text[begin.size()])));
+}
+
+program::Json json_of(nb::handle value) {
+  if (nb::hasattr(value, "tolist")) return json_of(value.attr("tolist")());
+  if (value.is_none()) return nullptr;
+  if (PyBool_Check(value.ptr())) return value.ptr() == Py_True;
+  if (PyUnicode_Check(value.ptr())) return nb::cast<std::string>(value);
+  if (PyDict_Check(value.ptr())) {
+    program::Json made = program::Json::object();
+    for (const auto &[name, item] : nb::cast<nb::dict>(value)) made[text(name, "landmarks")] = json_of(item);
+    return made;
+  }
+  if (PyNumber_Check(value.ptr())) return number(value, "landmarks");
+  if (!PySequence_Check(value.ptr())) refuse_type("landmarks", "a point is of type ", name_of_type(value));
+  program::Json made = program::Json::array();
+  for (const nb::handle item : value) made.push_back(json_of(item));
+  return made;
+}
+
+std::optional<program::Unit> unit_or_none(nb::handle given) {
+  if (given.is_none()) return std::nullopt;
+  const std::string name = text(given, "unit");
+  const auto unit = program::unit_of(name);
+  if (!unit)
+    raise_status(RIIS_INVALID_ARGUMENT,
+                 text_of("unit is ", program::quoted(name), "; it must be ", program::one_of(program::unit_names())));
+  return unit;
+}
+
+nb::dict placement_of(const double scale, const double (&axis)[3], double angle, const double (&translation)[3]) {
+  nb::dict made;
+  made["scale"] = scale;
+  made["rotation_axis"] = nb::make_tuple(axis[0], axis[1], axis[2]);
+  made["rotation_angle"] = angle;
+  made["translation"] = nb::make_tuple(translation[0], translation[1], translation[2]);
+  return made;
+}
+
+nb::object points_of(const std::vector<double> &xyz) { return copy_of(xyz.data(), {xyz.size() / 3, 3}); }
+
+// ---- Landmarks ----
+
+struct Landmarks {
+  program::LandmarkFile file;
+  std::optional<program::Placed> placed;
+};
+
+void create_landmarks(Landmarks *self, nb::handle subject_, nb::handle content) {
+  const std::string subject = text(subject_, "subject");
+  program::LandmarkFile file;
+  if (PyUnicode_Check(content.ptr())) {
+    const std::string words = nb::cast<std::string>(content);
+    call_program(subject, [&] { file = program::read_landmarks(subject, words); });
+  } else {
+    const program::Json root = json_of(content);
+    call_program(subject, [&] { file = program::landmarks_of_json(subject, root); });
+  }
+  new (self) Landmarks{std::move(file), std::nullopt};
+}
+
+void adapt(Landmarks &self, nb::handle unit, nb::handle axes, nb::handle noise, nb::handle flow) {
+  program::PlaceRequest request;
+  request.reader = reader;
+  request.unit = unit_or_none(unit);
+  if (!axes.is_none()) request.axes = text(axes, "axes");
+  if (!noise.is_none()) request.noise = number(noise, "noise");
+  if (!flow.is_none()) {
+    double xyz[3];
+    three_numbers(flow, "flow", xyz);
+    request.flow.emplace(xyz, xyz + 3);
+  }
+  call_program(self.file.path, [&] { program::adapt(self.file, request); });
+}
+
+std::string kind(Landmarks &self, nb::handle given) {
+  std::string found;
+  const std::string stated = given.is_none() ? "" : text(given, "valve");
+  call_program(self.file.path, [&] { found = program::kind_of(self.file, stated, reader); });
+  return found;
+}
+
+void check_nodes(Landmarks &self, nb::handle nodes_) {
+  const Array nodes = Array::of<double>(nodes_, "nodes");
+  nodes.expect({-1, 3});
+  if (nodes.size(0) == 0) refuse_value("nodes", "has no node");
+  call_program(self.file.path,
+               [&] { program::check_at_nodes(self.file, nodes.size(0), nodes.data<double>(), "", reader); });
+}
+
+nb::dict place(Landmarks &self, nb::handle valve_, nb::handle held_) {
   Valve &valve = object<Valve>(valve_, "valve");
   const Writing writing(valve.usage, "valve");
-  const Array xyz = Array::of<double>(xyz_, "points"), role = Array::of<std::int32_t>(role_, "roles"),
-              leaflet_id = Array::of<std::int32_t>(leaflet_id_, "leaflet_ids");
-  xyz.expect({-1, 3});
-  role.expect({xyz.size(0)});
-  leaflet_id.expect({xyz.size(0), 2});
-  const std::string held = text(held_, "held");
-  riis_landmarks landmarks;
-  call_shortly(riis_landmarks_init(&landmarks, sizeof landmarks));
-  landmarks.n_landmarks = xyz.size(0);
-  landmarks.x = xyz.data<double>();
-  landmarks.y = xyz.data<double>() + 1;
-  landmarks.z = xyz.data<double>() + 2;
-  landmarks.stride = 3;
-  landmarks.role = role.data<std::int32_t>();
-  landmarks.leaflet_id = leaflet_id.data<std::int32_t>();
-  landmarks.scale = number(scale, "scale");
-  landmarks.noise = number_or(noise, "noise", RIIS_AUTO);
-  if (!flow.is_none()) three_numbers(flow, "flow", landmarks.flow);
-  std::int64_t n_parameters = 0;
-  call_shortly(riis_valve_get_n_parameters(valve.handle, &n_parameters));
-  const auto n = static_cast<std::size_t>(n_parameters), n_points = static_cast<std::size_t>(xyz.size(0));
-  std::vector<double> residual(n_points), error(n), place(3 * n_points);
-  std::vector<std::int32_t> state(n);
-  riis_placement at;
-  riis_placement_arrays arrays;
-  call_shortly(riis_placement_arrays_init(&arrays, sizeof arrays));
-  arrays.residual = residual.data();
-  arrays.standard_error = error.data();
-  arrays.size_state = state.data();
-  arrays.place = place.data();
-  call_to_write(valve.usage,
-                [&] { return riis_place(valve.handle, &landmarks, held.c_str(), &arrays, &at, sizeof at); });
-  nb::dict placement;
-  placement["scale"] = at.scale;
-  placement["rotation_axis"] = nb::make_tuple(at.rotation_axis[0], at.rotation_axis[1], at.rotation_axis[2]);
-  placement["rotation_angle"] = at.rotation_angle;
-  placement["translation"] = nb::make_tuple(at.translation[0], at.translation[1], at.translation[2]);
-  return nb::make_tuple(placement, copy_of(residual.data(), {n_points}), copy_of(error.data(), {n}),
-                        copy_of(state.data(), {n}), at.rms, at.worst, at.noise, at.rotation_error, at.position_error,
-                        at.worst_landmark_id, copy_of(place.data(), {n_points, 3}));
+  std::vector<std::string> held;
+  for (const nb::handle name : held_) held.push_back(text(name, "held"));
+  const program::LandmarkFile &file = self.file;
+  call_program(file.path, [&] {
+    if (!file.parameters.is_null()) program::set_from_json(valve.handle, file.parameters, file.path + ": parameters");
+    self.placed = program::place_by_landmarks(file, valve.handle, valve.kind, held, reader);
+  });
+  const riis_placement &at = self.placed->placement;
+  nb::dict made, errors;
+  nb::list names, by_state[4];  // by RIIS_SIZE_*
+  for (const std::string &name : file.names) names.append(name);
+  for (const program::Size &size : self.placed->sizes) {
+    by_state[size.state].append(size.parameter.name);
+    if (size.state == RIIS_SIZE_DETERMINED || size.state == RIIS_SIZE_UNDETERMINED)
+      errors[size.parameter.name] = size.standard_error;
+  }
+  made["placement"] = placement_of(at.scale, at.rotation_axis, at.rotation_angle, at.translation);
+  made["unit"] = program::name_of(file.unit);
+  made["axes"] = program::name_of(file.axes);
+  made["names"] = nb::tuple(names);
+  made["residuals"] = copy_of(self.placed->residuals.data(), {self.placed->residuals.size()});
+  made["rms"] = at.rms;
+  made["worst"] = at.worst;
+  made["worst_landmark"] = file.names[static_cast<std::size_t>(at.worst_landmark_id)];
+  made["noise"] = at.noise;
+  made["rotation_error"] = at.rotation_error;
+  made["position_error"] = at.position_error;
+  made["standard_errors"] = errors;
+  made["determined"] = nb::tuple(by_state[RIIS_SIZE_DETERMINED]);
+  made["undetermined"] = nb::tuple(by_state[RIIS_SIZE_UNDETERMINED]);
+  made["in_proportion"] = nb::tuple(by_state[RIIS_SIZE_TIED]);
+  made["points"] = points_of(file.xyz);
+  made["places"] = points_of(self.placed->places);
+  return made;
+}
+
+nb::object add_warp(Landmarks &self, nb::handle valve_, nb::handle warp_) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  Warp &warp = object<Warp>(warp_, "warp");
+  const Reading reading(valve.usage, "valve"), reading_warp(warp.usage, "warp");
+  call_program(self.file.path, [&] { program::add_warp(*self.placed, valve.handle, warp.handle, warp.noise); });
+  return copy_of(self.placed->still_off.data(), {self.placed->still_off.size()});
+}
+
+std::string placed_file(Landmarks &self, nb::handle valve_) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  const Reading reading(valve.usage, "valve");
+  return program::placed_file_of(*self.placed, valve.handle);
+}
+
+std::string with_parameters(const std::string &placed, nb::handle valve_) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  const Reading reading(valve.usage, "valve");
+  return program::with_parameters_of(placed, valve.handle);
+}
+
+// ---- Placed valves ----
+
+struct PlacedFile {
+  std::string path;
+  program::PlacedFile file;
+  program::WarpSource warp;
+};
+
+void create_placed(PlacedFile *self, nb::handle path_, nb::handle content_, nb::handle unit_) {
+  const std::string path = text(path_, "path"), content = text(content_, "content");
+  const auto unit = unit_or_none(unit_);
+  PlacedFile made{path, {}, {}};
+  call_program(path, [&] {
+    made.file = program::read_placed(path, program::parse_json(path, content, "a placed valve"), unit);
+    if (!made.file.warp.is_null())
+      made.warp = program::WarpSource(path, "warp", made.file.warp, made.file.where, made.file.factor);
+    if (made.warp.moves()) program::refuse_file(path, "warp: its landmarks move, and a valve at rest is read here");
+  });
+  new (self) PlacedFile(std::move(made));
+}
+
+void set_parameters(PlacedFile &self, nb::handle valve_) {
+  Valve &valve = object<Valve>(valve_, "valve");
+  const Writing writing(valve.usage, "valve");
+  call_program(self.path,
+               [&] { program::set_from_json(valve.handle, self.file.parameters, self.path + ": parameters"); });
+}
+
+// Returns sources and targets for each warp, of the closed state and of the open one.
+nb::list warps_of(PlacedFile &self) {
+  nb::list made;
+  for (const program::LandmarkPairs &pairs : self.warp.pairs())
+    made.append(nb::make_tuple(points_of(pairs.sources()), points_of(pairs.targets())));
+  return made;
 }
 
 }  // namespace
 
 void add_landmarks(nb::module_ &module) {
-  module.def("place_landmarks", &place_landmarks, nb::arg("valve").none(), nb::arg("points").none(),
-             nb::arg("roles").none(), nb::arg("leaflet_ids").none(), nb::arg("scale").none(), nb::arg("noise").none(),
-             nb::arg("flow").none(), nb::arg("held").none(),
-             nb::sig("def place_landmarks(valve: Valve, points: numpy.typing.NDArray[numpy.float64], roles: "
-                     "numpy.typing.NDArray[numpy.int32], leaflet_ids: numpy.typing.NDArray[numpy.int32], scale: float, "
-                     "noise: float | None, flow: typing.Any, held: str) -> tuple[typing.Any, ...]"),
-             "Does the work of riis.place, which names landmarks and results.");
+  nb::class_<Landmarks>(module, "Landmarks", "Landmarks of a patient, for riis.place.")
+      .def("__init__", &create_landmarks, nb::arg("subject").none(), nb::arg("content").none(),
+           nb::sig("def __init__(self, subject: str, content: str | dict[str, typing.Any]) -> None"))
+      .def(
+          "adapt", &adapt, nb::arg("unit").none(), nb::arg("axes").none(), nb::arg("noise").none(),
+          nb::arg("flow").none(),
+          nb::sig("def adapt(self, unit: str | None, axes: str | None, noise: float | None, flow: typing.Any) -> None"))
+      .def("kind", &kind, nb::arg("given").none(), nb::sig("def kind(self, given: str | None) -> str"))
+      .def("check_nodes", &check_nodes, nb::arg("nodes").none(),
+           nb::sig("def check_nodes(self, nodes: numpy.typing.NDArray[numpy.float64]) -> None"))
+      .def("place", &place, nb::arg("valve").none(), nb::arg("held").none(),
+           nb::sig("def place(self, valve: Valve, held: collections.abc.Iterable[str]) -> dict[str, typing.Any]"))
+      .def("add_warp", &add_warp, nb::arg("valve").none(), nb::arg("warp").none(),
+           nb::sig("def add_warp(self, valve: Valve, warp: Warp) -> numpy.typing.NDArray[numpy.float64]"))
+      .def(
+          "words",
+          [](Landmarks &self, const std::string &said) {
+            return self.file.path + ": " + program::in_words_of_file(said, self.file);
+          },
+          nb::arg("said"))
+      .def_prop_ro("noise", [](Landmarks &self) { return self.placed->noise; })
+      .def("report", [](Landmarks &self) { return program::place_report(*self.placed, reader); })
+      .def("placed_file", &placed_file, nb::arg("valve").none(), nb::sig("def placed_file(self, valve: Valve) -> str"));
+  module.def("with_parameters", &with_parameters, nb::arg("placed_file"), nb::arg("valve").none(),
+             nb::sig("def with_parameters(placed_file: str, valve: Valve) -> str"),
+             "Returns the file of a placed valve with the valve's present parameters.");
+  nb::class_<PlacedFile>(module, "PlacedFile", "The file of a placed valve, for riis.read_placed.")
+      .def("__init__", &create_placed, nb::arg("path").none(), nb::arg("content").none(), nb::arg("unit").none(),
+           nb::sig("def __init__(self, path: str, content: str, unit: str | None) -> None"))
+      .def("set_parameters", &set_parameters, nb::arg("valve").none(),
+           nb::sig("def set_parameters(self, valve: Valve) -> None"))
+      .def_prop_ro("kind", [](PlacedFile &self) { return self.file.kind; })
+      .def_prop_ro("unit", [](PlacedFile &self) { return program::name_of(self.file.unit); })
+      .def_prop_ro(
+          "placement",
+          [](PlacedFile &self) {
+            const riis_surface_options &at = self.file.where;
+            return placement_of(at.scale, at.rotation_axis, at.rotation_angle, at.translation);
+          },
+          nb::sig("def placement(self) -> dict[str, typing.Any]"))
+      .def_prop_ro("warps", &warps_of,
+                   nb::sig("def warps(self) -> list[tuple[numpy.typing.NDArray[numpy.float64], "
+                           "numpy.typing.NDArray[numpy.float64]]]"))
+      .def_prop_ro("is_in_mesh", [](PlacedFile &self) { return self.warp.is_in_mesh(); })
+      .def_prop_ro("noise", [](PlacedFile &self) { return self.warp.noise(); });
 }
 
 }  // namespace riis_python
