@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of patients: landmarks and placed valves. The program's own sources read them, judge them and write them.
-#include <exception>
+// The program's rules for patients: files of landmarks and placed valves, units, and sizes that fit together. The program's own
+// sources read and judge them (src/program/CMakeLists.txt).
 #include <optional>
 #include <vector>
 
@@ -12,6 +12,7 @@
 #include "program/placed_valve.hpp"
 #include "program/placing.hpp"
 #include "program/refusal.hpp"
+#include "program/sizes.hpp"
 #include "program/text.hpp"
 #include "program/warp_source.hpp"
 
@@ -223,9 +224,54 @@ nb::list warps_of(PlacedFile &self) {
   return made;
 }
 
+// ---- Sizes ----
+
+nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handle origin, nb::handle edge,
+                      nb::handle half_thickness, nb::handle is_unit_known) {
+  // A mesh that is more than 12 valves wide is doubted, because the view asks for no unit.
+  program::Sizes sizes{{},
+                       {},
+                       number(edge, "edge"),
+                       number(half_thickness, "half_thickness"),
+                       {},
+                       flag(is_unit_known, "is_unit_known"),
+                       true,
+                       12};
+  three_numbers(mesh[0], "mesh", sizes.mesh.lower);
+  three_numbers(mesh[1], "mesh", sizes.mesh.upper);
+  three_numbers(surface[0], "surface", sizes.surface.lower);
+  three_numbers(surface[1], "surface", sizes.surface.upper);
+  three_numbers(origin, "origin", sizes.translation);
+  const auto factor = program::missing_factor(sizes);
+  return nb::make_tuple(program::sizes_fit_at(1, sizes), factor ? nb::cast(1 / *factor) : nb::none());
+}
+
 }  // namespace
 
-void add_landmarks(nb::module_ &module) {
+void add_patient(nb::module_ &module) {
+  nb::dict units, words;
+  for (const std::string &name : program::unit_names()) {
+    const program::Unit unit = *program::unit_of(name);
+    units[name.c_str()] = program::factor_between(program::Unit::centimetre, unit);
+    words[name.c_str()] = program::words_of(unit);
+  }
+  module.attr("UNITS") = units;  // lengths in the unit for each centimetre
+  module.attr("WORDS_OF_UNITS") = words;
+  module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // of the largest side of the valve
+  module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;
+  module.def("judge_sizes", &judge_sizes, nb::arg("mesh").none(), nb::arg("surface").none(), nb::arg("origin").none(),
+             nb::arg("edge").none(), nb::arg("half_thickness").none(), nb::arg("is_unit_known").none(),
+             nb::sig("def judge_sizes(mesh: tuple[typing.Any, typing.Any], surface: tuple[typing.Any, typing.Any], "
+                     "origin: typing.Any, edge: float, half_thickness: float, is_unit_known: bool) -> tuple[bool, "
+                     "float | None]"),
+             R"(Judges whether a mesh and a valve may have the same unit.
+
+mesh, surface   lower and upper corners
+origin          of the valve, in the mesh
+edge            median edge of the mesh; 0 if unknown
+is_unit_known   whether the user named the unit
+
+Returns whether the sizes fit, and the factor by which the valve's scale would have to change, or None.)");
   nb::class_<Landmarks>(module, "Landmarks", "Landmarks of a patient, for riis.place.")
       .def("__init__", &create_landmarks, nb::arg("subject").none(), nb::arg("content").none(),
            nb::sig("def __init__(self, subject: str, content: str | dict[str, typing.Any]) -> None"))
