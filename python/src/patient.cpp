@@ -168,7 +168,7 @@ nb::dict place(Landmarks &self, nb::handle valve_, nb::handle held_) {
   return made;
 }
 
-nb::object add_warp(Landmarks &self, nb::handle valve_, nb::handle warp_) {
+nb::object warped(Landmarks &self, nb::handle valve_, nb::handle warp_) {
   Valve &valve = object<Valve>(valve_, "valve");
   Warp &warp = object<Warp>(warp_, "warp");
   const Reading reading(valve.usage, "valve"), reading_warp(warp.usage, "warp");
@@ -191,6 +191,9 @@ std::string with_parameters(const std::string &placed, nb::handle valve_) {
 // ---- Placed valves ----
 
 struct PlacedFile {
+  PlacedFile() = default;
+  PlacedFile(PlacedFile &&) = default;  // a warp is not copied
+
   std::string path;
   program::PlacedFile file;
   program::WarpSource warp;
@@ -199,7 +202,8 @@ struct PlacedFile {
 void create_placed(PlacedFile *self, nb::handle path_, nb::handle content_, nb::handle unit_) {
   const std::string path = text(path_, "path"), content = text(content_, "content");
   const auto unit = unit_or_none(unit_);
-  PlacedFile made{path, {}, {}};
+  PlacedFile made;
+  made.path = path;
   call_program(path, [&] {
     made.file = program::read_placed(path, program::parse_json(path, content, "a placed valve"), unit);
     if (!made.file.warp.is_null())
@@ -284,7 +288,7 @@ Returns whether the sizes fit, and the factor by which the valve's scale would h
            nb::sig("def check_nodes(self, nodes: numpy.typing.NDArray[numpy.float64]) -> None"))
       .def("place", &place, nb::arg("valve").none(), nb::arg("held").none(),
            nb::sig("def place(self, valve: Valve, held: collections.abc.Iterable[str]) -> dict[str, typing.Any]"))
-      .def("add_warp", &add_warp, nb::arg("valve").none(), nb::arg("warp").none(),
+      .def("add_warp", &warped, nb::arg("valve").none(), nb::arg("warp").none(),
            nb::sig("def add_warp(self, valve: Valve, warp: Warp) -> numpy.typing.NDArray[numpy.float64]"))
       .def(
           "words",
