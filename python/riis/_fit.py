@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import FINE, ROUGH, Mixture, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
 from riis._fit_search import RIVAL, UNDETERMINED, End, Judge, Judged, covered, is_same, probes_of, search
+from riis._place import UNITS
 from riis._records import Parameter
-from riis._riis import UNITS, Surface, Valve, find_crossings
+from riis._riis import Surface, Valve, find_crossings
 
 Reals = NDArray[numpy.float64]
 

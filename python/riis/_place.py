@@ -13,9 +13,12 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import Error, InvalidArgumentError
-from riis._riis import Landmarks, Valve, Warp, with_parameters
+from riis._riis import Landmarks, Valve, Warp, units, with_parameters
 
 Reals = NDArray[numpy.float64]
+
+UNITS = {name: length for name, (length, _) in units().items()}  # lengths in the unit for each centimetre
+WORDS_OF_UNITS = {name: words for name, (_, words) in units().items()}
 
 
 @dataclass(frozen=True)

@@ -106,6 +106,7 @@ void adapt(Landmarks &self, nb::handle unit, nb::handle axes, nb::handle noise, 
   request.unit = unit_or_none(unit);
   if (!axes.is_none()) request.axes = text(axes, "axes");
   if (!noise.is_none()) request.noise = number(noise, "noise");
+  if (request.noise && !(*request.noise >= 0)) refuse_value("noise", *request.noise, " is below 0");
   if (!flow.is_none()) {
     double xyz[3];
     three_numbers(flow, "flow", xyz);
@@ -228,7 +229,17 @@ nb::list warps_of(PlacedFile &self) {
   return made;
 }
 
-// ---- Sizes ----
+// ---- Units and sizes ----
+
+nb::dict units() {
+  nb::dict made;
+  for (const std::string &name : program::unit_names()) {
+    const program::Unit unit = *program::unit_of(name);
+    made[name.c_str()] =
+        nb::make_tuple(program::factor_between(program::Unit::centimetre, unit), program::words_of(unit));
+  }
+  return made;
+}
 
 nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handle origin, nb::handle edge,
                       nb::handle half_thickness, nb::handle is_unit_known) {
@@ -253,14 +264,8 @@ nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handl
 }  // namespace
 
 void add_patient(nb::module_ &module) {
-  nb::dict units, words;
-  for (const std::string &name : program::unit_names()) {
-    const program::Unit unit = *program::unit_of(name);
-    units[name.c_str()] = program::factor_between(program::Unit::centimetre, unit);
-    words[name.c_str()] = program::words_of(unit);
-  }
-  module.attr("UNITS") = units;  // lengths in the unit for each centimetre
-  module.attr("WORDS_OF_UNITS") = words;
+  module.def("units", &units, nb::sig("def units() -> dict[str, tuple[float, str]]"),
+             "Returns the units by name, with their lengths in a centimetre and the word for several.");
   module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // of the largest side of the valve
   module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;
   module.def("judge_sizes", &judge_sizes, nb::arg("mesh").none(), nb::arg("surface").none(), nb::arg("origin").none(),

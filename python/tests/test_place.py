@@ -115,6 +115,7 @@ def test_refused(tmp_path):
     refused("holds no landmarks", {}, "trileaflet", unit="mm")
     refused("axes: landmarks states the axes mesh", named, "trileaflet", unit="mm", axes="LPS")
     refused("flow", named, "trileaflet", unit="mm", flow=(1, 2))
+    refused("noise: -1 is below 0", named, "trileaflet", unit="mm", noise=-1)
     refused("did you mean 'leaflet_height'", named, "trileaflet", unit="mm", held="leaflet_hight",
             error=riis.InvalidParameterError)
     swapped = named | {"nadir_left": named["nadir_right"], "nadir_right": named["nadir_left"]}
@@ -226,8 +227,8 @@ def test_refused_placed_valves(tmp_path):
     assert riis.read_placed(path).valve["gap"] == 0.03
     warp = {"sources": [[0, 0, 0]], "targets": [[0, 0, 0]]}
     for change, text in (
-        ("{", "placed.json is not JSON"),
-        ("[" * 100_000, "placed.json is not JSON"),
+        ("{", "placed.json: is not JSON"),
+        ("[" * 100_000, "placed.json: is nested deeper than a placed valve can be"),
         ("[]", "placed.json: a placed valve must be an object"),
         ({"valve": 3}, "placed.json: valve: 3 is not a text"),
         ({"valve": "tricuspid"}, "placed.json: .*tricuspid"),

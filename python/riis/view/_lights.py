@@ -14,9 +14,9 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import Error
+from riis._place import UNITS, WORDS_OF_UNITS
 from riis._riis import (
-    LARGEST_HALF_THICKNESS, UNITS, USUAL_HALF_THICKNESS, WORDS_OF_UNITS, Marks, Surface, find_crossings, find_leaks,
-    find_passage, judge_sizes,
+    LARGEST_HALF_THICKNESS, USUAL_HALF_THICKNESS, Marks, Surface, find_crossings, find_leaks, find_passage, judge_sizes,
 )
 from riis.view._cells import Region, WholeMesh
 from riis.view._valves import ValveState

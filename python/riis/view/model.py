@@ -28,8 +28,8 @@ from typing import Any, Literal, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from riis._place import PlaceResult, place
-from riis._riis import UNITS, Marks, Surface, mark
+from riis._place import UNITS, PlaceResult, place
+from riis._riis import Marks, Surface, mark
 from riis.view import _outputs
 from riis.view._annulus import annulus_of, placed_by
 from riis.view._cells import Region, WholeMesh
