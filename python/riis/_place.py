@@ -12,8 +12,8 @@ from typing import Any, Literal
 import numpy
 from numpy.typing import NDArray
 
-from riis._errors import Error, InvalidArgumentError
-from riis._riis import Landmarks, Valve, Warp, units, with_parameters
+from riis._errors import InvalidArgumentError
+from riis._riis import Valve, Warp, place_landmarks, units, with_parameters
 
 Reals = NDArray[numpy.float64]
 
@@ -59,16 +59,6 @@ class PlaceResult:
         Path(path).write_text(with_parameters(self._file, self.valve))
 
 
-def _read(landmarks: Mapping[str, Any] | str | os.PathLike[str], unit: str | None) -> Landmarks:
-    if isinstance(landmarks, Mapping):
-        stated = {} if unit is None else {"unit": unit}
-        return Landmarks("landmarks", {**stated, "axes": "mesh", "landmarks": dict(landmarks)})
-    if not isinstance(landmarks, str | os.PathLike):
-        raise TypeError(f"landmarks must be a mapping of names to points, or a path, not {type(landmarks).__name__}")
-    path = Path(landmarks)
-    return Landmarks(str(path), path.read_text("utf-8", "replace"))
-
-
 def place(
     landmarks: Mapping[str, Any] | str | os.PathLike[str],
     valve: Valve | str | None = None,
@@ -101,24 +91,14 @@ def place(
     """
     if warp not in ("none", "exact", "smoothed"):
         raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")
-    read = _read(landmarks, unit)
-    read.adapt(None if isinstance(landmarks, Mapping) else unit, axes, noise, flow)
-    if nodes is not None:
-        read.check_nodes(numpy.ascontiguousarray(nodes, numpy.float64))
-    if isinstance(valve, Valve):
-        read.kind(valve.kind)
-        placed = valve.copy()
+    if isinstance(landmarks, Mapping):
+        stated = {} if unit is None else {"unit": unit}
+        subject, unit = "landmarks", None
+        content: str | dict[str, Any] = {**stated, "axes": "mesh", "landmarks": dict(landmarks)}
+    elif isinstance(landmarks, str | os.PathLike):
+        subject, content = os.fspath(landmarks), Path(landmarks).read_text("utf-8", "replace")
     else:
-        placed = Valve(read.kind(valve))
-    found = read.place(placed, [held] if isinstance(held, str) else held)
-    made = None
-    if warp != "none":
-        smoothing = 0.0 if warp == "exact" else read.noise
-        try:
-            made = Warp(found["places"], noise=smoothing, placement=found["placement"])
-            made.set_targets(found["points"])
-            placed.set_warp(made)
-        except Error as error:
-            raise type(error)(read.words(str(error))) from None
-        found.update(warp=made, warp_noise=smoothing, warped_residuals=read.add_warp(placed, made))
-    return PlaceResult(valve=placed, _report=read.report(), _file=read.placed_file(placed), **found)
+        raise TypeError(f"landmarks must be a mapping of names to points, or a path, not {type(landmarks).__name__}")
+    cloud = None if nodes is None else numpy.ascontiguousarray(nodes, numpy.float64)
+    names = [held] if isinstance(held, str) else held
+    return PlaceResult(**place_landmarks(subject, content, valve, unit, axes, flow, noise, names, warp, cloud))

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's rules for patients: files of landmarks and placed valves, units, and sizes that fit together. The program's own
 // sources read and judge them (src/program/CMakeLists.txt).
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "arguments.hpp"
@@ -82,25 +84,8 @@ nb::object points_of(const std::vector<double> &xyz) { return copy_of(xyz.data()
 
 // ---- Landmarks ----
 
-struct Landmarks {
-  program::LandmarkFile file;
-  std::optional<program::Placed> placed;
-};
-
-void create_landmarks(Landmarks *self, nb::handle subject_, nb::handle content) {
-  const std::string subject = text(subject_, "subject");
-  program::LandmarkFile file;
-  if (PyUnicode_Check(content.ptr())) {
-    const std::string words = nb::cast<std::string>(content);
-    call_program(subject, [&] { file = program::read_landmarks(subject, words); });
-  } else {
-    const program::Json root = json_of(content);
-    call_program(subject, [&] { file = program::landmarks_of_json(subject, root); });
-  }
-  new (self) Landmarks{std::move(file), std::nullopt};
-}
-
-void adapt(Landmarks &self, nb::handle unit, nb::handle axes, nb::handle noise, nb::handle flow) {
+// Returns the request of a user of riis.place.
+program::PlaceRequest request_of(nb::handle unit, nb::handle axes, nb::handle noise, nb::handle flow) {
   program::PlaceRequest request;
   request.reader = reader;
   request.unit = unit_or_none(unit);
@@ -112,39 +97,17 @@ void adapt(Landmarks &self, nb::handle unit, nb::handle axes, nb::handle noise, 
     three_numbers(flow, "flow", xyz);
     request.flow.emplace(xyz, xyz + 3);
   }
-  call_program(self.file.path, [&] { program::adapt(self.file, request); });
+  return request;
 }
 
-std::string kind(Landmarks &self, nb::handle given) {
-  std::string found;
-  const std::string stated = given.is_none() ? "" : text(given, "valve");
-  call_program(self.file.path, [&] { found = program::kind_of(self.file, stated, reader); });
-  return found;
-}
-
-void check_nodes(Landmarks &self, nb::handle nodes_) {
-  const Array nodes = Array::of<double>(nodes_, "nodes");
-  nodes.expect({-1, 3});
-  if (nodes.size(0) == 0) refuse_value("nodes", "has no node");
-  call_program(self.file.path,
-               [&] { program::check_at_nodes(self.file, nodes.size(0), nodes.data<double>(), "", reader); });
-}
-
-nb::dict place(Landmarks &self, nb::handle valve_, nb::handle held_) {
-  Valve &valve = object<Valve>(valve_, "valve");
-  const Writing writing(valve.usage, "valve");
-  std::vector<std::string> held;
-  for (const nb::handle name : held_) held.push_back(text(name, "held"));
-  const program::LandmarkFile &file = self.file;
-  call_program(file.path, [&] {
-    if (!file.parameters.is_null()) program::set_from_json(valve.handle, file.parameters, file.path + ": parameters");
-    self.placed = program::place_by_landmarks(file, valve.handle, valve.kind, held, reader);
-  });
-  const riis_placement &at = self.placed->placement;
+// Returns the fields of a PlaceResult that need no warp.
+nb::dict fields_of(const program::Placed &placed) {
+  const riis_placement &at = placed.placement;
+  const program::LandmarkFile &file = placed.landmarks;
   nb::dict made, errors;
   nb::list names, by_state[4];  // by RIIS_SIZE_*
   for (const std::string &name : file.names) names.append(name);
-  for (const program::Size &size : self.placed->sizes) {
+  for (const program::Size &size : placed.sizes) {
     by_state[size.state].append(size.parameter.name);
     if (size.state == RIIS_SIZE_DETERMINED || size.state == RIIS_SIZE_UNDETERMINED)
       errors[size.parameter.name] = size.standard_error;
@@ -153,7 +116,7 @@ nb::dict place(Landmarks &self, nb::handle valve_, nb::handle held_) {
   made["unit"] = program::name_of(file.unit);
   made["axes"] = program::name_of(file.axes);
   made["names"] = nb::tuple(names);
-  made["residuals"] = copy_of(self.placed->residuals.data(), {self.placed->residuals.size()});
+  made["residuals"] = copy_of(placed.residuals.data(), {placed.residuals.size()});
   made["rms"] = at.rms;
   made["worst"] = at.worst;
   made["worst_landmark"] = file.names[static_cast<std::size_t>(at.worst_landmark_id)];
@@ -165,22 +128,65 @@ nb::dict place(Landmarks &self, nb::handle valve_, nb::handle held_) {
   made["undetermined"] = nb::tuple(by_state[RIIS_SIZE_UNDETERMINED]);
   made["in_proportion"] = nb::tuple(by_state[RIIS_SIZE_TIED]);
   made["points"] = points_of(file.xyz);
-  made["places"] = points_of(self.placed->places);
+  made["places"] = points_of(placed.places);
   return made;
 }
 
-nb::object warped(Landmarks &self, nb::handle valve_, nb::handle warp_) {
-  Valve &valve = object<Valve>(valve_, "valve");
-  Warp &warp = object<Warp>(warp_, "warp");
-  const Reading reading(valve.usage, "valve"), reading_warp(warp.usage, "warp");
-  call_program(self.file.path, [&] { program::add_warp(*self.placed, valve.handle, warp.handle, warp.noise); });
-  return copy_of(self.placed->still_off.data(), {self.placed->still_off.size()});
+// Makes Python's object of a warp that the valve has.
+nb::object object_of(riis::Warp warp, const nb::dict &fields, double noise, Valve &valve) {
+  auto own = std::make_unique<Warp>();
+  own->handle = warp.release();
+  own->sources = fields["places"];
+  own->targets = fields["points"];
+  own->placement = fields["placement"];
+  own->noise = noise;
+  nb::object made = nb::cast(own.release(), nb::rv_policy::take_ownership);
+  valve.warp = nb::make_tuple(made.attr("__getstate__")(), nb::none());
+  return made;
 }
 
-std::string placed_file(Landmarks &self, nb::handle valve_) {
-  Valve &valve = object<Valve>(valve_, "valve");
-  const Reading reading(valve.usage, "valve");
-  return program::placed_file_of(*self.placed, valve.handle);
+nb::dict place_landmarks(const std::string &subject, nb::handle content, nb::handle valve_, nb::handle unit,
+                         nb::handle axes, nb::handle flow, nb::handle noise, nb::handle held_,
+                         const std::string &warp_choice, nb::handle nodes_) {
+  const program::PlaceRequest request = request_of(unit, axes, noise, flow);
+  std::vector<std::string> held;
+  for (const nb::handle name : held_) held.push_back(text(name, "held"));
+  std::optional<Array> nodes;
+  if (!nodes_.is_none()) nodes.emplace(Array::of<double>(nodes_, "nodes")).expect({-1, 3});
+  if (nodes && nodes->size(0) == 0) refuse_value("nodes", "has no node");
+  const bool is_file = PyUnicode_Check(content.ptr());
+  const std::string words = is_file ? nb::cast<std::string>(content) : "";
+  const program::Json root = is_file ? program::Json() : json_of(content);
+  const bool is_made = nb::isinstance<Valve>(valve_);
+  std::string kind = is_made ? object<Valve>(valve_, "valve").kind : valve_.is_none() ? "" : text(valve_, "valve");
+  program::LandmarkFile file;
+  call_program(subject, [&] {
+    file = is_file ? program::read_landmarks(subject, words) : program::landmarks_of_json(subject, root);
+    program::adapt(file, request);
+    if (nodes) program::check_at_nodes(file, nodes->size(0), nodes->data<double>(), "", reader);
+    kind = program::kind_of(file, kind, reader);
+  });
+  const nb::object made = is_made ? valve_.attr("copy")() : nb::type<Valve>()(kind);
+  Valve &valve = object<Valve>(made, "valve");
+  std::optional<program::Placed> placed;
+  riis::Warp warp;
+  double smoothing = 0;
+  call_program(subject, [&] {
+    if (!file.parameters.is_null()) program::set_from_json(valve.handle, file.parameters, subject + ": parameters");
+    placed = program::place_by_landmarks(file, valve.handle, kind, held, reader);
+    if (warp_choice == "smoothed") smoothing = placed->noise;
+    if (warp_choice != "none") warp = program::warp_to_landmarks(*placed, valve.handle, smoothing, reader);
+  });
+  nb::dict fields = fields_of(*placed);
+  fields["valve"] = made;
+  if (placed->warp) {
+    fields["warp"] = object_of(std::move(warp), fields, smoothing, valve);
+    fields["warp_noise"] = smoothing;
+    fields["warped_residuals"] = copy_of(placed->still_off.data(), {placed->still_off.size()});
+  }
+  fields["_report"] = program::place_report(*placed, reader);
+  fields["_file"] = program::placed_file_of(*placed, valve.handle);
+  return fields;
 }
 
 std::string with_parameters(const std::string &placed, nb::handle valve_) {
@@ -281,29 +287,14 @@ edge            median edge of the mesh; 0 if unknown
 is_unit_known   whether the user named the unit
 
 Returns whether the sizes fit, and the factor by which the valve's scale would have to change, or None.)");
-  nb::class_<Landmarks>(module, "Landmarks", "Landmarks of a patient, for riis.place.")
-      .def("__init__", &create_landmarks, nb::arg("subject").none(), nb::arg("content").none(),
-           nb::sig("def __init__(self, subject: str, content: str | dict[str, typing.Any]) -> None"))
-      .def(
-          "adapt", &adapt, nb::arg("unit").none(), nb::arg("axes").none(), nb::arg("noise").none(),
-          nb::arg("flow").none(),
-          nb::sig("def adapt(self, unit: str | None, axes: str | None, noise: float | None, flow: typing.Any) -> None"))
-      .def("kind", &kind, nb::arg("given").none(), nb::sig("def kind(self, given: str | None) -> str"))
-      .def("check_nodes", &check_nodes, nb::arg("nodes").none(),
-           nb::sig("def check_nodes(self, nodes: numpy.typing.NDArray[numpy.float64]) -> None"))
-      .def("place", &place, nb::arg("valve").none(), nb::arg("held").none(),
-           nb::sig("def place(self, valve: Valve, held: collections.abc.Iterable[str]) -> dict[str, typing.Any]"))
-      .def("add_warp", &warped, nb::arg("valve").none(), nb::arg("warp").none(),
-           nb::sig("def add_warp(self, valve: Valve, warp: Warp) -> numpy.typing.NDArray[numpy.float64]"))
-      .def(
-          "words",
-          [](Landmarks &self, const std::string &said) {
-            return self.file.path + ": " + program::in_words_of_file(said, self.file);
-          },
-          nb::arg("said"))
-      .def_prop_ro("noise", [](Landmarks &self) { return self.placed->noise; })
-      .def("report", [](Landmarks &self) { return program::place_report(*self.placed, reader); })
-      .def("placed_file", &placed_file, nb::arg("valve").none(), nb::sig("def placed_file(self, valve: Valve) -> str"));
+  module.def(
+      "place_landmarks", &place_landmarks, nb::arg("subject"), nb::arg("content").none(), nb::arg("valve").none(),
+      nb::arg("unit").none(), nb::arg("axes").none(), nb::arg("flow").none(), nb::arg("noise").none(),
+      nb::arg("held").none(), nb::arg("warp"), nb::arg("nodes").none(),
+      nb::sig("def place_landmarks(subject: str, content: str | dict[str, typing.Any], valve: Valve | str | None, "
+              "unit: str | None, axes: str | None, flow: typing.Any, noise: float | None, held: "
+              "collections.abc.Iterable[str], warp: str, nodes: typing.Any) -> dict[str, typing.Any]"),
+      "Does the work of riis.place, whose result has these fields.");
   module.def("with_parameters", &with_parameters, nb::arg("placed_file"), nb::arg("valve").none(),
              nb::sig("def with_parameters(placed_file: str, valve: Valve) -> str"),
              "Returns the file of a placed valve with the valve's present parameters.");

@@ -108,7 +108,8 @@ def test_refused(tmp_path):
     refused('the unit is "inch"', named, "trileaflet", unit="inch")
     refused("the unit is centimetres.*in millimetres", named, "trileaflet", unit="cm")
     refused("valve is needed", named, unit="mm")
-    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right"', named | {"nadir_rigth": (0, 0, 0)}, "trileaflet", unit="mm")
+    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right"', named | {"nadir_rigth": (0, 0, 0)}, "trileaflet",
+            unit="mm")
     refused('"nadir_right": y is nan', named | {"nadir_right": (0, numpy.nan, 0)}, "trileaflet", unit="mm")
     refused("must be three numbers", named | {"nadir_right": (0, 1)}, "trileaflet", unit="mm")
     refused('"nadir-right" is given twice', named | {"nadir-right": (0, 0, 0)}, "trileaflet", unit="mm")
@@ -290,11 +291,12 @@ def test_landmarks_must_be_at_the_nodes(tmp_path):
         assert placed(axes, "mm", -1, 1, axes=other).axes == other
     with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .* give unit='mm'"):
         placed("LPS", "cm", 1, 0.1)
-    with pytest.raises(riis.InvalidArgumentError, match="in millimetres and with x and y reversed.* give unit='mm' and give axes='RAS'"):
+    words = "in millimetres and with x and y reversed.* give unit='mm' and give axes='RAS'"
+    with pytest.raises(riis.InvalidArgumentError, match=words):
         placed("LPS", "cm", -1, 0.1)
     with pytest.raises(riis.InvalidArgumentError, match="reversed.* state the axes of the file"):
         placed("mesh", "mm", -1, 1)
-    with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .* from them: give the landmarks in millimetres"):
+    with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .*: give the landmarks in millimetres"):
         riis.place({name: points[i] / 10 for i, name in enumerate(NAMES)}, "trileaflet", unit="cm", nodes=nodes)
     with pytest.raises(riis.InvalidArgumentError, match="more than 1 cm, in any unit"):
         placed("LPS", "mm", 1, 1, at=nodes + 400)

@@ -19,22 +19,6 @@
 namespace riis::program {
 namespace {
 
-// Warps the valve to the landmarks.
-void warp_to_landmarks(const PlaceOptions &options, riis_valve *valve, Placed &placed) {
-  if (options.warp_choice == no_warp) return;
-  const LandmarkFile &landmarks = placed.landmarks;
-  const riis_points places = points_of(placed.places), targets = points_of(landmarks.xyz);
-  riis_warp_options how;
-  check(riis_warp_options_init(&how, sizeof how));
-  how.placement = &placed.where;
-  how.noise = options.warp_choice == smoothed_warp ? placed.noise : 0;
-  Warp warp;
-  check_landmarks(riis_warp_create(&places, &how, warp.out()), landmarks);
-  check_landmarks(riis_warp_set_targets(warp.get(), &targets), landmarks);
-  check(riis_valve_set_warp(valve, warp.get(), nullptr), "--warp");
-  add_warp(placed, valve, warp.get(), how.noise);
-}
-
 Placed place(const PlaceOptions &options, Valve &valve) {
   LandmarkFile landmarks = read_landmarks(options.landmarks, text_of_file(options.landmarks));
   adapt(landmarks, {Reader::program, options.unit, options.axes, options.noise, options.flow});
@@ -49,7 +33,8 @@ Placed place(const PlaceOptions &options, Valve &valve) {
     held.push_back(setting.substr(0, setting.find('=')));
   }
   Placed placed = place_by_landmarks(landmarks, valve.get(), kind, held, Reader::program);
-  warp_to_landmarks(options, valve.get(), placed);
+  if (options.warp_choice != no_warp)
+    warp_to_landmarks(placed, valve.get(), options.warp_choice == smoothed_warp ? placed.noise : 0, Reader::program);
   return placed;
 }
 

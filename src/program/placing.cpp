@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <riis/riis.hpp>
 #include <utility>
 
 #include "program/parameters.hpp"
@@ -46,8 +45,8 @@ std::vector<double> all_values(const riis_valve *valve, const riis_parameter &pa
   return values;
 }
 
-// Returns the names of the parameters that keep their values: the given ones and those of the landmarks' file. The library refuses
-// names that are not a parameter's.
+// Returns the names of the parameters that keep their values: the given ones and those of the landmarks' file. The library
+// refuses names that are not a parameter's.
 std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
   if (landmarks.parameters.is_object())
     for (const auto &[name, value] : landmarks.parameters.items()) {
@@ -66,37 +65,6 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
     if (held.size() == n_before) held.push_back(name);
   }
   return joined_by(held, " ");
-}
-
-}  // namespace
-
-std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
-  return joined_by(parts, between);
-}
-
-void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
-  const std::string axes = option_name(request.reader, "axes");
-  if (request.unit) landmarks.convert(*request.unit);
-  if (!request.axes.empty()) {
-    if (request.axes != "LPS" && request.axes != "RAS")
-      refuse_usage(axes + " is " + quoted(request.axes) + "; it must be LPS or RAS");
-    if (landmarks.axes == Axes::mesh)
-      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so it is not known how to turn it");
-    landmarks.convert(request.axes == "LPS" ? Axes::LPS : Axes::RAS);
-  }
-  if (request.noise) landmarks.noise = *request.noise;
-  if (request.flow) landmarks.flow = {(*request.flow)[0], (*request.flow)[1], (*request.flow)[2]};
-}
-
-std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader) {
-  const std::string option = option_name(reader, "valve");
-  if (given.empty() && landmarks.valve.empty())
-    refuse_usage(option + " is needed, because " + landmarks.path + " does not name the kind of valve");
-  if (!given.empty() && !landmarks.valve.empty() && given != landmarks.valve)
-    refuse_usage(option + ": " + given + " is not the valve of " + landmarks.path + ", which is " + landmarks.valve);
-  return given.empty() ? landmarks.valve : given;
 }
 
 // Returns the library's message with the names of the file for landmarks, and the words of the file for fields.
@@ -131,6 +99,7 @@ std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
   return text;
 }
 
+// Refuses the landmarks with the library's message, if it refused them.
 void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader reader) {
   if (status == RIIS_OK) return;
   if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
@@ -149,6 +118,37 @@ riis_points points_of(const std::vector<double> &xyz) {
   points.z = xyz.data() + 2;
   points.stride = 3;
   return points;
+}
+
+}  // namespace
+
+std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
+  return joined_by(parts, between);
+}
+
+void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
+  const std::string axes = option_name(request.reader, "axes");
+  if (request.unit) landmarks.convert(*request.unit);
+  if (!request.axes.empty()) {
+    if (request.axes != "LPS" && request.axes != "RAS")
+      refuse_usage(axes + " is " + quoted(request.axes) + "; it must be LPS or RAS");
+    if (landmarks.axes == Axes::mesh)
+      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so it is not known how to turn it");
+    landmarks.convert(request.axes == "LPS" ? Axes::LPS : Axes::RAS);
+  }
+  if (request.noise) landmarks.noise = *request.noise;
+  if (request.flow) landmarks.flow = {(*request.flow)[0], (*request.flow)[1], (*request.flow)[2]};
+}
+
+std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader) {
+  const std::string option = option_name(reader, "valve");
+  if (given.empty() && landmarks.valve.empty())
+    refuse_usage(option + " is needed, because " + landmarks.path + " does not name the kind of valve");
+  if (!given.empty() && !landmarks.valve.empty() && given != landmarks.valve)
+    refuse_usage(option + ": " + given + " is not the valve of " + landmarks.path + ", which is " + landmarks.valve);
+  return given.empty() ? landmarks.valve : given;
 }
 
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
@@ -195,15 +195,23 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
   return made;
 }
 
-void add_warp(Placed &placed, const riis_valve *valve, const riis_warp *warp, double noise) {
-  const std::vector<double> &targets = placed.landmarks.xyz;
+Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader) {
+  const LandmarkFile &landmarks = placed.landmarks;
+  const std::vector<double> &targets = landmarks.xyz;
+  const riis_points from = points_of(placed.places), to = points_of(targets);
+  riis_warp_options how;
+  check(riis_warp_options_init(&how, sizeof how));
+  how.placement = &placed.where;
+  how.noise = placed.warp_noise = noise;
+  Warp warp;
+  check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
+  check_landmarks(riis_warp_set_targets(warp.get(), &to), landmarks, reader);
+  check(riis_valve_set_warp(valve, warp.get(), nullptr), option_name(reader, "warp"));
   riis_warp_info info;
-  check(riis_warp_get_info(warp, &info, sizeof info));
+  check(riis_warp_get_info(warp.get(), &info, sizeof info));
   placed.warp = info;
-  placed.warp_noise = noise;
-  const riis_points places = points_of(placed.places);
   std::vector<double> mapped(placed.places.size());
-  check(riis_warp_map(warp, &places, mapped.data()));
+  check(riis_warp_map(warp.get(), &from, mapped.data()));
   for (std::size_t i = 0; i < mapped.size(); i += 3)
     placed.still_off.push_back(
         std::hypot(mapped[i] - targets[i], mapped[i + 1] - targets[i + 1], mapped[i + 2] - targets[i + 2]));
@@ -212,8 +220,9 @@ void add_warp(Placed &placed, const riis_valve *valve, const riis_warp *warp, do
   for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     check(riis_valve_set_scalar(trial.get(), "opening", opening));
     Surface surface;
-    check_landmarks(riis_surface_create(trial.get(), &placed.where, surface.out()), placed.landmarks);
+    check_landmarks(riis_surface_create(trial.get(), &placed.where, surface.out()), landmarks, reader);
   }
+  return warp;
 }
 
 // ---- The mesh ----

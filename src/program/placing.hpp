@@ -3,7 +3,7 @@
 // program and the Python package share this.
 #pragma once
 
-#include <riis/riis.h>
+#include <riis/riis.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -52,22 +52,17 @@ struct Placed {
   std::vector<double> still_off;       // distances of the landmarks from their places on the warped valve
 };
 
-// Sizes the valve by the landmarks and finds its placement. The parameters of `held` keep their values, and so do those that the
-// landmarks' file states, which this function does not set.
+// Sizes the valve by the landmarks and finds its placement. The parameters of `held` keep their values, and so do those that
+// the landmarks' file states. The caller sets these.
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader);
 
-// Adds the quality of a warp that takes the landmarks' places to the landmarks, and that the valve has. A warp that folds at one of
-// five openings is refused. Other commands check each opening that they take.
-void add_warp(Placed &placed, const riis_valve *valve, const riis_warp *warp, double noise);
+// Warps the valve to the landmarks, and returns the warp. It is smoothed by the noise; at 0 it meets the landmarks. A warp that
+// folds at one of five openings is refused. Other commands check each opening that they take.
+Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader);
 
-// Returns the library's message with the names of the file for landmarks, and the words of the file for fields.
-std::string in_words_of_file(std::string text, const LandmarkFile &landmarks);
-// Refuses the landmarks with the library's message, if it refused them.
-void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader reader = Reader::program);
-
-// Refuses landmarks that are not at these nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh. If other axes
-// or another unit would bring the landmarks to the nodes, the message says so.
+// Refuses landmarks that are not at these nodes of a mesh, (3, n_nodes). `of`, such as " of mesh.vtu", names the mesh. If other
+// axes or another unit would bring the landmarks to the nodes, the message says so.
 void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
                     Reader reader);
 
@@ -76,7 +71,6 @@ std::string place_report(const Placed &placed, Reader reader);
 std::string placed_file_of(const Placed &placed, const riis_valve *valve);
 std::string with_parameters_of(const std::string &placed_file, const riis_valve *valve);
 
-riis_points points_of(const std::vector<double> &xyz);
 // Returns numbers as text.
 std::string numbers_text(const double *numbers, std::size_t n, const char *between,
                          std::string (*as_text)(double) = shortest);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the sizes of a mesh and of a valve in it. Out: whether they fit together, and the unit and the half thickness that would fit.
+// In: the sizes of a mesh and of a valve in it. Out: whether they fit together, and the unit and the half thickness that would
+// fit.
 // The program's warnings and the lights of Python's view share these rules.
 #pragma once
 

@@ -43,7 +43,7 @@ bool has_ending(const std::string &path, const std::string &ending);
 // Refuses a file that cannot be read or is empty.
 std::string text_of_file(const std::string &path);
 
-// In: the text of a CSV. Out: its rows, and the facts that lines # NAME = VALUE state. Other lines that begin with # are comments.
+// In: the text of a CSV. Out: its rows, and the facts that lines # NAME = VALUE state. Other lines with # are comments.
 
 std::string trimmed(const std::string &text);
 // Returns the cells of a line, which commas or semicolons separate.
