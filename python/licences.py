@@ -18,7 +18,8 @@ import sys
 
 # The licences of libraries by SPDX's names. The module's licence is in pyproject.toml.
 GCC = "GPL-3.0-or-later WITH GCC-exception-3.1"
-EXPRESSIONS = {"libembree": "Apache-2.0", "libtbb": "Apache-2.0", "libgomp": GCC, "libgcc_s": GCC, "libstdc++": GCC}
+EXPRESSIONS = {"libembree": "Apache-2.0", "libtbb": "Apache-2.0", "libgomp": GCC, "libgcc_s": GCC, "libstdc++": GCC,
+               "nlohmann-json": "MIT"}
 
 DOCUMENTS, COMMON = pathlib.Path("/usr/share/doc"), pathlib.Path("/usr/share/common-licenses")
 
@@ -40,7 +41,7 @@ def expression_of(own, libraries):
     """Returns the licence expression of the module and of the libraries in the wheel."""
     parts = own.split(" AND ")
     for name in libraries:
-        stem = re.match(r"lib[a-z_+]+", name)[0]
+        stem = re.match(r"lib[a-z_+]+|nlohmann-json", name)[0]
         parts.append(EXPRESSIONS.get(stem) or fail(f"the SPDX expression of {name} is unknown; EXPRESSIONS lacks {stem}"))
     return " AND ".join(dict.fromkeys(parts))
 

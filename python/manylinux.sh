@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # What cibuildwheel calls in its container, whose system is not Debian (pyproject.toml, ./run python manylinux):
-#   manylinux.sh prepare               installs TBB from PyPI, and builds Embree from build-python/embree-source, in /opt
+#   manylinux.sh prepare               installs TBB from PyPI, builds Embree from build-python/embree-source, and takes
+#                                      build-python/json, in /opt
 #   manylinux.sh repair WHEEL FOLDER   puts TBB, libgomp and all licences into the wheel, and the wheel into FOLDER
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
@@ -15,6 +16,8 @@ prepare() {
   PATH=/opt/tools/bin:$PATH CMAKE_PREFIX_PATH=/opt/tools python/embree.sh build build-python/embree-source /opt/embree
   text=$(find /opt/tools/lib/python3.12/site-packages/tbb-*.dist-info -iname 'LICENSE*' | head -n 1)
   cat "$text" >"$texts/libtbb.copyright"
+  cp -r build-python/json/usr/* /opt/embree
+  cp build-python/json/*.copyright "$texts"
   cat /usr/share/licenses/libgcc/COPYING3 /usr/share/licenses/libgcc/COPYING.RUNTIME >"$texts/libgomp.copyright"
 }
 

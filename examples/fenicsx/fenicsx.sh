@@ -4,7 +4,7 @@
 # steps use $packages, install_missing, is_on_offer, version_on_offer, say and step of `run`.
 
 # Debian's reference BLAS makes the solver of the linear systems ten times slower than OpenBLAS.
-fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev python3 python3-dev python3-venv
+fenicsx_packages=(gcc g++ cmake ninja-build libembree-dev libtbb-dev nlohmann-json3-dev python3 python3-dev python3-venv
   python3-dolfinx python3-gmsh python3-numpy python3-matplotlib openmpi-bin libopenblas0-pthread)
 fenicsx_version=0.9 # the one of Debian 13
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import FINE, ROUGH, Mixture, Pose, Problem, axis_and_angle, start_pose, vertex_areas, weighted_median
 from riis._fit_search import RIVAL, UNDETERMINED, End, Judge, Judged, covered, is_same, probes_of, search
+from riis._place import UNITS
 from riis._records import Parameter
 from riis._riis import Surface, Valve, find_crossings
 
@@ -28,8 +29,6 @@ _MOVES = ("rotation", "translation", "scale")
 _N_ROUGH = 400
 # If n_starts is not given, a fit has at least and at most these numbers of starts.
 _LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
-# The tables of the kinds are in centimetres.
-_UNITS = {"m": 0.01, "cm": 1.0, "mm": 10.0}
 # A fit with one of these doubts may be a wrong end, so more starts follow.
 _OF_ENDS = ("starts:", "outliers:", "noise:", "misfit:", "cover:")
 # A fit whose measures exceed these limits gets a doubt in its result.
@@ -264,16 +263,16 @@ def _with_unit(unit: Any, start: Mapping[str, Any], moves: list[str], kind: str)
     if unit is None:
         return dict(start)
     if not isinstance(unit, str):
-        raise TypeError(f"unit: must be one of {', '.join(_UNITS)}, not {unit!r}")
-    if unit not in _UNITS:
-        raise InvalidArgumentError(f"unit: '{unit}' is not one of {', '.join(_UNITS)}")
+        raise TypeError(f"unit: must be one of {', '.join(UNITS)}, not {unit!r}")
+    if unit not in UNITS:
+        raise InvalidArgumentError(f"unit: '{unit}' is not one of {', '.join(UNITS)}")
     if kind == "patches":
         raise InvalidArgumentError(f"unit: is '{unit}', but the lengths of a valve from patches have no known unit")
     if "scale" in moves:
         raise InvalidArgumentError(f"unit: '{unit}' sets the scale, which placement frees")
-    if start.get("scale", _UNITS[unit]) != _UNITS[unit]:
-        raise InvalidArgumentError(f"unit: '{unit}' sets the scale to {_UNITS[unit]}, but start sets it to {start['scale']}")
-    return {**start, "scale": _UNITS[unit]}
+    if start.get("scale", UNITS[unit]) != UNITS[unit]:
+        raise InvalidArgumentError(f"unit: '{unit}' sets the scale to {UNITS[unit]}, but start sets it to {start['scale']}")
+    return {**start, "scale": UNITS[unit]}
 
 
 def _check_unit(points: Reals, weights: Reals, surface: Surface, valve: Valve, limits: Reals, names: list[str]) -> None:

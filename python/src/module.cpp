@@ -23,6 +23,6 @@ NB_MODULE(_riis, module) {
   add_marking(module);
   add_leaks(module);
   add_laws(module);
-  add_landmarks(module);
+  add_patient(module);
   add_measures(module);
 }

@@ -104,17 +104,19 @@ def test_refused(tmp_path):
         with pytest.raises(error, match=text):
             riis.place(*arguments, **keywords)
 
-    refused("unit is missing", named, "trileaflet")
-    refused("unit is 'inch'", named, "trileaflet", unit="inch")
+    refused("unit: it is missing", named, "trileaflet")
+    refused('the unit is "inch"', named, "trileaflet", unit="inch")
     refused("the unit is centimetres.*in millimetres", named, "trileaflet", unit="cm")
     refused("valve is needed", named, unit="mm")
-    refused("'nadir_rigth' is not the name", named | {"nadir_rigth": (0, 0, 0)}, "trileaflet", unit="mm")
-    refused("'nadir_right': y is nan", named | {"nadir_right": (0, numpy.nan, 0)}, "trileaflet", unit="mm")
+    refused('"nadir_rigth" is not the name of a landmark, did you mean "nadir_right"', named | {"nadir_rigth": (0, 0, 0)},
+            "trileaflet", unit="mm")
+    refused('"nadir_right": y is nan', named | {"nadir_right": (0, numpy.nan, 0)}, "trileaflet", unit="mm")
     refused("must be three numbers", named | {"nadir_right": (0, 1)}, "trileaflet", unit="mm")
-    refused("'nadir-right' is given twice", named | {"nadir-right": (0, 0, 0)}, "trileaflet", unit="mm")
-    refused("no landmarks", {}, "trileaflet", unit="mm")
-    refused("axes is 'LPS', but landmarks states", named, "trileaflet", unit="mm", axes="LPS")
-    refused("flow has 2 numbers", named, "trileaflet", unit="mm", flow=(1, 2))
+    refused('"nadir-right" is given twice', named | {"nadir-right": (0, 0, 0)}, "trileaflet", unit="mm")
+    refused("holds no landmarks", {}, "trileaflet", unit="mm")
+    refused("axes: landmarks states the axes mesh", named, "trileaflet", unit="mm", axes="LPS")
+    refused("flow", named, "trileaflet", unit="mm", flow=(1, 2))
+    refused("noise: -1 is below 0", named, "trileaflet", unit="mm", noise=-1)
     refused("did you mean 'leaflet_height'", named, "trileaflet", unit="mm", held="leaflet_hight",
             error=riis.InvalidParameterError)
     swapped = named | {"nadir_left": named["nadir_right"], "nadir_right": named["nadir_left"]}
@@ -122,7 +124,7 @@ def test_refused(tmp_path):
         swapped["commissure_" + str(NAMES.index(name))] = swapped.pop(name)
     refused("mirrored", swapped, "aortic", unit="mm")
     one = named | {"nadir_left": named["nadir_right"] + 1e-3}
-    refused("'nadir_right' and 'nadir_left' are in one place", one, "trileaflet", unit="mm")
+    refused('"nadir_right" and "nadir_left" are in one place', one, "trileaflet", unit="mm")
     line = {name: (3.0 * i, i, 2.0 * i) for i, name in enumerate(NAMES)}
     refused("the landmarks lie along a line", line, "trileaflet", unit="mm")
     mirror = {name: point * (-1, 1, 1) for name, point in named.items()}
@@ -132,7 +134,7 @@ def test_refused(tmp_path):
     ring = {"annulus": annulus, "anterior_horn": annulus[0]}
     assert riis.place(ring, "mitral", unit="mm", flow=(0, 0, -1)).names[3] == "annulus_4"
     crossed = ring | {"annulus": annulus[[0, 1, 4, 3, 2, *range(5, 12)]]}
-    refused("the annulus crosses itself: the line from 'annulus_", crossed, "mitral", unit="mm", flow=(0, 0, -1))
+    refused('the annulus crosses itself: the line from "annulus_', crossed, "mitral", unit="mm", flow=(0, 0, -1))
     high = riis.Valve("coapting", coaptation_height=9)
     refused("the landmarks give root_radius .* and then coaptation_height is 9", named, high, unit="mm", held="coaptation_height",
             error=riis.InvalidParameterError)
@@ -143,17 +145,17 @@ def test_refused(tmp_path):
     for name, text, words in (
         ("a.txt", "", "must be a .json"),
         ("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes.*half a turn"),
-        ("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n", "axes is 'LPI'"),
-        ("a.csv", "# axes = LPS\nnadir,1,2,3\n", "unit is missing"),
+        ("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n", 'the axes are "LPI"'),
+        ("a.csv", "# axes = LPS\nnadir,1,2,3\n", "states no unit"),
         ("a.csv", "# axes = LPS\nnadir,1,2\n", "line 2 must be NAME,X,Y,Z"),
-        ("a.csv", "# axis = LPS\n", "line 1: 'axis' is unknown"),
+        ("a.csv", "# axis = LPS\n", 'line 1: "axis" is unknown'),
         ("a.json", "{", "is not JSON"),
-        ("a.json", "[]", "JSON object"),
+        ("a.json", "[]", "the file must be an object"),
         ("a.json", '{"axes": "LPS", "axes": "RAS"}', "given twice"),
-        ("a.json", '{"axes": "LPS", "unitt": "mm"}', "'unitt' is unknown"),
-        ("a.json", '{"unit": "mm", "landmarks": {"nadir": [1, 2, 3]}}', "axes is missing.*half a turn"),
-        ("a.json", '{"markups": [{"coordinateSystem": "LPI", "coordinateUnits": "mm"}]}', "coordinateSystem is 'LPI'"),
-        ("a.json", '{"markups": [{"coordinateSystem": "LPS"}]}', "3D Slicer"),
+        ("a.json", '{"axes": "LPS", "unitt": "mm"}', '"unitt" is unknown, did you mean "unit"'),
+        ("a.json", '{"unit": "mm", "landmarks": {"nadir": [1, 2, 3]}}', "axes: they are missing.*half a turn"),
+        ("a.json", '{"markups": [{"coordinateSystem": "LPI", "coordinateUnits": "mm"}]}', 'coordinateSystem is "LPI"'),
+        ("a.json", '{"markups": [{"coordinateSystem": "LPS"}]}', 'has no text "coordinateUnits"'),
     ):
         (tmp_path / name).write_text(text)
         refused(words, tmp_path / name, "trileaflet")
@@ -187,7 +189,7 @@ def test_warps(kind, tmp_path):
     assert numpy.linalg.norm(attachment - further["attachment"][0], axis=1).min() < 0.5
     with pytest.raises(riis.InvalidArgumentError, match="it must be none, exact or smoothed"):
         riis.place(named, kind, unit="mm", warp="yes")
-    with pytest.raises(riis.InvalidArgumentError, match="'commissure_left_non' and 'attachment_1' are in one place on"):
+    with pytest.raises(riis.InvalidArgumentError, match='"commissure_left_non" and "attachment_1" are in one place on'):
         riis.place({**named, "attachment": [named["commissure_left_non"]]}, kind, unit="mm")
 
 
@@ -226,35 +228,35 @@ def test_refused_placed_valves(tmp_path):
     assert riis.read_placed(path).valve["gap"] == 0.03
     warp = {"sources": [[0, 0, 0]], "targets": [[0, 0, 0]]}
     for change, text in (
-        ("{", "placed.json is not JSON"),
-        ("[" * 100_000, "placed.json is not JSON"),
-        ("[]", "is not a placed valve"),
-        ({"valve": 3}, "is not a placed valve"),
+        ("{", "placed.json: is not JSON"),
+        ("[" * 100_000, "placed.json: is nested deeper than a placed valve can be"),
+        ("[]", "placed.json: a placed valve must be an object"),
+        ({"valve": 3}, "placed.json: valve: 3 is not a text"),
         ({"valve": "tricuspid"}, "placed.json: .*tricuspid"),
-        ({"unit": "inch"}, "placed.json: unit is 'inch'; it must be mm, cm, m"),
-        ({"scale": 2}, "placed.json: 'scale' is unknown; the keys are valve"),
-        ({"rotate": [0, 0, 1]}, "placed.json: rotate must be 4 finite numbers"),
-        ({"translate": [0, 0, "x"]}, "placed.json: translate must be 3 finite numbers"),
-        ({"parameters": [1]}, "placed.json: parameters is .1.; it must be an object"),
-        ({"parameters": {"gap": "wide"}}, "placed.json: gap is 'wide'; it must be a number, or numbers"),
+        ({"unit": "inch"}, 'placed.json: unit: "inch" is none of m, cm, mm'),
+        ({"scale": 2}, 'placed.json: a placed valve: "scale" is unknown'),
+        ({"rotate": [0, 0, 1]}, "placed.json: rotate: .* has 3 numbers; it takes 4"),
+        ({"translate": [0, 0, "x"]}, 'placed.json: translate: "x" is not a number'),
+        ({"parameters": [1]}, "placed.json: parameters: must hold a JSON object"),
+        ({"parameters": {"gap": "wide"}}, "placed.json: parameters: gap must be a number"),
         ({"parameters": {"gap": [1, 2]}}, "placed.json: .*gap"),
-        ({"parameters": {"translation": [0, 0, True]}}, "placed.json: translation is .0, 0, True.; it must be a number"),
+        ({"parameters": {"translation": [0, 0, True]}}, "placed.json: parameters: translation must be a number"),
         ({"parameters": {"gap": -1}}, "placed.json: .*gap.*-1"),
         ({"parameters": {"gpa": 1}}, "placed.json: .*gpa"),
-        ({"warp": 1}, "placed.json: warp is 1; it must be an object"),
-        ({"warp": warp | {"open": {}}}, "placed.json: warp: 'open' is unknown; the keys are sources"),
-        ({"warp": warp | {"noise": -1}}, "placed.json: warp: noise is -1; it must be at least 0"),
-        ({"warp": warp | {"coordinates": "LPS"}}, "placed.json: warp: coordinates is 'LPS'"),
-        ({"warp": {"sources": [[0, 0, 0]]}}, "placed.json: .*targets is missing"),
-        ({"warp": warp | {"sources": [[0, 0]]}}, "placed.json: warp: sources must be points of three finite numbers each"),
+        ({"warp": 1}, "placed.json: warp must be an object"),
+        ({"warp": warp | {"opened": {}}}, 'placed.json: warp: "opened" is unknown, did you mean "open"'),
+        ({"warp": warp | {"noise": -1}}, "placed.json: warp: noise: -1 is below 0"),
+        ({"warp": warp | {"coordinates": "LPS"}}, 'placed.json: warp: coordinates: "LPS" is none of mesh, valve'),
+        ({"warp": {"sources": [[0, 0, 0]]}}, "placed.json: warp: targets: it is missing"),
+        ({"warp": warp | {"sources": [[0, 0]]}}, "placed.json: warp: sources: point 0, .0,0., is not"),
     ):
         path.write_text(change if isinstance(change, str) else json.dumps(good | change))
         with pytest.raises(riis.Error, match=text):
             riis.read_placed(path)
     path.write_text(json.dumps({key: value for key, value in good.items() if key != "rotate"}))
-    with pytest.raises(riis.InvalidArgumentError, match="placed.json: rotate is missing"):
+    with pytest.raises(riis.InvalidArgumentError, match="placed.json: rotate: it is missing"):
         riis.read_placed(path)
-    with pytest.raises(riis.InvalidArgumentError, match="unit is 'inch'; it must be mm, cm, m"):
+    with pytest.raises(riis.InvalidArgumentError, match='unit is "inch"; it must be m, cm or mm'):
         riis.read_placed(path, unit="inch")
     with pytest.raises(FileNotFoundError):
         riis.read_placed(tmp_path / "none.json")
@@ -264,7 +266,7 @@ def test_warps_that_fold_are_refused():
     named = dict(zip(NAMES, 10 * trileaflet(1.1, 1.05, 1.4), strict=True))
     # Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there.
     torn = named | {"attachment_right_1": (21, 2, 1), "attachment_right_2": (1, -2, 1)}
-    with pytest.raises(riis.InvalidParameterError, match="the warp folds near 'commissure_.*its determinant is -"):
+    with pytest.raises(riis.InvalidParameterError, match='the warp folds near "commissure_.*its determinant is -'):
         riis.place(torn, "coapting", unit="mm", warp="exact")
     assert riis.place(named, "coapting", unit="mm", warp="exact").warped_residuals.max() < 1e-9
 
@@ -287,13 +289,14 @@ def test_landmarks_must_be_at_the_nodes(tmp_path):
         with pytest.raises(riis.InvalidArgumentError, match=words):
             placed(axes, "mm", -1, 1)
         assert placed(axes, "mm", -1, 1, axes=other).axes == other
-    with pytest.raises(riis.InvalidArgumentError, match="in mm, they are .* give unit='mm'"):
+    with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .* give unit='mm'"):
         placed("LPS", "cm", 1, 0.1)
-    with pytest.raises(riis.InvalidArgumentError, match="in mm and with x and y reversed.* give unit='mm' and give axes='RAS'"):
+    words = "in millimetres and with x and y reversed.* give unit='mm' and give axes='RAS'"
+    with pytest.raises(riis.InvalidArgumentError, match=words):
         placed("LPS", "cm", -1, 0.1)
     with pytest.raises(riis.InvalidArgumentError, match="reversed.* state the axes of the file"):
         placed("mesh", "mm", -1, 1)
-    with pytest.raises(riis.InvalidArgumentError, match="in mm, they are .* from them: give the landmarks in mm"):
+    with pytest.raises(riis.InvalidArgumentError, match="in millimetres, they are .*: give the landmarks in millimetres"):
         riis.place({name: points[i] / 10 for i, name in enumerate(NAMES)}, "trileaflet", unit="cm", nodes=nodes)
     with pytest.raises(riis.InvalidArgumentError, match="more than 1 cm, in any unit"):
         placed("LPS", "mm", 1, 1, at=nodes + 400)

@@ -925,7 +925,7 @@ def test_refused_meshes(small):
          lambda: view.Model(points, [0, 1, 2, 3], offsets=[0, 3])),
         (riis.InvalidArgumentError, "types: has 1 entries for", lambda: view.Model(points, cells, types=[10])),
         (riis.InvalidArgumentError, "cells: has the type float64", lambda: view.Model(points, cells * 1.0)),
-        (riis.InvalidArgumentError, "unit: is 'inch'; it must be mm, cm, m", lambda: view.Model(points, cells, unit="inch")),
+        (riis.InvalidArgumentError, "unit: is 'inch'; it must be m, cm, mm", lambda: view.Model(points, cells, unit="inch")),
     ]:
         with pytest.raises(error, match=message):
             make()

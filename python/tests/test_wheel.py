@@ -35,6 +35,7 @@ def test_every_library_of_the_wheel_has_its_licence():
     gcc = "RUNTIME LIBRARY EXCEPTION", "GPL-3.0-or-later WITH GCC-exception-3.1"
     words = {"embree": ("Apache", "Apache-2.0"), "tbb": ("Apache", "Apache-2.0"), "gomp": gcc, "gcc_s": gcc, "stdc++": gcc}
     assert "Wenzel Jakob" in licences["nanobind.copyright"] and "tessil" in licences["robin_map.copyright"]
+    assert "Niels Lohmann" in licences["nlohmann-json.copyright"]
     libraries = {re.match(r"lib([a-z_+]+)", file.name).group(1) for file in files if file.parts[0] == "riis.libs"}
     assert {"tbb", "gomp"} <= libraries and "embree" not in libraries
     libraries.add("embree")  # is in the module
@@ -42,7 +43,7 @@ def test_every_library_of_the_wheel_has_its_licence():
         own = [name for name in licences if name.endswith(".copyright") and library.replace("_", "-") in name]
         assert own, f"no licence of {library} among {sorted(licences)}"
         assert words[library][0].lower() in " ".join(licences[own[0]].split()).lower()
-    # The module contains nanobind (BSD) and robin_map (MIT).
+    # The module contains nanobind (BSD), robin_map and nlohmann_json (MIT).
     expression = importlib.metadata.metadata("riis")["License-Expression"]
     expected = {"Apache-2.0", "BSD-3-Clause", "MIT"} | {words[library][1] for library in libraries}
     assert set(expression.split(" AND ")) == expected and len(expected) == 4

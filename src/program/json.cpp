@@ -46,25 +46,28 @@ class Guard {
 }  // namespace
 
 Json parse_json_file(const std::string &path, const std::string &content) {
+  return parse_json(path, text_of_file(path), content);
+}
+
+Json parse_json(const std::string &path, const std::string &text, const std::string &content) {
   Guard guard(path, content);
   const auto observe = [&](int depth, Json::parse_event_t event, Json &parsed) {
     guard(depth, event, parsed);
     return true;
   };
   try {
-    return Json::parse(text_of_file(path), observe);
+    return Json::parse(text, observe);
   } catch (const Json::exception &error) {
-    const std::string text = error.what();
+    const std::string said = error.what();
     // The parser's text begins like "[json.exception.parse_error.101] parse error at line 1, column 2: ...".
-    const std::size_t end = text.find("] ");
-    refuse_file(path, "is not JSON: " + (end == std::string::npos ? text : text.substr(end + 2)));
+    const std::size_t end = said.find("] ");
+    refuse_file(path, "is not JSON: " + (end == std::string::npos ? said : said.substr(end + 2)));
   }
 }
 
 void check_keys(const std::string &path, const std::string &subject, const Json &value,
                 const std::vector<std::string> &keys) {
-  std::string known;
-  for (const std::string &key : keys) known += (known.empty() ? "" : ", ") + key;
+  const std::string known = joined_by(keys, ", ");
   if (!value.is_object())
     refuse_file(path, subject + " must be an object with " + known + ", not of type " + value.type_name());
   for (const auto &item : value.items()) {
@@ -79,20 +82,10 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
 
 // ---- Case values ----
 
-namespace {
-
-std::string joined(const std::vector<std::string> &names) {
-  std::string text;
-  for (const std::string &name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-}  // namespace
-
 CaseValues::CaseValues(const std::string &path, const std::string &object, const Json &value,
-                       const std::vector<std::string> &keys)
+                       const std::vector<std::string> &keys, const std::string &root)
     : path_(path), object_(object), value_(value) {
-  check_keys(path, object.empty() ? "the case" : object, value, keys);
+  check_keys(path, object.empty() ? root : object, value, keys);
 }
 
 void CaseValues::refuse(const std::string &key, const std::string &reason) const {
@@ -169,7 +162,7 @@ std::optional<Unit> CaseValues::unit(const char *key) const {
 std::size_t CaseValues::choice(const char *key, const std::vector<std::string> &names) const {
   if (!has(key)) return 0;
   const auto found = std::find(names.begin(), names.end(), text(key));
-  if (found == names.end()) refuse(key, "\"" + text(key) + "\" is none of " + joined(names));
+  if (found == names.end()) refuse(key, "\"" + text(key) + "\" is none of " + joined_by(names, ", "));
   return static_cast<std::size_t>(found - names.begin());
 }
 

@@ -20,6 +20,7 @@ using Json = nlohmann::ordered_json;
 // `content` names the expected content of the file, such as "parameters". It appears in the message if the file is nested too
 // deeply.
 Json parse_json_file(const std::string &path, const std::string &content);
+Json parse_json(const std::string &path, const std::string &text, const std::string &content);
 
 // Refuses a value that is not an object, and a key that is not in the list. The refusal of a key suggests the nearest key of the
 // list. `subject` names the value.
@@ -30,9 +31,10 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
 
 class CaseValues {
  public:
-  // `object`, such as "valve 0", names the value in refusals. "" stands for the file's root. Borrows the value.
+  // `object`, such as "valve 0", names the value in refusals. "" stands for the file's root, whose words are `root`. Borrows the
+  // value.
   CaseValues(const std::string &path, const std::string &object, const Json &value,
-             const std::vector<std::string> &keys);
+             const std::vector<std::string> &keys, const std::string &root = "the case");
 
   // Returns the file and the object, for refusals.
   std::string subject() const { return object_.empty() ? path_ : path_ + ": " + object_; }

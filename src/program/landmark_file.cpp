@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "common/nearest_name.hpp"
-#include "program/outputs.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
 
@@ -160,13 +159,6 @@ class Collector {
 
 // ---- What a file states ----
 
-std::string one_of(const std::vector<std::string> &names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
-  return text;
-}
-
 constexpr const char *why_axes =
     "; LPS and RAS differ by half a turn about z, which the landmarks themselves cannot show";
 
@@ -194,7 +186,8 @@ std::array<double, 3> point_of(const std::string &path, const std::string &name,
 // ---- JSON ----
 
 void read_json(const Json &root, LandmarkFile &file) {
-  const CaseValues values(file.path, "", root, {"valve", "unit", "axes", "noise", "flow", "parameters", "landmarks"});
+  const CaseValues values(file.path, "", root, {"valve", "unit", "axes", "noise", "flow", "parameters", "landmarks"},
+                          "the file");
   file.valve = values.text("valve");
   if (!values.has("unit")) values.refuse("unit", "it is missing; it must be " + one_of(unit_names()));
   file.unit = stated_unit(file.path, values.text("unit"));
@@ -267,42 +260,18 @@ void read_slicer(const Json &root, LandmarkFile &file) {
 
 // ---- CSV ----
 
-double number_in_file(const std::string &path, const std::string &text, const std::string &subject) {
-  try {
-    return parse_number(text, subject);
-  } catch (const Refusal &refusal) {
-    refuse_file(path, refusal.text);
-  }
-}
-
 void read_csv(const std::string &text, LandmarkFile &file) {
   const std::string &path = file.path;
-  std::map<std::string, std::string> stated;
+  const CsvFile csv = csv_of_text(path, text, {"unit", "axes", "valve", "noise", "flow"}, "NAME,X,Y,Z", 4);
+  const std::map<std::string, std::string> &stated = csv.stated;
   Collector to(file);
-  const std::vector<std::string> lines = csv_lines(text);
-  bool is_first = true;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string line = trimmed(lines[i]), where = "line " + std::to_string(i + 1);
-    if (line.empty()) continue;
-    if (line[0] == '#') {
-      const std::size_t equals = line.find('=');
-      if (equals == std::string::npos) continue;  // a comment
-      const std::string key = trimmed(line.substr(1, equals - 1));
-      const std::vector<std::string> keys = {"unit", "axes", "valve", "noise", "flow"};
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        refuse_file(path, where + ": " + quoted(key) + " is unknown; a line # NAME = VALUE states " + one_of(keys));
-      if (!stated.emplace(key, trimmed(line.substr(equals + 1))).second)
-        refuse_file(path, where + ": the " + key + " is given twice");
-      continue;
-    }
-    const std::vector<std::string> cells = csv_cells(line);
-    if (cells.size() != 4) refuse_file(path, where + " must be NAME,X,Y,Z, not " + quoted(line));
-    const bool is_heading = is_first && plain(cells[1]) == "x" && plain(cells[2]) == "y" && plain(cells[3]) == "z";
-    is_first = false;
+  for (const CsvFile::Row &row : csv.rows) {
+    const bool is_heading = &row == &csv.rows.front() && plain(row.cells[1]) == "x" && plain(row.cells[2]) == "y" &&
+                            plain(row.cells[3]) == "z";
     if (is_heading) continue;
     std::array<double, 3> point{};
-    for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, cells[k + 1], where);
-    to.add(cells[0], point);
+    for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, row.cells[k + 1], row.where);
+    to.add(row.cells[0], point);
   }
   const auto value_of = [&](const char *key) { return stated.count(key) ? stated.at(key) : std::string(); };
   if (!stated.count("unit"))
@@ -350,19 +319,27 @@ void LandmarkFile::convert(Axes to) {
   if (flow) flow = {-(*flow)[0], -(*flow)[1], (*flow)[2]};
 }
 
-LandmarkFile read_landmarks(const std::string &path) {
+LandmarkFile read_landmarks(const std::string &path, const std::string &text) {
   LandmarkFile file;
   file.path = path;
   if (has_ending(path, ".csv")) {
-    read_csv(text_of_file(path), file);
+    read_csv(text, file);
     return file;
   }
   if (!has_ending(path, ".json")) refuse_file(path, "landmarks must be a .json, .mrk.json or .csv file");
-  const Json root = parse_json_file(path, "landmarks");
+  const Json root = parse_json(path, text, "landmarks");
   if (root.is_object() && root.contains("markups"))
     read_slicer(root, file);
   else
     read_json(root, file);
+  return file;
+}
+
+LandmarkFile landmarks_of_json(const std::string &subject, const Json &root) {
+  LandmarkFile file;
+  file.path = subject;
+  file.is_file = false;
+  read_json(root, file);
   return file;
 }
 

@@ -22,6 +22,7 @@ const char *name_of(Axes axes);
 
 struct LandmarkFile {
   std::string path;
+  bool is_file = true;                    // false: the landmarks are in memory, and `path` is words for them
   std::vector<std::string> names;         // as in the file
   std::vector<double> xyz;                // (3, n), in the file's unit and axes
   std::vector<std::int32_t> roles;        // RIIS_LANDMARK_*
@@ -38,6 +39,9 @@ struct LandmarkFile {
   void convert(Axes to);
 };
 
-LandmarkFile read_landmarks(const std::string &path);
+// Reads the text of a file, whose format follows from the ending of its path.
+LandmarkFile read_landmarks(const std::string &path, const std::string &text);
+// Reads landmarks in memory from an object with the keys of a file. `subject` stands for them in refusals.
+LandmarkFile landmarks_of_json(const std::string &subject, const Json &root);
 
 }  // namespace riis::program

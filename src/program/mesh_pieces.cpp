@@ -12,6 +12,7 @@
 #include "common/array_view.hpp"
 #include "program/outputs.hpp"
 #include "program/ranks.hpp"
+#include "program/text.hpp"
 
 namespace riis::program {
 

@@ -21,6 +21,7 @@
 
 #include "program/outputs.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 #include "program/valve_source.hpp"
 
 namespace riis::program {

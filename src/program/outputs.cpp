@@ -26,6 +26,7 @@
 #include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/series_files.hpp"
+#include "program/text.hpp"
 #include "program/valve_file.hpp"
 #include "program/warnings.hpp"
 
@@ -190,14 +191,6 @@ int replace_file(const std::string &path, const std::string &text) {
 }
 
 }  // namespace
-
-std::string ending_of(const std::string &path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return ending;
-}
-
-bool has_ending(const std::string &path, const std::string &ending) { return ending_of(path) == ending; }
 
 fs::path place_of(const std::string &path) {
   std::error_code error;

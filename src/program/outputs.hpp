@@ -64,10 +64,6 @@ class UnbrokenWrite {
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);
 [[nodiscard]] OutputLocks check_outputs(const PlaceOptions &options);
 
-// Returns the ending of a path, from the point on and in small letters.
-std::string ending_of(const std::string &path);
-// Returns whether the path has this ending, in small letters or capitals.
-bool has_ending(const std::string &path, const std::string &ending);
 // place_of follows links to existing files, and returns the path of the file itself. folder_of returns the folder of a path, or
 // "." if the path has no folder.
 std::filesystem::path place_of(const std::string &path);

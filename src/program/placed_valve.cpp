@@ -8,6 +8,7 @@
 
 #include "program/parameters.hpp"
 #include "program/refusal.hpp"
+#include "program/text.hpp"
 #include "program/valve_file.hpp"
 
 namespace riis::program {
@@ -24,17 +25,32 @@ bool names_kind(const std::string &path) {
 
 }  // namespace
 
-const std::vector<std::string> &placed_keys() {
-  static const std::vector<std::string> keys = {"valve",      "unit",      "axes", "rotate", "translate",
-                                                "parameters", "landmarks", "fit",  "warp"};
-  return keys;
+PlacedFile read_placed(const std::string &path, const Json &root, std::optional<Unit> unit) {
+  const CaseValues values(path, "", root,
+                          {"valve", "unit", "axes", "rotate", "translate", "parameters", "landmarks", "fit", "warp"},
+                          "a placed valve");
+  PlacedFile file;
+  file.kind = values.text("valve");
+  if (file.kind.empty() || has_ending(file.kind, ".json")) values.refuse("valve", "it must be a kind of valve");
+  values.needed("unit");
+  const Unit own = *values.unit("unit");
+  file.unit = unit.value_or(own);
+  file.factor = factor_between(own, file.unit);
+  check(riis_surface_options_init(&file.where, sizeof file.where));
+  const std::vector<double> turn = values.numbers("rotate", 4), shift = values.numbers("translate", 3);
+  file.where.scale = factor_between(Unit::centimetre, file.unit);
+  std::copy_n(turn.begin(), 3, file.where.rotation_axis);
+  file.where.rotation_angle = turn[3];
+  for (std::size_t k = 0; k < 3; ++k) file.where.translation[k] = file.factor * shift[k];
+  file.parameters = values.needed("parameters");
+  if (values.has("warp")) file.warp = values.needed("warp");
+  return file;
 }
 
 void use_placed_valve(ValveOptions &options) {
   if (!is_valve_file(options.valve) || !names_kind(options.valve)) return;
   const std::string path = options.valve;
-  const Json root = parse_json_file(path, "a placed valve");
-  const CaseValues values(path, "", root, placed_keys());
+  const PlacedFile file = read_placed(path, parse_json_file(path, "a placed valve"), options.unit);
   riis_surface_options &surface = options.surface_options;
   if (options.surface_unit) refuse_usage("--surface-unit has no effect with --valve " + path + ", which has a unit");
   if (options.has_scale) refuse_usage("--scale has no effect with --valve " + path + ": --unit says the mesh's unit");
@@ -42,18 +58,12 @@ void use_placed_valve(ValveOptions &options) {
       surface.rotation_angle != 0 ||
       std::any_of(std::begin(surface.translation), std::end(surface.translation), [](double x) { return x != 0; });
   if (is_moved) refuse_usage("--rotate and --translate have no effect with --valve " + path + ", which is placed");
-  options.valve = values.text("valve");
-  if (options.valve.empty() || is_valve_file(options.valve)) values.refuse("valve", "it must be a kind of valve");
+  options.valve = file.kind;
   options.placed = path;
-  const auto unit = values.unit("unit");
-  if (!unit) values.refuse("unit", "it is missing");
-  if (!options.unit) options.unit = *unit;
-  const std::vector<double> turn = values.numbers("rotate", 4), shift = values.numbers("translate", 3);
-  std::copy_n(turn.begin(), 3, surface.rotation_axis);
-  surface.rotation_angle = turn[3];
-  const double factor = factor_between(*unit, *options.unit);
-  for (std::size_t k = 0; k < 3; ++k) surface.translation[k] = factor * shift[k];
-  values.needed("parameters");
+  options.unit = file.unit;
+  std::copy_n(file.where.rotation_axis, 3, surface.rotation_axis);
+  surface.rotation_angle = file.where.rotation_angle;
+  std::copy_n(file.where.translation, 3, surface.translation);
 }
 
 void set_placed_parameters(const ValveOptions &options, riis_valve *valve) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Refusal is an exit code and one line for stderr. The program throws it to give up.
+// A Refusal is an exit code and one line for stderr. The program throws it to give up. The Python package makes an exception of
+// its status and text.
 #pragma once
 
 #include <riis/riis.h>
@@ -14,6 +15,7 @@ enum ExitCode { exit_fine = 0, exit_bad_data = 1, exit_wrong_usage = 2, exit_non
 struct Refusal {
   ExitCode exit_code;
   std::string text;
+  riis_status status = RIIS_INVALID_ARGUMENT;
 };
 
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
@@ -48,8 +50,8 @@ inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||
                     status == RIIS_LIMIT_EXCEEDED;
-  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_wrong_usage, with_option_named(riis_last_error())};
-  throw Refusal{exit_bad_data, (data && !subject.empty() ? subject + ": " : "") + riis_last_error()};
+  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_wrong_usage, with_option_named(riis_last_error()), status};
+  throw Refusal{exit_bad_data, (data && !subject.empty() ? subject + ": " : "") + riis_last_error(), status};
 }
 
 }  // namespace riis::program

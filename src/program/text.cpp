@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -64,7 +65,28 @@ std::string shortest(double number) {
   return {text, static_cast<std::size_t>(end - text)};
 }
 
+std::string joined_by(const std::vector<std::string> &parts, const char *between) {
+  std::string text;
+  for (const std::string &part : parts) text += (text.empty() ? "" : between) + part;
+  return text;
+}
+
+std::string one_of(const std::vector<std::string> &names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
+  return text;
+}
+
 // ---- Text file ----
+
+std::string ending_of(const std::string &path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char &c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
+bool has_ending(const std::string &path, const std::string &ending) { return ending_of(path) == ending; }
 
 void refuse_file(const std::string &path, const std::string &reason) {
   constexpr std::size_t longest = 300;
@@ -163,6 +185,8 @@ void check_times(const std::vector<double> &times, const std::string &subject) {
 
 // ---- CSV ----
 
+namespace {
+
 std::vector<std::string> csv_lines(const std::string &text) {
   std::vector<std::string> lines(1);
   for (const char c : text) {
@@ -173,6 +197,8 @@ std::vector<std::string> csv_lines(const std::string &text) {
   }
   return lines;
 }
+
+}  // namespace
 
 std::string trimmed(const std::string &text) {
   const auto is_blank = [](unsigned char c) { return c <= ' '; };
@@ -191,6 +217,38 @@ std::vector<std::string> csv_cells(const std::string &line) {
   }
   for (std::string &cell : cells) cell = trimmed(cell);
   return cells;
+}
+
+double number_in_file(const std::string &path, const std::string &text, const std::string &subject) {
+  try {
+    return parse_number(text, subject);
+  } catch (const Refusal &refusal) {
+    refuse_file(path, refusal.text);
+  }
+}
+
+CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
+                    const std::string &form, std::size_t n_cells) {
+  CsvFile file;
+  std::size_t number = 0;
+  for (const std::string &whole : csv_lines(text)) {
+    const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
+    if (line.empty()) continue;
+    if (line[0] == '#') {
+      const std::size_t equals = line.find('=');
+      if (equals == std::string::npos) continue;
+      const std::string name = trimmed(line.substr(1, equals - 1));
+      if (std::find(names.begin(), names.end(), name) == names.end())
+        refuse_file(path, where + ": " + quoted(name) + " is unknown; a line # NAME = VALUE states " + one_of(names));
+      if (!file.stated.emplace(name, trimmed(line.substr(equals + 1))).second)
+        refuse_file(path, where + ": the " + name + " is given twice");
+      continue;
+    }
+    file.rows.push_back({where, csv_cells(line)});
+    if (file.rows.back().cells.size() != n_cells)
+      refuse_file(path, where + " must be " + form + ", not " + quoted(line));
+  }
+  return file;
 }
 
 }  // namespace riis::program

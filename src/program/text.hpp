@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,16 @@ std::string shortest(double number);
 
 inline std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
-// In: a path. Out: the text of the file, or a refusal that names the file.
+// Returns the parts with a text between them. one_of returns a list for a sentence, such as "m, cm or mm".
+std::string joined_by(const std::vector<std::string> &parts, const char *between);
+std::string one_of(const std::vector<std::string> &names);
+
+// In: a path. Out: its ending, or the text of the file. Refusals name the file.
+
+// Returns the ending of a path, from the point on and in small letters.
+std::string ending_of(const std::string &path);
+// Returns whether the path has this ending, in small letters or capitals.
+bool has_ending(const std::string &path, const std::string &ending);
 
 // Refuses the file. The reason may contain pieces of the file of any length.
 [[noreturn]] void refuse_file(const std::string &path, const std::string &reason);
@@ -33,11 +43,25 @@ inline std::string quoted(const std::string &text) { return "\"" + text + "\""; 
 // Refuses a file that cannot be read or is empty.
 std::string text_of_file(const std::string &path);
 
-// In: the text of a CSV. Out: its lines without line ends, and the cells of a line, which commas or semicolons separate.
+// In: the text of a CSV. Out: its rows, and the facts that lines # NAME = VALUE state. Other lines with # are comments.
 
 std::string trimmed(const std::string &text);
-std::vector<std::string> csv_lines(const std::string &text);
+// Returns the cells of a line, which commas or semicolons separate.
 std::vector<std::string> csv_cells(const std::string &line);
+// Reads a number, whose refusal names the file.
+double number_in_file(const std::string &path, const std::string &text, const std::string &subject);
+
+struct CsvFile {
+  struct Row {
+    std::string where;  // such as "line 3"
+    std::vector<std::string> cells;
+  };
+  std::map<std::string, std::string> stated;
+  std::vector<Row> rows;
+};
+// Refuses facts with other names than these, facts that are stated twice, and rows that do not have the form, such as "X,Y,Z".
+CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
+                    const std::string &form, std::size_t n_cells);
 
 // In: the times of a series as the user writes them. Out: the times in ascending order.
 

@@ -2,11 +2,9 @@
 #include "program/warnings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <utility>
 
 #include "program/ranks.hpp"
@@ -59,6 +57,20 @@ std::string text_of(const Box &box, double edge) {
   return text;
 }
 
+bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
+
+Sizes sizes_of(const Situation &s) {
+  const auto &[x, y, z] = s.options.surface_options.translation;
+  return {s.mesh,
+          s.surface,
+          s.median_edge,
+          s.half_thickness,
+          {x, y, z},
+          s.options.unit || s.options.has_scale,
+          is_parametric(s.options) && !s.options.has_half_thickness,
+          largest_mesh};
+}
+
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
 // Returns whether suspiciously few nodes are marked. A single layer of nodes over the surface would have about area / edge^2
@@ -69,7 +81,8 @@ bool has_hardly_any(const Situation &s) {
 }
 
 bool has_odd_half_thickness(const Situation &s) {
-  return s.n_nodes >= fewest_judged_nodes && (is_too_large(s.half_thickness, s) || is_too_small(s.half_thickness, s));
+  return s.n_nodes >= fewest_judged_nodes &&
+         (is_too_large(s.half_thickness, sizes_of(s)) || is_too_small(s.half_thickness, sizes_of(s)));
 }
 
 std::string marked_text(const Situation &s) {
@@ -89,8 +102,6 @@ Warning warning_of_places(const Situation &s) {
 }
 
 }  // namespace
-
-double Box::largest_side() const { return std::max({upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]}); }
 
 Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
                        const riis_vtk_mesh *mesh) {
@@ -142,110 +153,6 @@ std::string place_text(const ValveOptions &options, const double *point, double 
 
 namespace {
 
-// A mesh fits its valve under three conditions. Its size is 0.5 to 40 times the valve's size. Its edges are at most 0.3 times
-// the valve's size. The two boxes overlap.
-constexpr double smallest_mesh = 0.5, largest_mesh = 40, usual_mesh = 3, longest_edge = 0.3;
-// Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
-// largest side of its aortic valve.
-constexpr double usual_half_thickness = 0.04, largest_half_thickness = 0.25;
-// The least half thickness, as a share of the mesh's edge length. A thinner band falls between two layers of nodes and contains
-// few nodes.
-constexpr double smallest_half_thickness = 0.3;
-
-constexpr std::array<double, 6> factors = {0.1, 10, 0.01, 100, 0.001, 1000};
-
-// Returns whether the boxes overlap if the surface is scaled by 1 / factor. The translation is not scaled, because it is in the
-// mesh's unit.
-bool overlap_at(double factor, const Situation &s) {
-  for (int k = 0; k < 3; ++k) {
-    const double shift = s.options.surface_options.translation[k];
-    const double lower = (s.surface.lower[k] - shift) / factor + shift,
-                 upper = (s.surface.upper[k] - shift) / factor + shift;
-    if (upper < s.mesh.lower[k] || lower > s.mesh.upper[k]) return false;
-  }
-  return true;
-}
-
-double mesh_in_surfaces(const Situation &s) { return s.mesh.largest_side() / s.surface.largest_side(); }
-
-bool sizes_fit_at(double factor, const Situation &s) {
-  const double ratio = factor * mesh_in_surfaces(s);
-  return ratio >= smallest_mesh && ratio <= largest_mesh &&
-         factor * s.median_edge <= longest_edge * s.surface.largest_side();
-}
-
-bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
-
-// Returns whether the edges suit the default half thickness, which belongs to a parametric valve. If they are much longer, the
-// mesh probably has another unit. But if the user named the unit, the mesh is only coarse.
-bool edges_fit_at(double factor, const Situation &s) {
-  return s.options.has_half_thickness || s.options.unit || s.options.has_scale || !is_parametric(s.options) ||
-         !is_too_small(s.half_thickness / factor, s);
-}
-
-// Returns the factor that makes the mesh's lengths fit the surface's. Returns none if they already fit, or if no power of ten
-// helps.
-std::optional<double> missing_factor(const Situation &s) {
-  const bool sizes_fit = sizes_fit_at(1, s);
-  if (sizes_fit && edges_fit_at(1, s)) {
-    // The unit is right in two cases: if the sizes are similar, or if they fit in units that the user named. Then only the
-    // position can be wrong.
-    const bool are_alike = mesh_in_surfaces(s) > 1.0 / 3 && mesh_in_surfaces(s) < 3;
-    if (overlap_at(1, s) || are_alike || s.options.unit || s.options.has_scale) return std::nullopt;
-  }
-  // Sizes that differ this much must have different units, even if no factor brings the positions together.
-  const bool differ_widely = mesh_in_surfaces(s) < 0.1 || mesh_in_surfaces(s) > 100;
-  std::optional<double> best;
-  // The passes become less strict. The last ones accept a mesh that is in another unit and also too coarse.
-  struct Pass {
-    bool must_overlap, must_resolve;
-  };
-  for (const auto [must_overlap, must_resolve] :
-       {Pass{true, true}, Pass{false, true}, Pass{true, false}, Pass{false, false}}) {
-    if (best || (!must_overlap && !differ_widely) || (!must_resolve && sizes_fit)) continue;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double factor : factors) {
-      if (!sizes_fit_at(factor, s) || (must_resolve && !edges_fit_at(factor, s)) ||
-          (must_overlap && !overlap_at(factor, s)))
-        continue;
-      const double oddity = std::abs(std::log(factor * mesh_in_surfaces(s) / usual_mesh));
-      if (oddity < least) {
-        least = oddity;
-        best = factor;
-      }
-    }
-  }
-  return best;
-}
-
-// Returns the situation as it would be with the surface scaled to fit the mesh.
-Situation rescaled(const Situation &s, double factor) {
-  Situation changed = s;
-  for (int k = 0; k < 3; ++k) {
-    changed.surface.lower[k] /= factor;
-    changed.surface.upper[k] /= factor;
-  }
-  changed.area /= factor * factor;
-  return changed;
-}
-
-// Returns a half thickness that fits: the present one times a power of ten. If none fits, returns the mesh's edge length, or 0 if
-// this length does not fit either.
-double better_half_thickness(const Situation &s) {
-  const auto fits = [&](double half_thickness) {
-    return !is_too_large(half_thickness, s) && !is_too_small(half_thickness, s);
-  };
-  const double usual = usual_half_thickness * s.surface.largest_side();
-  double best = 0;
-  for (const double factor : factors) {
-    const double candidate = s.half_thickness * factor;
-    if (!fits(candidate)) continue;
-    if (best == 0 || std::abs(std::log(candidate / usual)) < std::abs(std::log(best / usual))) best = candidate;
-  }
-  if (best != 0) return best;
-  return s.median_edge > 0 && fits(s.median_edge) ? s.median_edge : 0;
-}
-
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
 // Two phrases for a warning: the unit that the sizes suggest, and the options to write.
@@ -291,21 +198,14 @@ std::string shown(double number) {
   return text;
 }
 
-bool is_too_large(double half_thickness, const Situation &s) {
-  return half_thickness > largest_half_thickness * s.surface.largest_side();
-}
-
-bool is_too_small(double half_thickness, const Situation &s) {
-  return half_thickness < smallest_half_thickness * s.median_edge;
-}
-
 std::optional<Warning> warning_of_units(const Situation &s) {
-  const auto factor = missing_factor(s);
+  const Sizes sizes = sizes_of(s);
+  const auto factor = missing_factor(sizes);
   if (!factor) return std::nullopt;
   const Cure cure = cure_for_scale(s.options, s.options.surface_options.scale / *factor);
   std::string write = cure.write;
   if (s.options.has_half_thickness) {
-    const Situation cured = rescaled(s, *factor);
+    const Sizes cured = rescaled(sizes, *factor);
     if (is_too_large(s.half_thickness, cured) || is_too_small(s.half_thickness, cured)) {
       const double better = better_half_thickness(cured);
       if (better > 0) write += " --half-thickness " + shown(better);
@@ -318,8 +218,9 @@ std::optional<Warning> warning_of_units(const Situation &s) {
 }
 
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {
-  const bool is_large = is_too_large(s.half_thickness, s);
-  if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
+  const Sizes sizes = sizes_of(s);
+  const bool is_large = is_too_large(s.half_thickness, sizes);
+  if (!is_large && !is_too_small(s.half_thickness, sizes)) return std::nullopt;
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
@@ -327,12 +228,12 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
-  if (unit && !is_too_large(paper_half_thickness(*unit), s) && !is_too_small(paper_half_thickness(*unit), s)) {
+  if (unit && !is_too_large(paper_half_thickness(*unit), sizes) && !is_too_small(paper_half_thickness(*unit), sizes)) {
     warning.text += ", and both look as if they were in " + std::string(words_of(*unit));
     warning.advice = ": write " + option("--unit", *unit) + " " + option("--surface-unit", *unit);
     return warning;
   }
-  const double better = better_half_thickness(s);
+  const double better = better_half_thickness(sizes);
   warning.advice = better > 0 ? ": write --half-thickness " + shown(better)
                    : is_large ? ": see --half-thickness, --scale"
                               : ": the mesh is too coarse for this surface";

@@ -11,13 +11,9 @@
 #include <vector>
 
 #include "program/options.hpp"
+#include "program/sizes.hpp"
 
 namespace riis::program {
-
-struct Box {
-  double lower[3], upper[3];
-  double largest_side() const;
-};
 
 // The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
 struct Situation {
@@ -58,11 +54,6 @@ std::int64_t n_warnings();
 std::string place_text(const ValveOptions &options, const double *point, double edge);
 
 // In: sizes that do not fit together. Out: the units that they suggest, and the options that make them fit.
-
-// is_too_large returns whether the half thickness is larger than a quarter of the surface. is_too_small returns whether it is so
-// small that the band falls between the mesh's nodes.
-bool is_too_large(double half_thickness, const Situation &situation);
-bool is_too_small(double half_thickness, const Situation &situation);
 
 // Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
 // write, such as "the mesh looks as if it were in metres, ...: write --unit m".

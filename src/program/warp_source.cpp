@@ -6,7 +6,6 @@
 
 #include "common/array_view.hpp"
 #include "program/opening_law.hpp"
-#include "program/outputs.hpp"
 #include "program/placed_valve.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
@@ -44,9 +43,8 @@ void check_landmarks(riis_status status, const std::string &subject) {
 LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement,
                              double factor)
     : subject_(values.subject()) {
-  std::vector<double> sources;
-  add_points(values, "sources", values.needed("sources"), sources);
-  n_landmarks_ = view(sources).size() / 3;
+  add_points(values, "sources", values.needed("sources"), sources_);
+  n_landmarks_ = view(sources_).size() / 3;
   const Json &targets = values.needed("targets");
   if (values.has("times")) {
     times_ = values.numbers("times");
@@ -66,16 +64,16 @@ LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_
   if (view(targets_).size() != 3 * n_landmarks_ * n_frames)
     values.refuse("targets", "there are " + std::to_string(view(targets_).size() / 3) + " points for " +
                                  std::to_string(n_landmarks_ * n_frames) + " sources at all times");
-  for (std::vector<double> *const list : {&sources, &targets_})
+  for (std::vector<double> *const list : {&sources_, &targets_})
     for (double &x : *list) x *= factor;
   riis_points points;
   riis_warp_options options;
   check(riis_points_init(&points, sizeof points));
   check(riis_warp_options_init(&options, sizeof options));
   points.n_points = n_landmarks_;
-  points.x = sources.data();
-  points.y = sources.data() + 1;
-  points.z = sources.data() + 2;
+  points.x = sources_.data();
+  points.y = sources_.data() + 1;
+  points.z = sources_.data() + 2;
   points.stride = 3;
   options.noise = noise;
   options.placement = placement;
@@ -102,55 +100,35 @@ WarpSource::WarpSource(const std::string &path, const std::string &object, const
                        const riis_surface_options &placement, double factor) {
   const CaseValues closed(path, object, warp, warp_keys);
   subject_ = closed.subject();
-  const riis_surface_options *placed = closed.choice("coordinates", coordinate_names) == 0 ? &placement : nullptr;
+  is_in_mesh_ = closed.choice("coordinates", coordinate_names) == 0;
+  const riis_surface_options *placed = is_in_mesh_ ? &placement : nullptr;
   if (!placed) factor = 1;
-  const double noise = factor * closed.at_least_zero("noise").value_or(0);
-  pairs_.emplace_back(closed, noise, placed, factor);
+  noise_ = factor * closed.at_least_zero("noise").value_or(0);
+  pairs_.emplace_back(closed, noise_, placed, factor);
   if (!closed.has("open")) return;
   const std::string open = object.empty() ? "open" : object + ": open";
-  pairs_.emplace_back(CaseValues(path, open, closed.needed("open"), open_keys), noise, placed, factor);
+  pairs_.emplace_back(CaseValues(path, open, closed.needed("open"), open_keys), noise_, placed, factor);
 }
 
 namespace {
 
 // Reads lines SX,SY,SZ,TX,TY,TZ: a landmark on the valve and its place in the patient. Returns the object of a warp.
 Json json_of_csv(const std::string &path) {
+  const CsvFile file = csv_of_text(path, text_of_file(path), {"noise", "coordinates"},
+                                   "SX,SY,SZ,TX,TY,TZ, a landmark on the valve and in the patient", 6);
   Json warp = Json::object();
   warp["sources"] = warp["targets"] = Json::array();
-  std::size_t number = 0;
-  bool is_first = true;
-  for (const std::string &whole : csv_lines(text_of_file(path))) {
-    const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
-    if (line.empty()) continue;
-    const auto number_of = [&](const std::string &text) {
-      try {
-        return parse_number(text, where);
-      } catch (const Refusal &refusal) {
-        refuse_file(path, refusal.text);
-      }
-    };
-    if (line[0] == '#') {
-      const std::size_t equals = line.find('=');
-      if (equals == std::string::npos) continue;  // a comment
-      const std::string key = trimmed(line.substr(1, equals - 1)), value = trimmed(line.substr(equals + 1));
-      if (key != "noise" && key != "coordinates")
-        refuse_file(path,
-                    where + ": " + quoted(key) + " is unknown; a line # NAME = VALUE states noise or coordinates");
-      if (warp.contains(key)) refuse_file(path, where + ": " + key + " is given twice");
-      warp[key] = key == "noise" ? Json(number_of(value)) : Json(value);
-      continue;
-    }
-    const std::vector<std::string> cells = csv_cells(line);
-    if (cells.size() != 6)
-      refuse_file(
-          path, where + " must be SX,SY,SZ,TX,TY,TZ, a landmark on the valve and in the patient, not " + quoted(line));
-    const bool is_heading = is_first && std::none_of(cells.begin(), cells.end(), [](const std::string &cell) {
-                              return cell.find_first_of("0123456789") != std::string::npos;
-                            });
-    is_first = false;
+  for (const auto &[name, value] : file.stated)
+    warp[name] = name == "noise" ? Json(number_in_file(path, value, "noise")) : Json(value);
+  for (const CsvFile::Row &row : file.rows) {
+    const bool is_heading =
+        &row == &file.rows.front() && std::none_of(row.cells.begin(), row.cells.end(), [](const std::string &cell) {
+          return cell.find_first_of("0123456789") != std::string::npos;
+        });
     if (is_heading) continue;
     Json source = Json::array(), target = Json::array();
-    for (std::size_t k = 0; k < 6; ++k) (k < 3 ? source : target).push_back(number_of(cells[k]));
+    for (std::size_t k = 0; k < 6; ++k)
+      (k < 3 ? source : target).push_back(number_in_file(path, row.cells[k], row.where));
     warp["sources"].push_back(source);
     warp["targets"].push_back(target);
   }
@@ -160,13 +138,13 @@ Json json_of_csv(const std::string &path) {
 }  // namespace
 
 WarpSource read_warp(const ValveOptions &options) {
-  const Json placed = options.placed.empty() ? Json() : parse_json_file(options.placed, "a placed valve");
-  const bool is_placed = placed.is_object() && placed.contains("warp");
+  PlacedFile placed;
+  if (!options.placed.empty())
+    placed = read_placed(options.placed, parse_json_file(options.placed, "a placed valve"), options.unit);
+  const bool is_placed = !placed.warp.is_null();
   if (options.warp.empty()) {
     if (!is_placed) return {};
-    const CaseValues values(options.placed, "", placed, placed_keys());
-    return {options.placed, "warp", placed.at("warp"), options.surface_options,
-            factor_between(values.unit("unit").value(), options.unit.value())};
+    return {options.placed, "warp", placed.warp, options.surface_options, placed.factor};
   }
   if (is_placed) refuse_usage("--warp has no effect with --valve " + options.placed + ", which has a warp");
   const bool is_csv = has_ending(options.warp, ".csv");

@@ -21,13 +21,15 @@ class LandmarkPairs {
   LandmarkPairs(const CaseValues &values, double noise, const riis_surface_options *placement, double factor);
 
   bool moves() const { return times_.size() > 1; }
+  const std::vector<double> &sources() const { return sources_; }
+  const std::vector<double> &targets() const { return targets_; }  // one time after the other
   // Takes the landmarks to their places at a time, and returns the warp.
   const riis_warp *at(double time);
 
  private:
   std::string subject_;
   Warp warp_;
-  std::vector<double> times_, targets_;  // one time if the landmarks do not move
+  std::vector<double> sources_, times_, targets_;  // one time if the landmarks do not move
   double period_ = 0;
   std::int32_t interpolation_ = 0;
   std::int64_t n_landmarks_ = 0;
@@ -43,12 +45,18 @@ class WarpSource {
 
   bool is_empty() const { return pairs_.empty(); }
   bool moves() const;
+  // The landmarks of the closed state, and of the open state if it has its own.
+  const std::vector<LandmarkPairs> &pairs() const { return pairs_; }
+  bool is_in_mesh() const { return is_in_mesh_; }  // whether they are in the mesh's coordinates
+  double noise() const { return noise_; }
   // Gives the valve its warp at a time.
   void apply(double time, riis_valve *valve);
 
  private:
   std::string subject_;
-  std::vector<LandmarkPairs> pairs_;  // landmarks of the closed state, and of the open state if it has its own
+  std::vector<LandmarkPairs> pairs_;
+  bool is_in_mesh_ = true;
+  double noise_ = 0;
 };
 
 // Reads the warp of --warp, or that of a placed valve. Refuses both together.

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The lights of the view name the faults of a valve in a mesh, their places and their cures.
 
-The size limits are those of the program's warnings (riis help warnings).
+The size limits are those of the program's warnings (riis help warnings), from the same sources.
 """
 
 from __future__ import annotations
@@ -14,21 +14,18 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._errors import Error
-from riis._riis import Marks, Surface, find_crossings, find_leaks, find_passage
+from riis._place import UNITS, WORDS_OF_UNITS
+from riis._riis import (
+    LARGEST_HALF_THICKNESS, USUAL_HALF_THICKNESS, Marks, Surface, find_crossings, find_leaks, find_passage, judge_sizes,
+)
 from riis.view._cells import Region, WholeMesh
-from riis.view._valves import UNITS, WORDS_OF_UNITS, ValveState
+from riis.view._valves import ValveState
 
 Reals = NDArray[numpy.float64]
 
 NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are cured
 LEVELS = ("bad", "warn", "good", "off")  # the worst first
 
-# The limits for the mesh's extent over the valve's extent, its usual value, and the limit for the mesh's edges over this extent.
-_SMALLEST, _LARGEST, _USUAL, _LONGEST_EDGE = 0.5, 40.0, 3.0, 0.3
-_SUSPICIOUS = 12.0  # a mesh without a unit may have another unit if it is this many times as large as the valve
-_LARGEST_HALF, _USUAL_HALF = 0.25, 0.04  # of the largest side of the valve
-_SMALLEST_HALF = 0.3  # of the mesh's edges
-_FACTORS = (0.1, 10.0, 0.01, 100.0, 0.001, 1000.0)
 _N_LEAFLETS = {"aortic": 3, "coapting": 3, "trileaflet": 3, "mitral": 2}  # a skirt has the next leaflet id
 _MOST_DRAWN = 300  # crossing pairs that are drawn
 
@@ -102,32 +99,19 @@ def _edge_of(region: Region) -> float:
     return float(numpy.median(numpy.concatenate(lengths))) if lengths else 0.0
 
 
-def _fits(ratio: float, edge: float, side: float) -> bool:
-    return _SMALLEST <= ratio <= _LARGEST and edge <= _LONGEST_EDGE * side
-
-
 def unit(scene: Scene) -> Light:
     """Judges whether mesh and valve have the same unit."""
     side, mesh = scene.largest_side, float((scene.whole.upper - scene.whole.lower).max())
     if mesh == 0.0:
         return Light("unit", "off", "the mesh has no extent", valve=scene.number)
-    ratio, edge = mesh / side, _edge_of(scene.region)
-    fits = _fits(ratio, edge, side)
-    half_fits = edge == 0.0 or scene.state.half_thickness >= _SMALLEST_HALF * edge
     sizes = f"the largest side of the mesh is {shown(mesh)}, that of the valve {shown(side)}"
     known = scene.unit is not None and math.isclose(scene.state.scale, UNITS[scene.unit], rel_tol=1e-9)
-    doubted = not fits or (not known and (ratio > _SUSPICIOUS or not half_fits))
-    best = None
-    for factor in _FACTORS if doubted else ():
-        if not _fits(ratio / factor, edge, factor * side) or (fits and ratio / factor < 1.0):
-            continue
-        oddity = abs(math.log(ratio / factor / _USUAL))
-        if best is None or oddity < best[0]:
-            best = oddity, factor
-    if best is None:
+    whole, info = scene.whole, scene.surface.info
+    fits, factor = judge_sizes((whole.lower, whole.upper), (info.lower, info.upper), scene.state.origin,
+                               _edge_of(scene.region), scene.state.half_thickness, known)
+    if factor is None:
         level, text = ("warn", sizes + ", which no unit explains") if not fits else ("good", sizes)
         return Light("unit", level, text, "look at the scale" if not fits else "", valve=scene.number)
-    factor = best[1]
     scale = factor * scene.state.scale
     name = next((known for known, size in UNITS.items() if math.isclose(size, scale, rel_tol=1e-9)), None)
     if name is None:
@@ -179,8 +163,8 @@ def _no_edges(scene: Scene) -> str:
 def half_thickness(scene: Scene) -> Light:
     """Judges whether the band is thick enough for the mesh's edges, and thin beside the valve."""
     half, side = scene.state.half_thickness, scene.largest_side
-    if half > _LARGEST_HALF * side:
-        better = float(f"{_USUAL_HALF * side:.2g}")
+    if half > LARGEST_HALF_THICKNESS * side:
+        better = float(f"{USUAL_HALF_THICKNESS * side:.2g}")
         return Light("half_thickness", "bad", f"the half thickness is {shown(half)}, the valve's largest side {shown(side)}",
                      "make it thinner", (f"Set the half thickness to {better:g}", "half_thickness"), valve=scene.number,
                      value=better)
@@ -200,7 +184,7 @@ def half_thickness(scene: Scene) -> Light:
         f"the longest {shown(leaks.longest_length)}"
     )
     better = rounded_up(1.01 * leaks.half_thickness)
-    if better > _LARGEST_HALF * side:
+    if better > LARGEST_HALF_THICKNESS * side:
         return Light("half_thickness", "bad", text, f"the mesh is too coarse for this valve: a half thickness of {better:g} "
                      "would be needed, so refine the mesh near the leaflets", points=ends.mean(axis=1), edges=ends,
                      valve=scene.number)
@@ -341,7 +325,7 @@ def sealed(scene: Scene) -> Light:
         advice = "the paper's aortic valve does not close between its cusps: the kind coapting does; or " + advice
     better = rounded_up(1.01 * found.distance)
     cure = None
-    if better <= min(_LARGEST_HALF * scene.largest_side, 2.0 * scene.state.half_thickness):
+    if better <= min(LARGEST_HALF_THICKNESS * scene.largest_side, 2.0 * scene.state.half_thickness):
         advice, cure = f"a half thickness of {better:g} closes it", (f"Set the half thickness to {better:g}", "sealed")
     return Light("sealed", "bad", f"leaking: {text}", advice, cure, points=points, edges=edges, valve=scene.number, value=better)
 

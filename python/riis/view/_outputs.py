@@ -19,9 +19,10 @@ from typing import Any
 import numpy
 
 from riis._errors import Error, InvalidArgumentError
+from riis._place import UNITS
 from riis.laws import OpeningTable, OpeningTimes
 from riis.view._valves import (
-    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
+    KINDS, SURFACE, TRIANGULATIONS, Cycle, SurfaceSource, Value, ValveState, above_zero, at_least_zero, check_valve_name,
     number, refuse, share,
 )
 

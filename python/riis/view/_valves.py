@@ -25,8 +25,6 @@ Vector = tuple[float, float, float]
 Value = float | tuple[float, ...]
 
 KINDS = ("coapting", "trileaflet", "aortic", "mitral", "bileaflet")
-UNITS = {"mm": 10.0, "cm": 1.0, "m": 0.01}  # mesh units in a centimetre
-WORDS_OF_UNITS = {"mm": "millimetres", "cm": "centimetres", "m": "metres"}
 TRIANGULATIONS = ("adapted", "fixed")
 SURFACE = "surface"  # the kind of a surface from a file
 

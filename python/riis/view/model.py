@@ -28,7 +28,7 @@ from typing import Any, Literal, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from riis._place import PlaceResult, place
+from riis._place import UNITS, PlaceResult, place
 from riis._riis import Marks, Surface, mark
 from riis.view import _outputs
 from riis.view._annulus import annulus_of, placed_by
@@ -38,7 +38,7 @@ from riis.view._history import Placed, Valves
 from riis.view._lights import JUDGES, NAMES, Light, Scene, worst
 from riis.view._orifice import outline_of
 from riis.view._valves import (
-    KINDS, SURFACE, TRIANGULATIONS, UNITS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero,
+    KINDS, SURFACE, TRIANGULATIONS, Cycle, Parameter, SurfaceSource, Value, ValveState, above_zero,
     at_least_zero, check_kind, check_name, check_valve_name, number, parameters_of, point, refuse, rotation_of, share,
     turned, values_of, values_that_were_set, vector,
 )
