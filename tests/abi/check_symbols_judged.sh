@@ -50,4 +50,4 @@ plant 'RIIS_API riis_status riis_planted(int32_t number);'
 fails "riis_planted of $scratch/riis.h is not in" "${complete[@]}"
 soname=$(readelf -d "$library" | sed -n -E 's/.*soname: \[(.*)\].*/\1/p')
 fails '< riis_planted' "$root/tests/install/check_exports.sh" "$library" "$soname" "$scratch/riis.h" riis_component_error
-fails ' riis_planted' "$root/tests/fortran/check_called.sh" "$scratch/riis.h" "$library"
+fails riis_planted "$root/tests/fortran/check_called.sh" "$scratch/riis.h" "$library"

@@ -89,7 +89,7 @@ contains
 
   subroutine test_texts()
     call check(riis_error_message() == '', 'no error text before the first error')
-    call check(verify(riis_version_string(), '0123456789.') == 0 .and. len(riis_version_string()) >= 5, 'the version')
+    call check(verify(riis_version_string(), '0123456789.') == 0, 'the version')
     call check(riis_status_name(RIIS_INVALID_MESH) == 'RIIS_INVALID_MESH', 'the name of a status')
     call check(riis_status_name(99) == 'unknown status', 'the name of none')
   end subroutine test_texts
