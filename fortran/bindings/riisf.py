@@ -93,7 +93,7 @@ class Subroutine:
         return [field for line in self.writer.structs[struct].lines for field in line.fields]
 
     def field(self, base, name):
-        """Returns the place of a field of a struct that is an argument, or to which a field of an argument points."""
+        """Returns the place of a struct's field. The struct is an argument, or a field of an argument points to it."""
         struct = (self.structs.get(base) or self.nested.get(base) or ("",))[0]
         for field in self.fields(struct) if struct else []:
             if field.name == name:

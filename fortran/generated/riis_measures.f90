@@ -61,8 +61,8 @@ contains
     call get_integer(rim, 'rim', made%rim, code)
   end subroutine get_resistance
 
-  !> Measures the orifice of a surface: the area that its triangles do not cover, seen along the axis, and the effective area that
-  !! the band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
+  !> Measures the orifice of a surface along the axis: the area that its triangles do not cover, and the effective area that the
+  !! band leaves to the flow. Errors: RIIS_INVALID_ARGUMENT for an argument out of range.
   subroutine riis_get_orifice(surface, orifice, half_thickness, rim, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     type(riis_orifice), intent(inout) :: orifice            !< Unchanged on an error.
@@ -178,9 +178,10 @@ contains
     call finish(code, status)
   end subroutine riis_get_cells_across
 
-  !> Gives the volume that a valve sweeps between two openings, in mesh units cubed: the integral of u_surface . n over surface
-  !! and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that the
-  !! valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both are 0.
+  !> Gives the volume that a valve sweeps between two openings, in mesh units cubed. It is the integral of u_surface . n over
+  !! surface and time, positive along the normals. Errors: RIIS_INVALID_ARGUMENT for an opening out of range and a leaflet that
+  !! the valve lacks; RIIS_INVALID_PARAMETER for parameters that do not fit together, and for a valve of one state unless both are
+  !! 0.
   subroutine riis_get_swept_volume(valve, opening_from, opening_to, volume, leaflet_id, scale, flip_normals, n_threads, status)
     class(riis_valve), intent(in) :: valve                  !< Must be created. Its own opening has no effect.
     real(c_double), intent(in) :: opening_from              !< 0 to 1.
@@ -206,7 +207,7 @@ contains
     call finish(code, status)
   end subroutine riis_get_swept_volume
 
-  !> Finds the opening at which riis_find_passage first finds a passage: it tries 0, 1/8, 2/8, ... until one is open, and then
+  !> Finds the first opening at which riis_find_passage finds a passage. It tries 0, 1/8, 2/8, ... until one is open, and then
   !! halves the last step. Errors: those of riis_surface%create and riis_find_passage, with the opening.
   subroutine find_first_passage_int32(valve, mesh, from_num, to_num, first, half_thickness, tolerance, scale, &
       rotation_axis, rotation_angle, translation, opening_tolerance, node_mask, n_threads, status)

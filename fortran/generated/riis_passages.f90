@@ -87,7 +87,7 @@ contains
 
   !> Finds the widest passage from one set of nodes to another. It is the path, along the edges of the mesh's adjacency, whose
   !! smallest distance to the surface is largest. A path includes its ends. Errors: RIIS_INVALID_ARGUMENT if the mesh has no
-  !! adjacency, or for a node that the mesh lacks, that node_mask leaves out, or that is within the half thickness.
+  !! adjacency. It is also returned if a node is not in the mesh, is left out by node_mask, or is within the half thickness.
   subroutine find_passage_logical_int32(surface, mesh, from_num, to_num, passage, node_mask, n_threads, status)
     class(riis_surface), intent(in) :: surface              !< Must be created.
     class(riis_mesh), intent(in) :: mesh                    !< With an adjacency. A marking is not needed.

@@ -62,8 +62,9 @@ enum {
  *   user_data  passed to the function; it must stay valid as long as the function is set
  * A message that another thread is sending may still reach the previous function.
  * A log function also makes the library search surfaces for crossings (riis_find_crossings). It searches a shape whose
- * parameters, patches or open state the caller chose. The search takes longer than an update. It runs at the shape's first
- * opening in each of the ranges 0, up to 0.05, up to 1/3, up to 2/3 and up to 1. It ends with the shape's first warning. */
+ * parameters, patches or open state the caller chose. The search takes longer than an update. Openings have five
+ * ranges: 0, up to 0.05, up to 1/3, up to 2/3, and up to 1. It runs at the shape's first opening in each range. It ends
+ * with the shape's first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* Stands for the value of another quantity, which the field's comment names. */

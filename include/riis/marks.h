@@ -33,8 +33,8 @@ enum {
   RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
                                  connected to its one starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
-                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more, and if
-                                 the mesh or its distance from the surface is a million times the size of the
+                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more. It also runs
+                                 if the mesh, or its distance from the surface, is a million times as large as the
                                  surface */
 };
 
@@ -100,9 +100,9 @@ RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t 
 /* Finds every node near the surface: at most the half thickness away (marked), or at most the distance limit. The
  * reported distance, in double precision, decides.
  *   marks  its content is replaced
- * The log warns if the largest sides of the boxes of mesh and surface differ by more than a factor of 50, or if one is
- * less than the half thickness. It warns once per surface and mesh, at most eight times per mesh, and never for fewer
- * than 1000 nodes.
+ * The log warns if the units of mesh and surface seem to differ. Their boxes' largest sides then differ by more than a
+ * factor of 50, or one of them is less than the half thickness. It warns once per surface and mesh, at most eight times
+ * per mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -129,8 +129,8 @@ typedef struct riis_mark_list {
                                  the normal, but against it on mirrored patches (cusps: patch_id % 4 >= 2;
                                  mitral: 3, 4, 5, 8, 9). With flipped normals it is the reverse */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
-                                 If several leaflets are equally near (within 1e-6 half thicknesses), or several
-                                 patches of one leaflet (within 1e-9), it is the mean of the velocities at their
+                                 Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches
+                                 of one leaflet (within 1e-9). The velocity is then the mean of the velocities at their
                                  closest points (docs/theory/marks.md). Other fields are those of one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
@@ -140,9 +140,10 @@ typedef struct riis_mark_list {
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
-                                 unit vector n points from the closest point to the node, whatever the side, and V is the
-                                 rate of the closest point on the triangle of triangle_id. 0 on the surface, where the
-                                 distance has a kink. If several places are equally near, the distance has a kink, too */
+                                 unit vector n points from the closest point to the node, on both sides. V is the rate
+                                 of the closest point, on the triangle of triangle_id. 0 on the surface, where the
+                                 distance has a kink. If several places are equally near, the distance has a kink,
+                                 too */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
                                  where K is 0; NULL without a resistance */
 } riis_mark_list;

@@ -33,8 +33,8 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 
 /* The outline of an orifice. */
 enum {
-  RIIS_OUTLINE_NONE = 0,      /* no disc, and the sides v = 0 that only one patch has, or the open edges of a surface
-                                 from arrays or keyframes, enclose no area */
+  RIIS_OUTLINE_NONE = 0,      /* there is no disc, and the outline encloses no area. The outline of a valve is the sides
+                                 v = 0 of only one patch. The outline of arrays or keyframes is their open edges */
   RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (three cusps) or radius (bileaflet) about the axis */
   RIIS_OUTLINE_ATTACHMENT = 2, /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
   RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges that only one

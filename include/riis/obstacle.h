@@ -74,9 +74,10 @@ RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_
  * model how a membrane carries loads to its edges. A node takes a time of order log n_edges, or of order n_edges if all
  * edges are equally near.
  * The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band. A scheme
- * with K at its faces then needs a source in its pressure equation, or the force is wrong by newtons. Cells that are bounded
- * only by walls and by faces with K dt > rho get the flow of u_surface out through these faces (docs/solvers.md, "The source
- * in the band"). Finite elements have the same fault for K dt > rho, and no source was found for them.
+ * with K at its faces then needs a source in its pressure equation, or the force is wrong by newtons. Some cells are
+ * bounded only by walls and by faces with K dt > rho. They get the flow of u_surface out through these faces
+ * (docs/solvers.md, "The source in the band"). Finite elements have the same fault for K dt > rho, and no source was
+ * found for them.
  * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small, naming the
  * leaflet id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,

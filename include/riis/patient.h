@@ -97,9 +97,9 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * The result has the least squares of the distances between the landmarks and their places on the closed valve
  * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power
  * that would make its cusps overlap is lowered.
- * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, not those
- * of a heart valve at this scale, or that do not show the flow; the message names them. RIIS_INVALID_PARAMETER for a
- * valve from patches, an unknown name in held, and sizes that do not fit together. */
+ * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
+ * large or small for a heart valve at this scale, and if they do not show the flow; the message names them.
+ * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
                                 int64_t struct_size);
@@ -169,8 +169,9 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
  * RIIS_TRIANGULATION_FIXED the warp may move. A disc that is the outline of the orifice is also warped.
  * An annulus that moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them,
- * and pass both to riis_surface_update_moving. Both must be warped, or neither. A surface's call refuses a warp that folds at
- * the valve or turns a part of it over, as RIIS_INVALID_PARAMETER naming the place and the value.
+ * and pass both to riis_surface_update_moving. Both must be warped, or neither. A call that makes or updates a surface
+ * refuses a warp that folds at the valve or turns a part of it over. It returns RIIS_INVALID_PARAMETER, and names the
+ * place and the value.
  * Errors: RIIS_INVALID_ARGUMENT for `open` without `closed`; RIIS_INVALID_PARAMETER for a bileaflet valve, which is rigid. */
 RIIS_API riis_status riis_valve_set_warp(riis_valve *valve, const riis_warp *closed, const riis_warp *open);
 

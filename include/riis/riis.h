@@ -34,8 +34,8 @@
  * - Status: a function that can fail returns a riis_status; 0 is success, and riis_last_error() has the message. If the
  *   status is positive, the call has changed nothing, and pointers from earlier calls stay valid. If it is negative, an
  *   object that the call should have written can only be destroyed. No function aborts, prints or throws.
- * - Errors of any function: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or field out of
- *   range, RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
+ * - Any function may return these errors: RIIS_INVALID_ARGUMENT for a NULL that is not allowed and for an argument or
+ *   field out of range, RIIS_INVALID_STRUCT_SIZE for a struct of a wrong size, RIIS_OUT_OF_MEMORY.
  * - Handles: a new object is the last argument, written only on success. A destroy function takes a handle's address,
  *   accepts NULL, and sets the handle to NULL. It ignores handles of another kind; other calls refuse them.
  * - Memory: a call reads its arguments and their arrays only while it runs, except arrays that it borrows. Arrays that a

@@ -2,8 +2,8 @@
 //
 // riis.hpp - riis.h for C++17: handles that destroy themselves, errors as exceptions, structs with their defaults, spans.
 //
-// All calls are the functions of riis.h. They take a handle where they need a pointer to an object, and its out() where they need
-// the address of a pointer:
+// All calls are the functions of riis.h. Pass a handle as the pointer to an object, and its out() as the address of a
+// pointer:
 //
 //   riis::Valve valve; riis::Surface surface; riis::Mesh mesh; riis::Marks marks;
 //   riis::check(riis_valve_create("mitral", valve.out()));

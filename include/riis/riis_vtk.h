@@ -90,8 +90,8 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
- * edges that are longer than a given length and whose bounding box meets that of the surface. It borrows nothing. Use
- * it only for riis_find_leaks: a search along so few edges would not get far from its start.
+ * edges that are longer than a given length, if their bounding box meets the surface's bounding box. It borrows
+ * nothing. Use it only for riis_find_leaks: a search along so few edges would not get far from its start.
  *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface; use it if
  *                     the marking was by RIIS_SEARCH_PAPER, or if distances were not measured to the
  *                     triangles. Edges shorter by up to a billionth are also included

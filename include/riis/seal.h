@@ -99,8 +99,8 @@ RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t str
  *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for a node of from or to that the mesh lacks,
- * that node_mask leaves out, or that is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency; RIIS_INVALID_ARGUMENT also if a node of from or to is not
+ * in the mesh, is left out by node_mask, or is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);

@@ -120,14 +120,14 @@ typedef struct riis_surface_arrays {
 RIIS_API riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size);
 
 /* Makes a surface from arrays, with the caller's winding. A triangle's id is its face's number; the halves of quad q have
- * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its height over its longest edge
- * is at most 1e-12 of that edge, or if that edge is shorter than 1e-60.
+ * 2 q and 2 q + 1. The id of a skipped triangle is not reused. A triangle has zero area if its longest edge is shorter
+ * than 1e-60, or if its height over that edge is at most 1e-12 of the edge.
  * Errors: RIIS_LIMIT_EXCEEDED for too many; RIIS_INVALID_SURFACE naming the face or vertex and its value. */
 RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options,
                                                      riis_surface **surface);
 
-/* Replaces the surface's content by that of a valve, such as one that moved. The handle stays.
+/* Replaces the surface's content by a valve, such as the same valve after a motion. The handle stays.
  *   options  NULL keeps the surface's own options, not the defaults
  * Errors: as riis_surface_create. */
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
@@ -135,8 +135,8 @@ RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve
 /* Replaces the surface's content from arrays.
  *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move: the surface keeps its last faces
  *   options  as in riis_surface_update
- * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT for an n_vertices that
- * differs from that of the last arrays, and for a surface that was not made from arrays. */
+ * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the
+ * last arrays, or if the surface was not made from arrays. */
 RIIS_API riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_surface_arrays *arrays,
                                                      const riis_surface_options *options);
 /* Destroys the surface. Marks stay. */
@@ -211,10 +211,10 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
  *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
- * The velocity of a vertex is its displacement from the point with the same patch, u and v in the earlier state, divided by
- * dt (docs/theory/velocity.md). u and v of a warped valve are those before the warp, so the velocity is that of the wall
- * (docs/theory/warp.md). The velocity is a mean over the step. It approximates the velocity in the middle of the step to
- * second order, and the velocity at either end to first order.
+ * A vertex is compared with the point of the earlier state that has the same patch, u and v. Its velocity is the
+ * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on
+ * the wall have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. It approximates the
+ * velocity in the middle of the step to second order, and the velocity at either end to first order.
  * Errors: as riis_surface_update; RIIS_INVALID_PARAMETER for a valve_before of another kind or other patches, or
  * with parameters that do not fit together. */
 RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const riis_valve *valve,
@@ -222,8 +222,8 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at
- * most 8 * 2^-52 of the largest of time, key and period. */
+/* Interpolation between keys in time. A time counts as a key if it equals the key plus whole periods, up to 8 * 2^-52
+ * of the largest of time, key and period. */
 enum {
   RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; a key itself has the rate after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */

@@ -78,8 +78,8 @@ RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name
  *         has the same curves, sides and degrees (1 may stand for 2). Either both bileaflet valves have a ring or neither
  * A second call replaces the state. No call removes it. Between the states control points are blended linearly
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge
- * hangs as deep as the edge's length requires. A mitral, trileaflet or coapting valve takes its closed shape from its own
- * parameters, and its open shape from those of `open`.
+ * hangs as deep as the edge's length requires. A mitral, trileaflet or coapting valve takes its closed shape from its
+ * own parameters, and its open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
@@ -144,7 +144,7 @@ typedef struct riis_valve_patches {
   const int32_t *patch_id;    /* (n_patches): as in riis_triangles */
   const int32_t *attached;    /* (n_patches): the side that is attached, 0 to 3 in the order of curve_id, or -1 */
   const double *bulge;        /* (n_patches): 0 for a Coons patch. Otherwise the line at each u is an arc from v = 0 to
-                                 v = 1. With the width W and the unit tangent T of the side v = 0, its middle control
+                                 v = 1. W is the width and T is the unit tangent of the side v = 0. The middle control
                                  point lies bulge |W| unit(W x T) beside the middle of the straight line */
 } riis_valve_patches;
 /* Gives the curves and patches of a valve at its opening. The arrays are valid until the valve's next call that is not

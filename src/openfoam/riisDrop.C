@@ -2,10 +2,10 @@
 // Estimates the drop across the closed valve in this mesh, and finds the factor of K for `calibrate yes`.
 //
 // A closed leaflet should drop (R / eps) u, with u = flow / area of the leaflets. The solver interpolates 1/A to faces, which
-// favours the cell with less resistance, so the drop differs. Here the solver's own equation of p is solved for the closed valve
-// at a pressure of 1 upstream and 0 downstream: laplacian(1/A, p) = 0, with the schemes of the case. The flow from one side to
-// the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K / rho
-// without rho / dt. It contains neither convection nor viscosity, which are small beside K.
+// favours the cell with less resistance, so the drop differs. Here the closed valve has a pressure of 1 upstream and 0
+// downstream. The solver's own equation of p is solved with the schemes of the case: laplacian(1/A, p) = 0. The flow from one
+// side to the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K /
+// rho without rho / dt. It contains neither convection nor viscosity, which are small beside K.
 #include "boundBox.H"
 #include "fvScalarMatrix.H"
 #include "fvmLaplacian.H"
@@ -25,8 +25,8 @@ namespace {
 constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band over the largest K
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
-// Returns for each cell -1 upstream of the closed band, 1 downstream, and 0 in the band and in pockets that the band encloses.
-// All entries are 0 if the band does not part the blood.
+// Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band, and in pockets that it
+// encloses, get 0. All entries are 0 if the band does not part the blood.
 labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list &marked) {
   labelList band(mesh.nCells(), 0), bandBeyond;
   forAll(K, cell) band[cell] = K[cell] > 0;
@@ -87,9 +87,9 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   return side;
 }
 
-// Chooses the cells of both sides that keep the pressure 1 or 0: those with more than four cells between them and the band, or
-// fewer if the mesh ends sooner. On edges that are not orthogonal to faces, the solver corrects the flow by the gradient in the
-// cells. Beside the band this gradient is that of the band, so the pressure of these cells must be free to make up for it.
+// Chooses the cells of both sides that keep the pressure 1 or 0. More than four cells lie between them and the band, or fewer if
+// the mesh ends sooner. On edges that are not orthogonal to faces, the solver corrects the flow by the gradient in the cells.
+// Beside the band this gradient includes the gradient of the band, so the pressure of these cells must be free to balance it.
 boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side) {
   constexpr label most = 4;
   labelList layer(mesh.nCells(), most + 1), beyond;

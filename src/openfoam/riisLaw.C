@@ -93,7 +93,7 @@ riisValve::Sensor riisValve::sensor(const dictionary &dict) const {
   return found;
 }
 
-// Gives the law its state at the start of the run, which is that of an earlier run if `found`.
+// Gives the law its state at the start of the run. If `found`, the state comes from an earlier run.
 void riisValve::restartLaw(bool found) {
   const scalar start = mesh_.time().value();
   switch (law_) {

@@ -4,10 +4,10 @@
 //
 //   p = p_c + Rp Q,   C dp_c/dt = Q - (p_c - p_v) / Rd
 //
-// Q is the flow out of the domain through the patch, p_c the pressure of the compliance C, Rp and Rd the proximal and distal
-// resistances, and p_v the pressure behind them. p_c advances by backward Euler. Each pressure equation of a step uses the latest
-// Q, and begins with p_c of the last step. On faces through which blood flows back, p is the total pressure, because a static
-// pressure lets returning blood gain speed without bounds.
+// Q is the flow out of the domain through the patch, and p_c is the pressure of the compliance C. Rp and Rd are the proximal and
+// distal resistances, and p_v is the pressure behind them. p_c advances by backward Euler. Each pressure equation of a step uses
+// the latest Q, and begins with p_c of the last step. On faces through which blood flows back, p is the total pressure, because a
+// static pressure lets returning blood gain speed without bounds.
 #include "addToRunTimeSelectionTable.H"
 #include "fixedValueFvPatchFields.H"
 #include "riisValve.H"

@@ -159,8 +159,8 @@ class OffsetDerivatives {
  public:
   OffsetDerivatives(const Ball &w, const Along &base, const Along &edge, double factor)
       : w_(w), base_(base), edge_(edge), factor_(factor) {
-    // With W' = l E - a T, where E is the edge's tangent and l and a are the speeds, M = W x T has the derivative
-    // M' = l E x T + W x T'. The product T x T vanishes, and is left out here because a ball of it would not vanish.
+    // E is the edge's tangent, and l and a are the speeds, so W' = l E - a T. M = W x T has the derivative M' = l E x T + W x T'.
+    // The product T x T vanishes, and is left out here because a ball of it would not vanish.
     m_ = cross(w, base.tangent);
     if (!(m_.least_length() > 0)) return;
     has_direction_ = true;
@@ -292,8 +292,8 @@ double Bulge::sampled_error(const Place &from, const Place &to) const {
 double Bulge::error_between(double u0, double u1, int n, double second) const {
   const double step = (u1 - u0) / n;
   double between = 0.125 * step * step * second;
-  // O' may jump at a joint. The jump adds a kink of height |jump| a b / (a + b), where a and b are the distances to the
-  // evaluated points before and after the joint.
+  // O' may jump at a joint. The distances from the joint to the evaluated points before and after it are a and b. The jump adds a
+  // kink of height |jump| a b / (a + b).
   for (const double joint : joints_) {
     if (!(joint > u0 && joint < u1)) continue;
     const double behind = std::fmod(joint - u0, step);

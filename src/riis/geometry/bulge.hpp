@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). Each line from a point of the base
-// (the annulus) to the point of the edge (the leaflet's free edge) at the same u is a quadratic Bézier curve. Its
-// middle control point is the middle of the straight line plus the offset
+// Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). Lines join the base (the annulus) to the edge
+// (the leaflet's free edge) at the same u. Each line is a quadratic Bézier curve. Its middle control point is the middle of the
+// straight line plus the offset
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
 // So D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
 // length. That product vanishes where the edge stands still, and changes its sign at the edge's corners: docs/theory/mitral.md.)

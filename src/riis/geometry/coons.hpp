@@ -79,9 +79,9 @@ struct ArcLimits {
   std::size_t max_lines;
 };
 
-// Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O differs from linear by at most max_error
-// between neighbouring lines, or until there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the
-// same bits as in the neighbouring patches. Fails with RIIS_INVALID_PARAMETER if O has no direction.
+// Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O is linear between neighbouring lines up to
+// max_error, or until there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the same bits as in the
+// neighbouring patches. Fails with RIIS_INVALID_PARAMETER if O has no direction.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 

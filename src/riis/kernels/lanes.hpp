@@ -461,7 +461,7 @@ RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(__AVX512F__)
-  // Each step keeps the lesser of two quarters of a register, or of two lanes of a quarter.
+  // Each step compares two quarters of a register, or two lanes of a quarter, and keeps the lesser.
   constexpr int first_half = 0x44, last_half = 0xee, even = 0x88, odd = 0xdd, neighbours = 0xb1, pairs = 0x4e;
   const auto halves = [&](int i) __attribute__((always_inline)) {
     const __m512 a = (__m512)of[i].part[0], b = (__m512)of[i + 1].part[0];

@@ -303,7 +303,7 @@ Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, cons
   return {rotation, axes.middle - rotation * shift};
 }
 
-// Sets a parameter so that its ratio to a measure of the valve is that of the template, `own`.
+// Sets a parameter so that its ratio to a measure of the valve equals the ratio in the template, `own`.
 void set_proportion(const Valve &own, Valve &valve, const std::string &name, double own_measure, double measure) {
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }

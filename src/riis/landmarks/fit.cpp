@@ -132,7 +132,7 @@ double sum_of_squares(const Problem &problem, std::vector<double> &longest) {
   return sum;
 }
 
-// Returns the noise on which standard errors rest: the stated noise, or that of the residuals if it is larger.
+// Returns the noise for the standard errors: the stated noise or the noise of the residuals, whichever is larger.
 double shown_noise(const LandmarkModel &model, const Landmarks &landmarks, double squares, std::size_t n_unknowns) {
   const std::size_t n = model.n_equations();
   const double seen = n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;

@@ -72,7 +72,7 @@ Rotation rotation_to(Vec3 x, Vec3 z);
 Rotation operator*(const Rotation &a, const Rotation &b);
 inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 
-// The landmarks of each kind of valve: which there must be, where they lie on the valve, and the sizes that they determine.
+// The landmarks of each kind of valve: which ones are needed, where they lie on the valve, and which sizes they determine.
 
 // Returns a parameter's value in the template. The template is the valve whose proportions the fit begins with.
 double value_of(const Valve &valve, const std::string &name, std::size_t component = 0);

@@ -42,7 +42,7 @@ std::string words_for(const Landmarks &landmarks, std::size_t i);
 
 // The following checks fail with RIIS_INVALID_ARGUMENT and name the landmarks.
 
-// Refuses landmarks whose distance from their mean is not that of a heart valve. The message has the size in the other units.
+// Refuses landmarks whose distance from their mean does not fit a heart valve. The message has the size in the other units.
 void check_unit(const Landmarks &landmarks);
 // Refuses a landmark whose role is not one of `roles`. These are the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);

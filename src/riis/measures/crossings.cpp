@@ -25,9 +25,9 @@ struct CommonSegment {
   double length;
 };
 
-// Finds the least overlap of two triangles over the directions that are passed to along(). Each face of the Minkowski difference
-// of two triangles has the normal of one triangle, or it is spanned by an edge of each. So the least overlap over these normals
-// is the distance from the origin to the boundary of the difference. This distance is the penetration depth.
+// Finds the least overlap of two triangles over the directions that are passed to along(). A face of the Minkowski difference of
+// two triangles has the normal of one triangle, or an edge of each triangle spans the face. So the least overlap over these
+// normals is the distance from the origin to the boundary of the difference. This distance is the penetration depth.
 class Overlap {
  public:
   Overlap(const Triangle &a, const Triangle &b, double limit) : a_(a), b_(b), limit_(limit) {}
@@ -63,7 +63,7 @@ bool cuts_plane(const Triangle &t, Vec3 w, double limit) {
   return std::max({x, y, z}) > least && -std::min({x, y, z}) > least;
 }
 
-// Returns whether e and f, whose cross product is w, are so parallel that their parallelogram is narrower than 1e-8 of an edge.
+// Returns whether e and f are nearly parallel: their parallelogram is narrower than 1e-8 of an edge. w is their cross product.
 bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e) * dot(f, f); }
 
 // Returns the length of the shortest translation of one triangle after which the two only touch. Returns 0 if this length is at

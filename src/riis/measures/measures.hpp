@@ -96,9 +96,9 @@ struct Gap {
 // Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if nothing tells which way is outwards.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
-// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is nearer
-// than the shortest skirt allows, the length is that of the shortest skirt. Fails with RIIS_INVALID_ARGUMENT if the wall is
-// farther than `longest`, in placed units.
+// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. The shortest skirt's
+// length also serves where the wall is nearer. Fails with RIIS_INVALID_ARGUMENT if the wall is farther than `longest`, in placed
+// units.
 SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
                              int n_threads);
 
@@ -113,8 +113,8 @@ using SweptVolumes = std::map<std::int32_t, double>;
 // only the sign of the result changes.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
 
-// Estimates how many mesh edges fit across the band: the band's thickness divided by the shortest, the mean and the longest
-// length of the mesh edges that have a marked node.
+// Estimates how many mesh edges fit across the band. Divides the band's thickness by the shortest, the mean and the longest of
+// the mesh edges with a marked node.
 // In: a marking, the mesh with its adjacency. Out: counts and lengths.
 
 // Computes the number of mesh edges across the band. Fails with RIIS_INVALID_MESH if a coordinate is not finite or too large.

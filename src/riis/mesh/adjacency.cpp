@@ -244,7 +244,7 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
 
 constexpr std::int64_t rows_per_block = 4096;
 // Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps with repeats. It is called twice for
-// each node, first for the row's length and then for the row's columns, so that memory never holds a list of all pairs.
+// each node: first for the row's length, then for the row's columns. So memory never holds a list of all pairs.
 template <class Append>
 OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
   OwnAdjacency made;

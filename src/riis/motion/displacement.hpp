@@ -87,9 +87,10 @@ struct PatchMaterial {
 // polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At four inner points, whose
-// u and v are 1/3 or 2/3, the displacement is that of the material that the map takes there. It follows from the mapped points
-// beside them (MappedInside). What it has beyond the Coons combination of the sides is a polynomial of degree 3 in u and in v.
+// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
+// with u and v of 1/3 or 2/3, the displacement is that of the material point which the map moves there. It follows from the
+// mapped points beside them (MappedInside). What it has beyond the Coons combination of the sides is a polynomial of degree 3 in
+// u and in v.
 class RestInside {
  public:
   RestInside() = default;

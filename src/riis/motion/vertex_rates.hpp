@@ -12,7 +12,8 @@
 
 namespace riis {
 
-// A direction in which a valve changes: two states near that of the surface, and the difference of the parameter between them.
+// A direction in which a valve changes. It has two states near the surface's state, and the difference of the parameter between
+// them.
 struct Direction {
   const PatchSet &after, &before;  // both may be the same object
   Placement placement_after, placement_before;
@@ -20,7 +21,7 @@ struct Direction {
 };
 
 // Computes (after - before) / step for every vertex, in the order of the vertices of a TriangleSet. `at` and `grids` are those of
-// the surface. Both states are put on the same grids: a vertex on a curve keeps its share of the curve's length, a vertex on a
+// the surface. Both states are put on the same grids. A vertex on a curve keeps its share of the curve's length. A vertex on a
 // chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. So these are the rates of the triangles'
 // corners, not those of the smooth valve. Inside a triangle the rate is exactly linear.
 void make_vertex_rates(const PatchSet &at, const Vector<LevelledGrid> &grids, const Direction &direction, int n_threads,

@@ -49,8 +49,8 @@ void require_field(const Marks &marks, std::int32_t field, const char *field_nam
          ", but the nodes were marked with options.fields = ", marks.data.given_fields);
 }
 
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding error of each addition. The sums over the leaflets
-// therefore add up to the sum over the surface, except for a few units in the last place, however many nodes there are.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding error of each addition. So the sums over the leaflets
+// add up to the sum over the surface, up to a few units in the last place, for any number of nodes.
 class Sum {
  public:
   void add(double x) {

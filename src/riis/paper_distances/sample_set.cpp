@@ -78,7 +78,7 @@ std::int32_t SampleSet::add_samples(std::int32_t patch, const Samples &samples) 
     add_leaf(patch, samples, nodes_.back());
     return node;
   }
-  // A step in u is about as long as a step in v, so the longer side is the one with more steps.
+  // A step in u is about as long as a step in v, so the longer side has more steps.
   if (n_columns >= n_rows) {
     const std::int32_t half = n_columns / 2;
     add_samples(patch, {column, row, half, n_rows});

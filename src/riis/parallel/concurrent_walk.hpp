@@ -18,7 +18,7 @@
 #include "parallel/threads.hpp"
 
 // Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. This version
-// guarantees no more order than TBB: a range runs after the call of add that passed it on, and the walk ends after all ranges.
+// guarantees no more order than TBB. A range runs after the call of add that passed it on, and the walk ends after all ranges.
 // Relaxed atomics do all other counting, because they order nothing. A lock around a common queue would order the bodies and so
 // hide their races.
 namespace riis {

@@ -27,7 +27,7 @@ inline int default_thread_count() noexcept {
   return n < 1 ? 1 : n;
 }
 
-// Returns the number of processors of the machine, also of those that are not in the calling thread's affinity mask.
+// Returns the number of the machine's processors, also of processors outside the calling thread's affinity mask.
 int processors_of_machine() noexcept;
 
 // By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet

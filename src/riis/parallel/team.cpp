@@ -23,8 +23,8 @@ namespace riis {
 namespace {
 
 // A thread that waits stays awake for a while, because waking it would take some microseconds. At first it keeps its processor,
-// so that it comes at once even if a caller's thread spins on the same processor. Later it offers the processor to other threads.
-// Then it sleeps. The thread sanitizer keeps a history of accesses, which waiting awake would fill.
+// so that it wakes at once even if a caller's thread spins there. Later it offers the processor to other threads. Then it sleeps.
+// The thread sanitizer keeps a history of accesses, which waiting awake would fill.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -70,8 +70,8 @@ class Semaphore {
   sem_t semaphore_;
 };
 
-// The state of a team's loop, in one word: the number of workers inside the loop, the number of places for further workers, and
-// the number of the loop. So a worker takes a place only in a loop that still has one.
+// The state of a team's loop, in one word. It holds the loop's own number, how many workers are inside the loop, and how many
+// more may enter. So a worker takes a place only in a loop that still has one.
 struct State {
   static constexpr std::uint64_t one_inside = 1, one_place = std::uint64_t{1} << 16, one_loop = std::uint64_t{1} << 32;
   static constexpr std::uint64_t all_places = one_loop - one_place;

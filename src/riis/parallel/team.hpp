@@ -11,8 +11,8 @@
 namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
-// comes before the call on the calling thread has returned. Returns after all these calls have returned. The result is the number
-// of threads that were called, which is less than n_threads only if the system refuses a thread or memory. No call may throw.
+// comes before the call on the calling thread has returned. Returns after all these calls have returned. Returns the number of
+// threads that took part. It is less than n_threads only if the system refuses a thread or memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
 // Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they are also the
@@ -33,8 +33,8 @@ class LoopChoice {
   bool has_recorded() const noexcept {
     return pause_.load(std::memory_order_relaxed) > 0 || n_served_.load(std::memory_order_relaxed) > 0;
   }
-  // Records a loop of OpenMP that ended now, and how long the calling thread had waited for the other threads, at the beginning
-  // and at the end. On a quiet machine it waits for one block at most, which takes less than a millisecond.
+  // Records that a loop of OpenMP ended now. Also records how long the calling thread waited for the others at the loop's
+  // beginning and end. On a quiet machine it waits for one block at most, which takes less than a millisecond.
   void record(std::int64_t waited, std::int64_t now) noexcept {
     const int n_served = n_served_.load(std::memory_order_relaxed);
     if (waited < long_wait) {

@@ -35,7 +35,7 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records that it does. A child of fork() may not use several threads
-// if the library had used them before the fork: the child lacks these threads, and the run-times of OpenMP and TBB would wait for
+// if the library had used them before the fork. The child lacks these threads, and the run-times of OpenMP and TBB would wait for
 // them for ever.
 bool begin_threads() noexcept;
 

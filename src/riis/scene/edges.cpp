@@ -70,7 +70,7 @@ std::vector<OpenEdge> edges_of_one_triangle(const TriangleSet &set, const std::v
 }
 
 // Cancels open edges that lie on each other. A patch of triangles may have vertices inside the edges of its neighbour. Such an
-// edge and the edges opposite to it run between the same two vertices, so the search follows them from one end to the other.
+// edge and its opposite edges run between the same two vertices. So the search follows them from one end to the other.
 class Cancelling {
  public:
   Cancelling(const TriangleSet &set, std::vector<OpenEdge> edges) : set_(set), edges_(std::move(edges)) {

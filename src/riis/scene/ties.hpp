@@ -14,8 +14,8 @@ namespace riis {
 
 struct TieRule {
   const std::int32_t *leaflet_id = nullptr, *patch_id = nullptr;  // for each triangle; null if ties are not wanted
-  // Two distances count as equal if they differ by at most these: of_leaflets for two leaflets, of_patches for two patches of one
-  // leaflet.
+  // Two distances count as equal if they differ by at most of_leaflets for two leaflets, or by at most of_patches for two patches
+  // of one leaflet.
   double of_leaflets = 0, of_patches = 0;
 
   bool is_tie(const ClosestTriangle &closest, const ClosestTriangle &other) const {
@@ -58,7 +58,7 @@ struct Ties {
     candidates.push_back({point, other});
   }
 
-  // Keeps those candidates that are ties, once all points are decided. closest_to(point) returns the closest triangle, or the
+  // Keeps only the candidates that are ties, after all points are decided. closest_to(point) returns the closest triangle, or the
   // position -1 if there is none. node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {

@@ -158,8 +158,8 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   const TriangleGroups &groups = query.in->groups;
   const GroupBounds &bounds = groups.bounds[arguments->primID];
   float distance_sq[triangles_per_group];
-  // In the frame's units, the closest triangle is at most sqrt(3) (query.largest + 1) away. The filter is right to half of this
-  // error up to the distance query.largest + 1, and to all of it up to nearly twice that distance.
+  // In the frame's units, the closest triangle is at most sqrt(3) (query.largest + 1) away. Up to the distance query.largest + 1,
+  // the filter's error is at most half of this error. Up to nearly twice that distance, it is at most this error.
   const float error =
       filter_error(1, 0, query.largest + 1, groups.longest_edge) + static_cast<float>(4 * query.in->rounding);
   const float point[3] = {static_cast<float>(query.q.x), static_cast<float>(query.q.y), static_cast<float>(query.q.z)};

@@ -22,10 +22,10 @@ struct Edge {
   bool operator==(const Edge &other) const { return a == other.a && b == other.b; }
 };
 
-// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface, its nearer node is at most
-// half the length from that point, so the node is within the half thickness and marked. The margins are several times the
-// rounding, so this also holds for computed distances. Returns -1 if marks may be missing or do not follow the distances to the
-// triangles. Then no edge counts as short.
+// Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
+// is at most half the length from that point. So the node is within the half thickness and marked. The margins are several times
+// the rounding, so this also holds for computed distances. Returns -1 if marks may be missing or do not follow the distances to
+// the triangles. Then no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
@@ -55,7 +55,7 @@ struct alignas(64) Finder {
   }
 
   // Returns false only if no point of the surface is within the radius of p. One such query often makes the queries of single
-  // edges unnecessary. The margin is several times the rounding, including that of p, which lies near the surface.
+  // edges unnecessary. The margin is several times the rounding. This includes the rounding of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;

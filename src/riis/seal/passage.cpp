@@ -150,7 +150,7 @@ class Opening {
   UnfilledVector<std::int64_t> parent_;
 };
 
-// A distance larger than that of any node.
+// No node has a distance as large as this.
 constexpr double beyond_all = 10 * max_coordinate;
 
 }  // namespace

@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. They take 2 MB. Small batches suit points that follow each other closely: their
-// leaves are as compact as those of large batches, and their points stay in the cache.
+// The number of points that are sorted together. They take 2 MB. Small batches suit points that follow each other closely. Their
+// leaves are as compact as the leaves of large batches, and their points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;

@@ -71,7 +71,7 @@ bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 bool has_few_near(const NodeSearch &request);
 
 // Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
-// must be those of the request's instructions, except that ./run bench roofline passes kernels that count operations.
+// must use the request's instructions. Only ./run bench roofline passes others, which count operations.
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

@@ -37,7 +37,7 @@ struct ColumnErrors {
   }
 };
 
-// A patch of arcs on the lines of a plan, or a skirt at a patch of arcs on the lines of that patch.
+// A patch of arcs on the lines of a plan, or a skirt at a patch of arcs on this patch's lines.
 class PlannedArcs {
  public:
   PlannedArcs(const PatchSet &set, const Patch &patch, const PatchPlan &plan, double max_error)
@@ -234,7 +234,7 @@ class Planner {
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       plan_.patches[i].has_arcs =
           std::any_of(states_.begin(), states_.end(), [&](const PatchSet &set) { return set.patches[i].bulge != 0; });
-    // A skirt at a patch of arcs takes the lines of that patch, so that both have the same vertices along their common side.
+    // A skirt at a patch of arcs takes the patch's lines, so both have the same vertices along their common side.
     for (std::size_t i = 0; i < set_.patches.size(); ++i)
       if (patch_of_strip(i) != no_patch) plan_.patches[i].has_arcs = plan_.patches[patch_of_strip(i)].has_arcs;
     plan_families();

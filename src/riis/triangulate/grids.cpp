@@ -128,7 +128,7 @@ class GridMaker {
   }
 
   PatchSides sides_of(const Patch &patch) const {
-    // In a patch of arcs, the arcs at its sides have no polylines, because all arcs of the patch are cut into rows in the same
+    // The arcs at the sides of a patch of arcs have no polylines, because all arcs of the patch are cut into rows in the same
     // way.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,

@@ -18,8 +18,8 @@ inline constexpr double curve_share = 0.45, merge_share = 0.01;
 // The lines of a plan use up their share nearly everywhere. With a larger share, too little would remain for quads, and many
 // quads would be subdivided.
 inline constexpr double planned_curve_share = 0.39;
-// The error of a point of a patch of arcs has three parts: the mean of two curves' errors, at most half of the error of O, and
-// the error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
+// On a patch of arcs, the error of a point has three parts: the mean error of two curves, at most half the error of O, and the
+// error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
 // Between two vertices of a curve, the velocity's estimated distance from linear is at most this share of the largest speed.

@@ -27,7 +27,7 @@ struct Tile {
   bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
 };
 
-// The vertices of a patch before its images are placed: first those of the grid, then those of subdivided quads.
+// The vertices of a patch before its images are placed: first the grid's vertices, then the vertices of subdivided quads.
 struct PatchVertices {
   Vector<Vec3> points;
   Vector<double> uv;

@@ -84,7 +84,7 @@ void group_all_by_place(const TriangleSet &set, Grouping &grouping);
 // The most triangles that the library accepts. Ids of four bytes could count more, but each triangle takes a few hundred bytes.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
-// Returns true if the height over the longest edge is at most 1e-12 of that edge, or if all edges are shorter than min_edge.
+// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 of it.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});

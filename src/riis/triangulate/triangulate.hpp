@@ -78,8 +78,7 @@ struct Connectivity {
   std::vector<std::int32_t> leaflet_id, patch_id;
   Grouping grouping;
   Vector<LeftOut> left_out;
-  // For each image of each patch: the end of its triangles, and whether its triangles are the same as those of the previous
-  // image.
+  // For each image of each patch: the end of its triangles, and whether the previous image has the same triangles.
   struct OfImage {
     std::int64_t end;
     bool is_as_before;

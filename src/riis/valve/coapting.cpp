@@ -282,8 +282,8 @@ struct EndTangents {
   Vec3 at(double u) const { return mix(of_symmetry, of_attachment, u); }
 };
 
-// Returns a first coaptation line below the free edge F. The upper patch has the derivative F - K by v. Here F - K is T times a
-// factor that decreases from the middle to 0 at the commissure, where both curves have the parameters 1/3 and 2/3.
+// Returns a first coaptation line below the free edge F. The upper patch has the derivative F - K by v. At the parameters 1/3 and
+// 2/3 of both curves, F - K is T times a factor. The factor decreases from the middle to 0 at the commissure.
 Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTangents &tangents) {
   const double factor = distance(free_edge.first(), middle) / length(tangents.of_symmetry);
   const auto point = [&](double u) {
@@ -401,9 +401,9 @@ HalfCusp rate_at(const CuspNumbers &closed, const CuspNumbers &open, double at) 
   return made;
 }
 
-// Returns the least rise of the leaflet at the root, as a share of the length of its symmetry curve. At the root the lower patch
-// has the tangent K - c + (1 - u) Y + u A, with the coaptation line K, its chord c, and the tangents Y and A there. The rise is
-// this tangent's height divided by 1 - u. If it is negative somewhere, then the leaflet dips below its attachment and folds.
+// Returns the least rise of the leaflet at the root, as a share of the length of its symmetry curve. K is the coaptation line, c
+// is its chord, and Y and A are the tangents at the root. The lower patch has the tangent K - c + (1 - u) Y + u A there. The rise
+// is this tangent's height divided by 1 - u. If it is negative somewhere, then the leaflet dips below its attachment and folds.
 double rise_at_root(const HalfCusp &half) {
   const Bezier &line = half.bending, &symmetry = half.symmetry_below;
   const Vec3 start = symmetry.control[1] - symmetry.control[0];

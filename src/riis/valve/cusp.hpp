@@ -45,8 +45,8 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 // Returns the derivatives of the control points with respect to the opening.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
-// Refuses curves that reach far away. Values that are each acceptable can make such curves together: for example a high power
-// with a long tangent, or a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right
+// Refuses curves that reach far away. Values that are each acceptable can make such curves together. Examples are a high power
+// with a long tangent, and a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right
 // cusp". `also` ends the message's list of parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 

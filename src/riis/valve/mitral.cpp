@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mitral valve. It has an annulus, an anterior leaflet and a posterior leaflet of three scallops, and it can be closed, open
-// or in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory/mitral.md).
+// The mitral valve. It has an annulus, an anterior leaflet, and a posterior leaflet of three scallops. It can be closed, open or
+// in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory/mitral.md).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -256,7 +256,7 @@ class Patches {
     return set_.curves.size() - 1;
   }
 
-  // Returns the arc from the annulus at u to a point of the edge, as a side that is shared by the patches on both sides of it.
+  // Returns the arc from the annulus at u to a point of the edge. Two neighbouring patches share the arc as a side.
   Arc arc(double u, Vec3 on_edge) {
     const PointOnSpan where = annulus_.half().on_span(2 * u);
     const auto [on_annulus, along] = annulus_.half().with_tangent(where);

@@ -20,8 +20,8 @@ namespace {
 constexpr std::size_t n_even_parts = 8;
 // The ends of two cusps that are not joined are neighbours if they are at most this far apart, times the longest side.
 constexpr double most_between_ends = 0.5;
-// The skirts at two neighbouring ends lead along the line through both ends if the sine of its angle to the outward direction is
-// in this range. A sine is positive if the ends have passed each other. Outside of the range, the sine falls back to 0.
+// The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
+// lead along the line. A sine is positive if the ends have passed each other. Outside of the range, the sine falls back to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
 // The sine also falls to 0 if the line is nearer to the axis than this sine.
 constexpr double least_sine_to_axis = 0.2;

@@ -36,8 +36,8 @@ Vector<HeldSide> held_sides(const PatchSet &set);
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
-// Returns the attached ends of different leaflets that are neighbours but are not joined, such as the ends of two aortic cusps
-// at a commissure. Numbers the patches as they are after a warp, where each image is a patch of its own.
+// Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
+// Numbers the patches as they are after a warp, where each image is a patch of its own.
 Vector<NeighbourEnds> neighbour_ends(const PatchSet &set);
 
 // An end of a side, with the unit tangent there. The sign of the tangent does not matter.
@@ -73,8 +73,9 @@ class SkirtDirections {
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
 // A skirt is at least and at most this many such distances long.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
-// A skirt to a wall is at least this many such distances long. Its outer edge has its vertices at even shares of its own length,
-// so they are not exactly beside those of the attachment. A thinner strip along a round attachment would go through itself.
+// A skirt to a wall is at least this many such distances long. The vertices of its outer edge are at even shares of the edge's
+// length, so they are not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
+// itself.
 inline constexpr double least_skirt_to_wall = 0.01;
 
 // Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.

@@ -289,9 +289,9 @@ double WarpLandmarks::solve(double lambda) {
   return square;
 }
 
-// Returns the lambda at which the sum of squares of all residuals is a certain share of its expected value for the noise, 3
-// noise^2 for each free landmark. The sum grows with lambda, so there is at most one such lambda. Returns infinity if even the
-// affine map is that close.
+// Returns the lambda at which the sum of squares of all residuals is a given share of its expected value. The noise gives the
+// expected value, 3 noise^2 for each free landmark. The sum grows with lambda, so there is at most one such lambda. Returns
+// infinity if even the affine map is that close.
 double WarpLandmarks::smoothing_for_noise() {
   const double noise = noise_ / size_, wanted = residual_share * 3 * noise * noise * static_cast<double>(n_free_);
   if (wanted == 0) return 0;

@@ -265,8 +265,8 @@ class MapAtEnds {
   std::size_t next_ = 0;
 };
 
-// The material points of a curve before any image is placed, and the weights that a mapped span's points have there: those of
-// the polynomial through them.
+// The material points of a curve before any image is placed. The weights belong to the points of a mapped span, and define the
+// polynomial through these points.
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {
     const CurvePoints points(curve, false, material_shares());

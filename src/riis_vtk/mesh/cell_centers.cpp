@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Centres of cells, and the pairs of cells that share a face, for solvers whose unknowns are at the centres. The centres are
-// those of OpenFOAM (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C): a face is cut into triangles around
-// the mean of its nodes, and a cell into pyramids around the mean of its faces' centres. For cells that are not star-shaped,
+// Centres of cells, and the pairs of cells that share a face, for solvers whose unknowns are at the centres. The centres equal
+// OpenFOAM's (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C). A face is cut into triangles around the
+// mean of its nodes. A cell is cut into pyramids around the mean of its faces' centres. For cells that are not star-shaped,
 // OpenFOAM takes volumes of both signs, and here all volumes count as positive.
 #include <algorithm>
 #include <array>

@@ -66,7 +66,7 @@ struct VolumeEdges {
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Returns the edges that are longer than a length and whose bounding box meets the box from lower to upper. xyz(3, n) are the
+// Returns the edges that are longer than a length, if their bounding box meets the box from lower to upper. xyz(3, n) are the
 // grid's points.
 VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
                           const double *upper);

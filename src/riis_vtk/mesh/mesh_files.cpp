@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, makes an adjacency from its cells,
-// stores marks in its point arrays, and writes the grid to a .vtu file.
+// Volume meshes of riis_vtk.h. Reads a file into a grid with points in double precision, and makes an adjacency from its cells.
+// Stores marks in the grid's point arrays, and writes the grid to a .vtu file.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
@@ -100,7 +100,8 @@ const double *points_of(const riis_vtk_mesh *mesh) {
                        : vtkDoubleArray::SafeDownCast(mesh->grid->GetPoints()->GetData())->GetPointer(0);
 }
 
-// Returns the pairs of neighbouring cells that are longer than a length and whose bounding box meets the box from lower to upper.
+// Returns the pairs of neighbouring cells that are farther apart than a length, if their bounding box meets the box from lower to
+// upper.
 std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, double longer_than, const double *lower,
                                         const double *upper) {
   std::vector<std::int64_t> pairs;

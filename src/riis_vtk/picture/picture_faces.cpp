@@ -78,7 +78,8 @@ class Polygons {
     corners_.clear();
     const int type = grid_->GetCellType(cell);
     add_corners(generic(cell));
-    // Puts the corners in the order round the cell, because VTK lists those of a pixel row by row and those of a strip in zigzag.
+    // Puts the corners in the order round the cell, because VTK lists a pixel's corners row by row and a strip's corners in
+    // zigzag.
     if (type == VTK_PIXEL) std::swap(corners_[2], corners_[3]);
     if (type == VTK_TRIANGLE_STRIP) {
       Corners round;

@@ -36,7 +36,7 @@ struct Block {
 using Grids = std::vector<vtkSmartPointer<vtkUnstructuredGrid>>;
 
 // Copies the arrays that all blocks have, with the same type and number of components. `place` gives the new place of each
-// value. A value that several blocks have is that of the first one.
+// value. If several blocks have a value, the first block decides.
 template <class DataOf, class Place>
 void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &data_of, const Place &place,
                  vtkDataSetAttributes *to) {
@@ -128,9 +128,8 @@ struct HashOfPoint {
   }
 };
 
-// Numbers the nodes of all blocks. Nodes of different blocks are one node if they have the same global id or, where a block has
-// no ids, if their coordinates are equal. Nodes of one block stay different, so that slits stay open. Returns the number of
-// nodes.
+// Numbers the nodes of all blocks. Nodes of different blocks are one node if they have the same global id. If a block has no ids,
+// equal coordinates decide. Nodes of one block stay different, so that slits stay open. Returns the number of nodes.
 vtkIdType number_nodes(std::vector<Block> &blocks) {
   const bool have_ids =
       std::all_of(blocks.begin(), blocks.end(), [](const Block &b) { return global_ids_of(b.grid) != nullptr; });

@@ -32,8 +32,8 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams, which refuse infinite numbers
-// and numbers that are too large, but accept numbers that are too small.
+// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams. They refuse infinite and too
+// large numbers, but accept too small ones.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {

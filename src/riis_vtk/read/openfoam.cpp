@@ -255,7 +255,8 @@ class FoamFile {
     expect(")");
   }
 
-  // Such a list is longer than its file, so it has a limit of its own: as many entries as a mesh of a block of cells could need.
+  // Such a list is longer than its file, so it has a limit of its own. The limit is the number of entries that a mesh of one
+  // block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
     constexpr std::int64_t most = 1 << 20;
