@@ -124,11 +124,12 @@ TEST(test_open_lines) {
  * shrinks. */
 TEST(test_growing) {
   enum { m = 720 };
+  const int n_turns = is_long_test() ? 8 : fewer_if_sanitized(4);
   static double xy[2 * (2 * m + 1)];
   static int64_t ids[3 * 2 * m];
   random_source random = random_start("test_plane_cover");
   const double step = 2 * pi / m;
-  for (int turn = 0; turn < fewer_if_sanitized(8); ++turn) {
+  for (int turn = 0; turn < n_turns; ++turn) {
     const double centre[2] = {random_between(&random, -2, 2), random_between(&random, -2, 2)};
     const double radius = random_between(&random, 0.5, 2), size = radius * random_between(&random, 0.3, 0.7);
     const double reach = size * random_between(&random, 0.05, 0.3), first = random_between(&random, 0, 2 * pi);

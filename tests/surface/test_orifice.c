@@ -8,7 +8,6 @@
 
 #include "handles.h"
 
-#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -33,7 +32,7 @@ static riis_orifice orifice_of(const riis_surface *surface, const riis_resistanc
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
-static int n_trials(void) { return is_sanitized() ? n_kinds : 2 * n_kinds; }
+static int n_trials(void) { return is_long_test() ? 2 * n_kinds : n_kinds; }
 
 static riis_valve *valve_at(int kind, double opening) {
   riis_valve *valve = new_valve(kinds[kind]);

@@ -8,7 +8,6 @@
 
 #include "handles.h"
 #include "moving_surfaces.h"
-#include "sanitized.h"
 #include "searches.h"
 
 #include "random_meshes.h"
@@ -105,7 +104,7 @@ static void outwards_from(const axis_line *axis, const double *p, double *out) {
 }
 
 /* Every kind of valve has both triangulations. A sanitizer sees each kind once. */
-static int n_trials_of_kinds(void) { return is_sanitized() ? n_skirted : 2 * n_skirted; }
+static int n_trials_of_kinds(void) { return is_long_test() ? 2 * n_skirted : n_skirted; }
 
 /* Checks the vertices of both edges of the skirt. */
 TEST(the_outer_edge_is_the_length_away) {

@@ -7,7 +7,6 @@
 
 #include "handles.h"
 
-#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -29,7 +28,7 @@ static void set(riis_valve *valve, const char *name, double value) {
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
-static int n_trials(void) { return is_sanitized() ? n_kinds : 2 * n_kinds; }
+static int n_trials(void) { return is_long_test() ? 2 * n_kinds : n_kinds; }
 
 /* A valve of a kind with some parameters of its own. */
 static riis_valve *random_valve(int kind) {
