@@ -85,9 +85,9 @@ double off_line(const Vector<Slope> &slopes) {
   return largest;
 }
 
-// A part of one Bézier piece of a curve, on a range of u.
+// A part of one Bézier span of a curve, on a range of u.
 struct CurvePart {
-  const Bezier *piece;
+  const Bezier *span;
   double t[2];
   double length;  // the length of the whole curve
 };
@@ -106,14 +106,14 @@ struct Derivatives {
   double first, least_first, second, third;
 };
 
-Derivatives sizes_on(const Bezier &piece, double from, double to) {
-  const auto start = derivatives(piece, from), end = derivatives(piece, to);
+Derivatives sizes_on(const Bezier &span, double from, double to) {
+  const auto start = derivatives(span, from), end = derivatives(span, to);
   const double bend = off_line(to - from, length(start[2]));
   return {larger_of(start[0], end[0]) + bend, least_on_segment(start[0], end[0]) - bend, larger_of(start[1], end[1]),
           length(start[2])};
 }
 
-// Bounds the differences between the derivatives of two pieces at the same parameter.
+// Bounds the differences between the derivatives of two spans at the same parameter.
 Derivatives changes_on(const Bezier &now, const Bezier &before, double from, double to) {
   const auto start = derivatives(now, from), end = derivatives(now, to);
   const auto start_before = derivatives(before, from), end_before = derivatives(before, to);
@@ -125,7 +125,7 @@ Derivatives changes_on(const Bezier &now, const Bezier &before, double from, dou
 // Bounds a curve on a range. The bounds are infinite if the curve's tangent may vanish in one of the two states.
 AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double width) {
   const double from = std::min(at_now.t[0], at_before.t[0]), to = std::max(at_now.t[1], at_before.t[1]);
-  const Derivatives now = sizes_on(*at_now.piece, from, to), before = sizes_on(*at_before.piece, from, to);
+  const Derivatives now = sizes_on(*at_now.span, from, to), before = sizes_on(*at_before.span, from, to);
   const double least = std::min(now.least_first, before.least_first), first = larger(now.first, before.first),
                second = larger(now.second, before.second), third = larger(now.third, before.third);
   const double whole = larger(at_now.length, at_before.length);
@@ -136,7 +136,7 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
   }
   // At the same u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
   // growth in between that the rates dt/du = length / |B'| allow.
-  const Derivatives change = changes_on(*at_now.piece, *at_before.piece, from, to);
+  const Derivatives change = changes_on(*at_now.span, *at_before.span, from, to);
   const double at_ends = larger(std::abs(at_now.t[0] - at_before.t[0]), std::abs(at_now.t[1] - at_before.t[1]));
   const double half = 0.5 * width, rate_change = length.change / least + whole * change.first / (least * least);
   const double by_itself = half * whole * second / (least * least);
@@ -162,7 +162,7 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds from each state by itself. They serve a range on which the states lie on different pieces and cannot be
+// Returns bounds from each state by itself. They serve a range on which the states lie on different spans and cannot be
 // compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
@@ -175,11 +175,11 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if `curve` has one piece more than `other`, and the additional piece is at the start. The shorter one of its two end
-// pieces counts as the additional piece.
+// Returns 1 if `curve` has one span more than `other`, and the additional span is at the start. The shorter one of its two end
+// spans counts as the additional span.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
-  const std::size_t n = curve.pieces().size();
-  return n == other.pieces().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
+  const std::size_t n = curve.spans().size();
+  return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
 }
 
 // A side of a patch in both states, at ascending shares. The shares include its joints.
@@ -204,13 +204,13 @@ class SideInBoth {
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
   // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or
-  // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short piece at a curve's end, whose
+  // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short span at a curve's end, whose
   // length changes many times over as a joint approaches the end.
-  bool is_compared(std::size_t i) const { return are_on_one_piece(i) && (width(i) > narrow || compared(i).is_tight); }
+  bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
 
-  // Returns whether a piece of one of the states begins at share i.
+  // Returns whether a span of one of the states begins at share i.
   bool is_joint(std::size_t i) const {
-    return at_now_.piece(i) != at_now_.piece(i - 1) || at_before_.piece(i) != at_before_.piece(i - 1);
+    return at_now_.span(i) != at_now_.span(i - 1) || at_before_.span(i) != at_before_.span(i - 1);
   }
 
   AlongCurve between(std::size_t i) const {
@@ -218,7 +218,7 @@ class SideInBoth {
       const Both none{0, 0};
       return {none, none, none, none, 0, 0, true};
     }
-    if (are_on_one_piece(i)) {
+    if (are_on_one_span(i)) {
       const AlongCurve made = compared(i);
       if (width(i) > narrow || made.is_tight) return made;
     }
@@ -227,27 +227,25 @@ class SideInBoth {
   }
 
  private:
-  // Returns whether both states lie on the same piece on the range after share i.
-  bool are_on_one_piece(std::size_t i) const {
-    return at_now_.piece(i) + more_before_ == at_before_.piece(i) + more_now_;
-  }
+  // Returns whether both states lie on the same span on the range after share i.
+  bool are_on_one_span(std::size_t i) const { return at_now_.span(i) + more_before_ == at_before_.span(i) + more_now_; }
 
   AlongCurve compared(std::size_t i) const {
     return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
   }
 
-  // Returns the part of a Bézier piece that is the range after share i.
+  // Returns the part of a Bézier span that is the range after share i.
   CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
-    const std::size_t piece = points.piece(i);
-    return {&curve.pieces()[piece],
-            {points.parameter(i), points.piece(i + 1) == piece ? points.parameter(i + 1) : 1.0},
+    const std::size_t span = points.span(i);
+    return {&curve.spans()[span],
+            {points.parameter(i), points.span(i + 1) == span ? points.parameter(i + 1) : 1.0},
             curve.length()};
   }
 
   const Curve &now_, &before_;
   const Vector<double> &shares_;
   CurvePoints at_now_, at_before_;
-  // For each state, 1 if it has one piece more at the start, because a joint passed that end of the curve. Otherwise 0.
+  // For each state, 1 if it has one span more at the start, because a joint passed that end of the curve. Otherwise 0.
   std::size_t more_now_, more_before_;
 };
 
@@ -311,7 +309,7 @@ TwoCurves curves_of(const TwoStates &states, std::size_t patch, Side Patch::*sid
 // Bounds the largest curvature of a curve. The bound is infinite if the curve may turn on the spot.
 double largest_curvature(const Curve &curve) {
   double largest = 0;
-  for (const Bezier &piece : curve.pieces()) largest = larger(largest, largest_curvature(piece));
+  for (const Bezier &span : curve.spans()) largest = larger(largest, largest_curvature(span));
   return largest;
 }
 
@@ -392,8 +390,8 @@ class AddedByMaterial {
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
     rest_ = sizes_of([&](double share) { return material.rest(share); });
-    // Between a joint and its slid place, the second derivatives are those of two pieces.
-    of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
+    // Between a joint and its slid place, the second derivatives are those of two spans.
+    of_joints_ = static_cast<double>(before.spans().size() - 1) * 0.25 * 2 * second * slide.size;
   }
 
   double slope() const { return bounds_.slope + rest_.slope; }
@@ -571,7 +569,7 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
           {on_base.width(i), is_compared ? (of_factor * on.first).change : 2 * of_factor.size * on.first.size});
     }
     // O' jumps at a joint, so the bound for such a range uses the first derivative. Beside a joint near a curve's end, bounds on
-    // the short piece are far larger than the true derivatives.
+    // the short span are far larger than the true derivatives.
     double error = is_smooth ? off_line(width, second) : off_line(slopes);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
@@ -680,7 +678,7 @@ double velocity_error(const ImageVelocity &image, const TwoStates &states, const
 double velocity_error_bound(const riis_surface *surface, const riis_valve *valve, const riis_valve *before,
                             double seconds, const riis_surface_options *options_before) {
   const riis::Surface &content = riis::content_of(surface);
-  const riis::Placement &placement = content.frame()->placement;
+  const riis::Placement &placement = content.source()->placement;
   const riis::TwoStates states{*content.patches(), valve->valve.make_patches_before(before->valve, nullptr), placement,
                                options_before ? riis::placement_of(*options_before) : placement, seconds};
   const riis::EarlierState motion{states.before, states.placement_before, states.seconds};
