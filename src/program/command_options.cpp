@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "program/leaks.hpp"
 #include "program/opening_law.hpp"
+#include "program/passage.hpp"
 #include "program/text.hpp"
 #include "program/valve_file.hpp"
 #include "program/valve_source.hpp"

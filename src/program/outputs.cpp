@@ -25,7 +25,7 @@
 #include "program/pictures.hpp"
 #include "program/ranks.hpp"
 #include "program/refusal.hpp"
-#include "program/series_files.hpp"
+#include "program/marked_files.hpp"
 #include "program/valve_file.hpp"
 #include "program/warnings.hpp"
 

@@ -10,14 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "program/box.hpp"
 #include "program/options.hpp"
 
 namespace riis::program {
-
-struct Box {
-  double lower[3], upper[3];
-  double largest_side() const;
-};
 
 // The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
 struct Situation {
@@ -28,9 +24,6 @@ struct Situation {
   double area;         // area of the surface
   double half_thickness;
 };
-
-Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
-                       const riis_vtk_mesh *mesh);
 
 // The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
 // cause leaks.
