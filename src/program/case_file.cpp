@@ -44,7 +44,7 @@ class CaseReader {
  private:
   void read_common(const CaseValues &values) {
     MarkOptions &options = all_.options;
-    if (options.mesh.empty()) options.mesh = file_of(values, "mesh");
+    if (options.mesh.empty() && !options.check_crossing) options.mesh = file_of(values, "mesh");
     if (options.mesh.empty() && options.needs_mesh)
       values.refuse("mesh", "it is missing, and no MESH is on the command line");
     options.unit = values.unit("unit");
@@ -54,7 +54,8 @@ class CaseReader {
     }
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
-    options.resistance = values.at_least_zero("resistance");
+    const auto resistance = values.at_least_zero("resistance");
+    if (!options.resistance) options.resistance = resistance;
     if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
   }

@@ -103,23 +103,24 @@ MeshFile copy_of(const riis_vtk_mesh *file, std::int64_t n_nodes) {
   return part_of(file, all);
 }
 
+// Adds the numbers of a piece or a rank to those of others. The numbers of nodes are counted by NodeCounts.
+void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
+  if (all.n_threads == 0) all.search = stats.search;
+  all.complete = all.complete && stats.complete;
+  all.n_unreached += stats.n_unreached;
+  all.n_threads = std::max(all.n_threads, stats.n_threads);
+}
+
+riis_mark_stats no_stats() {
+  riis_mark_stats none{};
+  none.complete = 1;
+  return none;
+}
+
 // What one valve needs of all pieces.
 struct ValveSums {
-  // Numbers that ranks add up or combine.
-  struct Marks {
-    std::int64_t n_unreached = 0;
-    std::int32_t search = -1, n_threads = 0, complete = 1, reserved = 0;
-
-    void add(const riis_mark_stats &stats) {
-      n_unreached += stats.n_unreached;
-      complete = complete && stats.complete;
-      n_threads = std::max(n_threads, stats.n_threads);
-      if (search < 0) search = stats.search;
-    }
-  };
-
   MeshLeaks leaks;
-  Marks marks{};
+  riis_mark_stats marks = no_stats();
   BandMeasures band{};
   std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
 };
@@ -255,6 +256,7 @@ class MarkingRun {
     if (!piece.mesh) return;
     check_new_arrays(options(), names_, piece.file.get());
     find_neighbors_for_search(piece);
+    for (MovingValve &valve : valves_) valve.forget_marks();
     mark_at_all_times(piece);
     if (is_series()) mark_at_least_openings(*piece.mesh);
     const Stage stage("looking for leaks", options().quiet);
@@ -265,7 +267,7 @@ class MarkingRun {
       piece.mesh->find_neighbors(options().mark_options.n_threads);
     for (std::size_t i = 0; i < valves_.size(); ++i) {
       ValveSums &sums = sums_[i];
-      sums.marks.add(valves_[i].stats());
+      combine(sums.marks, valves_[i].stats());
       sums.leaks.add(piece, valves_[i].result());
       node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
       std::vector<std::int64_t> regions;
@@ -301,8 +303,7 @@ class MarkingRun {
         for (std::int64_t k = 0; k < within.n_nodes; ++k) view(is_near)[within.node_id[k]] = 1;
         if (options().series.movie.empty()) continue;
         const riis_surface_info info = info_of(valves_[i].surface());
-        swept_.grow(info.lower);
-        swept_.grow(info.upper);
+        swept_.grow(info.lower, info.upper);
       }
     }
     near_.clear();
@@ -364,21 +365,10 @@ class MarkingRun {
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
     ValveReport &report = report_.valves[i];
     const MovingValve &valve = valves_[i];
-    ValveSums::Marks all;
-    for (const ValveSums::Marks &marks : ranks::gather(std::vector<ValveSums::Marks>{sums_[i].marks})) {
-      riis_mark_stats stats{};
-      stats.n_unreached = marks.n_unreached;
-      stats.search = marks.search;
-      stats.n_threads = marks.n_threads;
-      stats.complete = marks.complete;
-      all.add(stats);
-    }
-    riis_mark_stats &stats = report.marks;
+    riis_mark_stats &stats = report.marks = no_stats();
+    for (const riis_mark_stats &of_rank : ranks::gather(std::vector<riis_mark_stats>{sums_[i].marks}))
+      combine(stats, of_rank);
     stats.n_nodes = n_nodes;
-    stats.n_unreached = all.n_unreached;
-    stats.search = all.search;
-    stats.n_threads = all.n_threads;
-    stats.complete = all.complete;
     std::size_t least = 0, most = 0;
     for (std::size_t step = 0; step < times_.size(); ++step) {
       const OpeningLaw &law = valve.source().law;

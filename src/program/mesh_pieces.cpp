@@ -59,8 +59,13 @@ void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
   const auto read_piece = [&](std::int64_t number) {
     const std::string &file_path = view(files_)[number];
     const Stage stage("reading " + file_path, options_.quiet);
-    auto piece = std::make_unique<Piece>(number, file_path, read(number), options_, is_whole_);
-    if (seconds) seconds->read += stage.seconds();
+    MeshFile file = read(number);
+    const double reading = stage.seconds();
+    auto piece = std::make_unique<Piece>(number, file_path, std::move(file), options_, is_whole_);
+    if (seconds) {
+      seconds->read += reading;
+      seconds->mesh += stage.seconds() - reading;
+    }
     return piece;
   };
   try {

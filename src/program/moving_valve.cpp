@@ -12,14 +12,6 @@
 
 namespace riis::program {
 
-namespace {
-
-void set_opening_of(riis_valve *valve, double opening, const std::string &name) {
-  check(riis_valve_set_scalar(valve, "opening", opening), name);
-}
-
-}  // namespace
-
 MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
   is_at_rest_ =
       !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
@@ -27,8 +19,7 @@ MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_
   if (source.valve) {
     if (moves) before_ = copy_of(source.valve.get());
     opening_ = source.law.at(time);
-    set_opening_of(source.valve.get(), opening_, subject());
-    if (source.warp.moves()) source.warp.apply(time, source.valve.get());
+    set_time(time, source.valve.get());
   }
   has_velocities_ = source.file != nullptr;
   surface_ = make_surface(source, moves ? FileVelocity::zero : FileVelocity::none);
@@ -40,33 +31,27 @@ std::optional<double> MovingValve::opening() const {
   return source_.valve ? std::optional(opening_) : std::nullopt;
 }
 
-void MovingValve::move_to(double time) {
-  if (is_at_rest_) return;
-  if (source_.keyframes) return move_to(time, time);
-  opening_ = source_.law.at(time);
-  set_opening_of(source_.valve.get(), opening_, subject());
-  if (source_.warp.moves()) source_.warp.apply(time, source_.valve.get());
-  check(riis_surface_update(surface_.get(), source_.valve.get(), nullptr), subject());
-  has_velocities_ = false;
+void MovingValve::set_time(double time, riis_valve *valve) {
+  check(riis_valve_set_scalar(valve, "opening", source_.law.at(time)), subject());
+  if (source_.warp.moves()) source_.warp.apply(time, valve);
 }
 
-void MovingValve::move_to(double time, double since) {
-  if (is_at_rest_ && has_velocities_) return;
+void MovingValve::move_to(double time, std::optional<double> since) {
+  if (is_at_rest_ && (!since || has_velocities_)) return;
   if (source_.keyframes) {
-    const riis_keyframes *frames = source_.keyframes.get();
-    check(riis_surface_update_from_keyframes(surface_.get(), frames, time, time - since, nullptr), options().surface);
+    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time,
+                                             time - since.value_or(time), nullptr),
+          options().surface);
     return;
   }
+  if (since) set_time(*since, before_.get());
+  set_time(time, source_.valve.get());
   opening_ = source_.law.at(time);
-  set_opening_of(source_.valve.get(), opening_, subject());
-  set_opening_of(before_.get(), source_.law.at(since), subject());
-  if (source_.warp.moves()) {
-    source_.warp.apply(since, before_.get());
-    source_.warp.apply(time, source_.valve.get());
-  }
-  check(riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - since, nullptr, nullptr),
+  check(since ? riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - *since, nullptr,
+                                           nullptr)
+              : riis_surface_update(surface_.get(), source_.valve.get(), nullptr),
         subject());
-  has_velocities_ = true;
+  has_velocities_ = since.has_value();
 }
 
 void MovingValve::mark(FileNodes &nodes, int32_t fields) {

@@ -13,6 +13,7 @@
 #include "program/case.hpp"
 #include "program/file_nodes.hpp"
 #include "program/handles.hpp"
+#include "program/mesh_marking.hpp"
 #include "program/valve_source.hpp"
 
 namespace riis::program {
@@ -22,11 +23,12 @@ class MovingValve {
   // Borrows the source, and makes the surface at the given time. `moves` says whether it will have other times, and velocities.
   MovingValve(ValveSource &source, double time, bool moves);
 
-  // Moves the surface to a time. The second form also computes mean velocities since the earlier time.
-  void move_to(double time);
-  void move_to(double time, double since);
-  // Marks with `fields`, a sum of RIIS_FIELD_*. For velocities, the last move must have used the second form of move_to.
+  // Moves the surface to a time. If an earlier time is given, also computes the mean velocities since then.
+  void move_to(double time, std::optional<double> since = std::nullopt);
+  // Marks with `fields`, a sum of RIIS_FIELD_*. Velocities need a last move with an earlier time.
   void mark(FileNodes &nodes, int32_t fields);
+  // Forgets the last marks. Otherwise a search in another mesh would begin at their nodes.
+  void forget_marks() { result_ = new_result(); }
 
   const MarkOptions &options() const { return source_.options; }
   const ValveSource &source() const { return source_; }
@@ -39,6 +41,8 @@ class MovingValve {
   std::optional<CrossingReport> crossings{};  // set if crossings were looked for
 
  private:
+  // Sets the opening and the warp of a time.
+  void set_time(double time, riis_valve *valve);
   // Returns the name for refusals.
   const std::string &subject() const { return source_.subject.empty() ? options().valve : source_.subject; }
 
