@@ -96,10 +96,7 @@ class File {
 class GridPieces : public MeshPieces {
  public:
   GridPieces(const MarkOptions &options, const std::string &folder, std::int64_t n_pieces, std::int64_t side)
-      : MeshPieces(options, files_in(folder, n_pieces)),
-        folder_(folder),
-        shape_(shape_of(n_pieces)),
-        side_(side) {
+      : MeshPieces(options, files_in(folder, n_pieces)), folder_(folder), shape_(shape_of(n_pieces)), side_(side) {
     const std::int64_t most = *std::max_element(shape_.begin(), shape_.end()) * (side - 1);
     spacing_ = 6.0 / static_cast<double>(most);
   }

@@ -61,7 +61,8 @@ void BandMeasures::judge(const MatchedNodes &matched, double half_thickness, Flo
   for (const KeyedEdge &edge : gathered(shared_)) all.add({1, edge.length, edge.length, edge.length});
   riis_cells_across cells{0, 0, 0, 0, 0, 0, half_thickness, all.n};
   if (all.n > 0) {
-    const double mean = std::clamp(static_cast<double>(all.sum / static_cast<long double>(all.n)), all.shortest, all.longest);
+    const double mean =
+        std::clamp(static_cast<double>(all.sum / static_cast<long double>(all.n)), all.shortest, all.longest);
     const double across = 2 * half_thickness;
     cells = {across / all.longest, across / mean, across / all.shortest, all.shortest, mean, all.longest,
              half_thickness,       all.n};

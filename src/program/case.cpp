@@ -49,19 +49,26 @@ std::string Case::surface_of(std::size_t valve) const {
 Case case_of_command_line(const MarkOptions &options) {
   Case all{options, {}, {}};
   ValveSource source{options, nullptr, nullptr};
-  if (options.surface.empty()) {
-    read_valve(options, source);
-  } else if (!is_motion_file(options.surface)) {
-    source.file = read_surface(options, all.seconds);
-  } else {
+  if (options.surface.empty()) read_valve(options, source);
+  all.valves.push_back(std::move(source));
+  if (all.is_series()) read_surfaces(all);
+  return all;
+}
+
+void read_surfaces(Case &all) {
+  for (ValveSource &source : all.valves) {
+    const MarkOptions &options = source.options;
+    if (source.valve || source.file || source.keyframes) continue;
+    if (!is_motion_file(options.surface)) {
+      source.file = read_surface(options, all.seconds);
+      continue;
+    }
     KeyframeFiles read = read_keyframes(options, all.seconds);
     // Outputs are written after all frames are read, so the user would not notice that one replaces a frame.
     check_no_output_is("a frame of --surface " + options.surface, read.files, options);
     source.keyframes = std::move(read.keyframes);
-    all.files = std::move(read.files);
+    all.files.insert(all.files.end(), read.files.begin(), read.files.end());
   }
-  all.valves.push_back(std::move(source));
-  return all;
 }
 
 }  // namespace riis::program

@@ -28,7 +28,9 @@ struct Case {
 };
 
 // Returns the valve or the surface of the command line as a case. It has the opening and the time of the options, or their times
-// and cycle.
+// and cycle. Reads a surface only for a series, whose outputs must not replace its frames.
 Case case_of_command_line(const MarkOptions &options);
+// Reads the surfaces of the valves that are in files, as far as they are not read.
+void read_surfaces(Case &all);
 
 }  // namespace riis::program

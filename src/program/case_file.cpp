@@ -38,6 +38,7 @@ class CaseReader {
     const Json &valves = values.needed("valves");
     if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
     for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
+    read_surfaces(all_);
     return std::move(all_);
   }
 
@@ -240,17 +241,12 @@ class CaseReader {
     for (const char *key :
          {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
-    if (!is_motion_file(source.options.surface)) {
-      if (values.has("period")) values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
-      source.file = read_surface(source.options, all_.seconds);
-      return;
+    if (is_motion_file(source.options.surface)) {
+      if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
+      source.options.period = values.above_zero("period").value_or(0);
+    } else if (values.has("period")) {
+      values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
     }
-    if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
-    source.options.period = values.above_zero("period").value_or(0);
-    KeyframeFiles read = read_keyframes(source.options, all_.seconds);
-    check_no_output_is("a frame of --surface " + source.options.surface, read.files, source.options);
-    source.keyframes = std::move(read.keyframes);
-    all_.files.insert(all_.files.end(), read.files.begin(), read.files.end());
   }
 
   const std::string &path_;

@@ -264,10 +264,10 @@ CLI::Option *declare_case(Command &command, SeriesOptions &series) {
 // Excludes the options for which the case file contains its own values, as far as the command has them.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
-       {"--surface", "--leaflets",     "--valve",         "--opening",        "--params",         "--params-open",
-        "--set",     "--tolerance",    "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
-        "--unit",    "--surface-unit", "--rotate",        "--translate",      "--half-thickness", "--cycle",
-        "--period",  "--interpolation", "--prefix",       "--time",           "--skirt",          "--wall",
+       {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
+        "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
+        "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
+        "--period",  "--interpolation", "--prefix",        "--time",           "--skirt",          "--wall",
         "--warp"})
     if (command.knows(name)) command.option(name)->excludes(all_of_it);
 }

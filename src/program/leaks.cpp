@@ -108,7 +108,12 @@ void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const s
 
 MeshLeaks::MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                      const riis_valve *valve, std::string name)
-    : options_(options), mesh_(mesh), surface_(surface), valve_(valve), name_(std::move(name)), info_(info_of(surface)) {
+    : options_(options),
+      mesh_(mesh),
+      surface_(surface),
+      valve_(valve),
+      name_(std::move(name)),
+      info_(info_of(surface)) {
   resize(boxes_, view(mesh.files()).size());
   std::fill(boxes_.begin(), boxes_.end(), empty_box());
 }
@@ -161,8 +166,8 @@ void MeshLeaks::judge(ValveReport &report) {
   if (options_.check_leaks) return;
   if (leaks.found.n_edges > 0) {
     if (report.marks.complete)
-      leaks.closing_half_thickness = closing_half_thickness(valve_, leaks.found.half_thickness,
-                                                            [&](double wanted) { return left(wanted); });
+      leaks.closing_half_thickness =
+          closing_half_thickness(valve_, leaks.found.half_thickness, [&](double wanted) { return left(wanted); });
     warn_of_leaks(options_, leaks, name_, report.surface.half_thickness);
   }
   if (!leaks.has_all_edges())

@@ -131,7 +131,8 @@ MarkedFiles::MarkedFiles(const Case &all, const MeshPieces &mesh)
       is_series_(all.is_series()),
       is_whole_(mesh.is_whole()),
       is_foam_case_(is_series_ && program::is_foam_case(path_)),
-      steps_(is_foam_case_ ? "" : path_, is_whole_ ? ".vtu" : ".pvtu", is_series_ ? times_.size() : mesh.files().size()),
+      steps_(is_foam_case_ ? "" : path_, is_whole_ ? ".vtu" : ".pvtu",
+             is_series_ ? times_.size() : mesh.files().size()),
       pieces_(path_, ".vtu", is_series_ ? times_.size() : mesh.files().size()) {}
 
 void MarkedFiles::make_folder() const {

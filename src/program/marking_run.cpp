@@ -57,7 +57,8 @@ void check_one_time(const MarkOptions &options) {
 // Refuses --first-passage unless there is one valve that opens.
 void check_first_passage(const Case &all) {
   if (!all.options.first_passage) return;
-  if (!all.valves[0].valve) refuse_usage("--first-passage needs a valve; a surface from a file does not open");
+  if (!all.valves[0].options.surface.empty())
+    refuse_usage("--first-passage needs a valve; a surface from a file does not open");
   if (all.valves.size() > 1)
     refuse_usage("--first-passage takes one valve, because each of several may close the way of another");
 }
@@ -320,8 +321,8 @@ class MarkingRun {
   void set_arrays(riis_vtk_mesh *file) const {
     std::int64_t n_nodes = 0;
     check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
-    ResistanceSum resistance(n_nodes, has_velocities() ? ResistanceSum::WithVelocity::yes
-                                                       : ResistanceSum::WithVelocity::no);
+    ResistanceSum resistance(n_nodes,
+                             has_velocities() ? ResistanceSum::WithVelocity::yes : ResistanceSum::WithVelocity::no);
     for (const MovingValve &valve : valves_) {
       set_marks(valve.options(), valve.result(), fields(), file);
       resistance.add(valve.options(), valve.result());
@@ -564,8 +565,8 @@ class MarkingRun {
       files_.add(step);
       for (std::size_t i = 0; i < valves_.size(); ++i) {
         if (surfaces_.is_wanted()) surfaces_.add(times_[step], i, surfaces_.path_of(step, all_.part_of(i)));
-        report_.valves[i].times.push_back({times_[step], valves_[i].opening(), n_marked_[marked_at(step, i)],
-                                           valves_[i].largest_speed()});
+        report_.valves[i].times.push_back(
+            {times_[step], valves_[i].opening(), n_marked_[marked_at(step, i)], valves_[i].largest_speed()});
       }
       report_.seconds_of_steps.push_back(seconds_[step]);
     };
@@ -670,6 +671,7 @@ ExitCode run_case(Case &all) {
   }
   check_views(options, all.valves.size(), all.valves[0].options);
   const OutputLocks locks = check_outputs(options, all.files);
+  read_surfaces(all);
   MarkingRun run(all, mesh);
   if (run.run()) {
     write_report(options, run.report());

@@ -148,10 +148,7 @@ NodeKey PieceNodes::key(std::int64_t node) const {
 }
 
 Piece::Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole)
-    : number(its_number),
-      path(std::move(its_path)),
-      file(std::move(its_file)),
-      nodes(file.get(), path, how, is_whole) {
+    : number(its_number), path(std::move(its_path)), file(std::move(its_file)), nodes(file.get(), path, how, is_whole) {
   if (is_whole || nodes.n() > 0) mesh.emplace(file.get(), path);
 }
 

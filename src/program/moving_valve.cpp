@@ -13,8 +13,7 @@
 namespace riis::program {
 
 MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
-  is_at_rest_ =
-      !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
+  is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
   if (source.keyframes) source.options.time = time;
   if (source.valve) {
     if (moves) before_ = copy_of(source.valve.get());
@@ -27,9 +26,7 @@ MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_
   if (!moves) source.keyframes.reset();
 }
 
-std::optional<double> MovingValve::opening() const {
-  return source_.valve ? std::optional(opening_) : std::nullopt;
-}
+std::optional<double> MovingValve::opening() const { return source_.valve ? std::optional(opening_) : std::nullopt; }
 
 void MovingValve::set_time(double time, riis_valve *valve) {
   check(riis_valve_set_scalar(valve, "opening", source_.law.at(time)), subject());
@@ -39,8 +36,8 @@ void MovingValve::set_time(double time, riis_valve *valve) {
 void MovingValve::move_to(double time, std::optional<double> since) {
   if (is_at_rest_ && (!since || has_velocities_)) return;
   if (source_.keyframes) {
-    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time,
-                                             time - since.value_or(time), nullptr),
+    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time, time - since.value_or(time),
+                                             nullptr),
           options().surface);
     return;
   }

@@ -35,7 +35,7 @@ class MovingValve {
   const riis_surface *surface() const { return surface_.get(); }
   riis_marks *result() const { return result_.get(); }
   std::optional<double> opening() const;  // nothing for a surface from a file
-  double largest_speed() const;                // the largest speed of a vertex
+  double largest_speed() const;           // the largest speed of a vertex
   riis_mark_stats stats() const;
 
   std::optional<CrossingReport> crossings{};  // set if crossings were looked for

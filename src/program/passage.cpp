@@ -89,8 +89,7 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
   sets.to = &ends[1].node;
   riis_passage passage;
   const FileNodes::Lent lent(*piece.mesh);
-  const riis_status status =
-      riis_find_passage(surface, piece.mesh->mesh(), &sets, &how, &passage, sizeof passage);
+  const riis_status status = riis_find_passage(surface, piece.mesh->mesh(), &sets, &how, &passage, sizeof passage);
   for (const auto &[argument, name] :
        {std::pair<std::string, const char *>{"ends.from[0]", "FROM"}, {"ends.to[0]", "TO"}}) {
     const std::string text = riis_last_error();
@@ -118,8 +117,8 @@ void PassageCheck::add(const Piece &piece) {
       least = away;
     }
     if (found < 0) continue;
-    PieceEnd made{nodes.key(found), {0, 0, 0}, least, piece.mesh->longest_edge(found), piece.number, found,
-                  nodes.id(found)};
+    PieceEnd made{nodes.key(found), {0, 0, 0}, least,          piece.mesh->longest_edge(found),
+                  piece.number,     found,     nodes.id(found)};
     std::copy_n(nodes.point(found), 3, made.point);
     found_ends_[end].push_back(made);
   }
@@ -188,8 +187,7 @@ riis_first_passage PassageCheck::first_of(const riis_valve *valve) const {
     first.opening = first.closed_opening;
     return first;
   }
-  while (first.opening - first.closed_opening > how.tolerance)
-    is_open_at(0.5 * (first.closed_opening + first.opening));
+  while (first.opening - first.closed_opening > how.tolerance) is_open_at(0.5 * (first.closed_opening + first.opening));
   return first;
 }
 

@@ -167,7 +167,8 @@ std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<Mov
 
 }  // namespace
 
-RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box) : all_(all), mesh_(std::move(mesh)), box_(box) {
+RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box)
+    : all_(all), mesh_(std::move(mesh)), box_(box) {
   if (all.is_series()) nodes_.emplace(mesh_.get(), all.options.mesh);
   if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
 }
@@ -238,16 +239,14 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
   const UnbrokenWrite unbroken;
   riis_vtk_picture_options options = how(valves);
   options.title = title.c_str();
-  // Draws leaking edges in red. If there are none and the edges of all cells are known, the picture says so.
+  // Draws the leaking edges of a single valve in red. If there are none and the edges of all cells are known, the picture says so.
   static constexpr int64_t none = 0;
-  std::vector<int64_t> edges;
-  bool has_all_edges = mesh_ && !all_.is_series();
-  for (const ValveReport &valve : report.valves) {
-    if (!all_.is_series()) edges.insert(edges.end(), valve.leaks.edges.begin(), valve.leaks.edges.end());
-    has_all_edges = has_all_edges && valve.leaks.has_all_edges();
+  const LeakReport &leaks = report.valves[0].leaks;
+  if (valves.size() == 1 && mesh_ && !all_.is_series()) {
+    options.n_leaking_edges = leaks.found.n_edges;
+    options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
+    if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
   }
-  options.n_leaking_edges = view(edges).size() / 2;
-  if (!edges.empty() || has_all_edges) options.leaking_edges = edges.empty() ? &none : edges.data();
   check(riis_vtk_draw_views(surface, mesh_.get(), &options, view(paths).size(), views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());
   report.seconds.picture = stage.seconds();

@@ -206,10 +206,10 @@ void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
 }
 
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
-  out << std::fixed << std::setprecision(3) << line("seconds", "") << "read " << seconds.read << ", surface " << seconds.surface
-      << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency " << seconds.adjacency << ", search "
-      << seconds.search << ", leaks " << seconds.leaks << ", write " << seconds.write << ", picture " << seconds.picture
-      << "\n";
+  out << std::fixed << std::setprecision(3) << line("seconds", "") << "read " << seconds.read << ", surface "
+      << seconds.surface << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency "
+      << seconds.adjacency << ", search " << seconds.search << ", leaks " << seconds.leaks << ", write "
+      << seconds.write << ", picture " << seconds.picture << "\n";
 }
 
 void add_step(const StepTimes &step, std::ostringstream &out) {
@@ -265,9 +265,9 @@ std::string line_of_passage(const Report &report) {
 namespace {
 
 nlohmann::ordered_json json_of_seconds(const Seconds &seconds) {
-  return {{"read", seconds.read},       {"surface", seconds.surface},     {"scene", seconds.scene},
-          {"mesh", seconds.mesh},       {"adjacency", seconds.adjacency}, {"search", seconds.search},
-          {"leaks", seconds.leaks},     {"write", seconds.write},         {"picture", seconds.picture}};
+  return {{"read", seconds.read},   {"surface", seconds.surface},     {"scene", seconds.scene},
+          {"mesh", seconds.mesh},   {"adjacency", seconds.adjacency}, {"search", seconds.search},
+          {"leaks", seconds.leaks}, {"write", seconds.write},         {"picture", seconds.picture}};
 }
 
 void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {

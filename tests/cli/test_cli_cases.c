@@ -202,9 +202,10 @@ static void test_statistics(void **state) {
       "{\"name\": \"b\", \"valve\": \"aortic\", \"resistance\": 2}",
       "");
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--resistance", "7", "--search", "neighbor", "--stats", "-");
-  static const char *const keys[] = {"n_marked", "n_within_limit", "n_triangles", "area", "n_leaking_edges",
-                                     "effective_area"};
-  const char *const first = strstr(program_out, "\"name\": \"a\""), *const second = strstr(program_out, "\"name\": \"b\"");
+  static const char *const keys[] = {"n_marked", "n_within_limit",  "n_triangles",
+                                     "area",     "n_leaking_edges", "effective_area"};
+  const char *const first = strstr(program_out, "\"name\": \"a\""), *const second =
+                                                                        strstr(program_out, "\"name\": \"b\"");
   assert_true(first && second);
   for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
     assert_true(json_number(first, keys[i]) == json_number(single, keys[i]));
@@ -248,7 +249,8 @@ static void test_one_time_of_series(void **state) {
   static double one[n_box], two[n_box];
   scratch_write_text("beat.csv", "0,0\n0.2,1\n");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
-           scratch_path("beat.csv"), "--times", "0.1", "--output", scratch_path("single.pvd"), "--all-cells", "--quiet");
+           scratch_path("beat.csv"), "--times", "0.1", "--output", scratch_path("single.pvd"), "--all-cells",
+           "--quiet");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.5",
            "--output", scratch_path("half.vtu"), "--quiet");
   read_array(scratch_path("single/single_0000.vtu"), "riis_distance", one);
@@ -262,7 +264,8 @@ static void test_one_time_of_series(void **state) {
 static void test_checks(void **state) {
   (void)state;
   write_case(
-      "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"b\", \"valve\": \"trileaflet\", \"translate\": [0, 0, 0.5]}",
+      "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"b\", \"valve\": \"trileaflet\", \"translate\": [0, 0, "
+      "0.5]}",
       "\"check_leaks\": [0,0,-1.9, 0,0,1.9],");
   const char *file = scratch_path("case.json");
   RUN_FINE("check", "leaks", "--case", file);
@@ -463,10 +466,16 @@ static int make_heart(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_ramps),           cmocka_unit_test(test_example), cmocka_unit_test(test_one_time),
-      cmocka_unit_test(test_surface_at_rest), cmocka_unit_test(test_warp),    cmocka_unit_test(test_refused_cases),
-      cmocka_unit_test(test_refused_options), cmocka_unit_test(test_statistics),
-      cmocka_unit_test(test_statistics_of_series), cmocka_unit_test(test_one_time_of_series),
+      cmocka_unit_test(test_ramps),
+      cmocka_unit_test(test_example),
+      cmocka_unit_test(test_one_time),
+      cmocka_unit_test(test_surface_at_rest),
+      cmocka_unit_test(test_warp),
+      cmocka_unit_test(test_refused_cases),
+      cmocka_unit_test(test_refused_options),
+      cmocka_unit_test(test_statistics),
+      cmocka_unit_test(test_statistics_of_series),
+      cmocka_unit_test(test_one_time_of_series),
       cmocka_unit_test(test_checks),
   };
   return cmocka_run_group_tests(tests, make_heart, scratch_teardown);
