@@ -181,8 +181,9 @@ and so on, and beat.pvd, which ParaView plays. --surface-output does the same wi
 all times have the same triangles, so changes of the triangles cause no jumps of K.
 Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
 --resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the previous time. At the
-first time they are means over a step as long as the first one. A series of one time has no velocities. Without --all-cells the meshes have only the cells near the
-valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input, from 0. All times have the same cells.
+first time they are means over a step as long as the first one. A series of one time has no velocities. Without --all-cells
+the meshes have only the cells near the valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input,
+from 0. All times have the same cells.
 A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line
 then gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second
 behind the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
@@ -256,9 +257,9 @@ riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It 
 triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their intersections,
 and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that both only
 touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
-with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis mark checks only openings 0, 0.5 and 1, and only a
-valve whose shape is set by --set, --params, --params-open or a file. Then contacts of leaflets do not count, nor those of a
-housing with its hinges.
+with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis mark
+checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
+contacts of leaflets do not count, nor those of a housing with its hinges.
 )"},
     {"states", "what the table of riis states has",
      R"(

@@ -54,7 +54,8 @@ class MovingValve {
   bool is_at_rest_ = false, has_velocities_ = false;
 };
 
-// Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single node, so that bad ones are refused early.
+// Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
+// node, so that bad ones are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
 // In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those
