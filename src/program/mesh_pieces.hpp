@@ -71,8 +71,8 @@ struct NodeKey {
   bool operator==(const NodeKey &other) const { return a == other.a && b == other.b; }
 };
 
-// The nodes of one piece. In a whole mesh, all nodes are inside, and a key is the node's number. In a piece with global ids, a key
-// is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of the coordinates. Among a billion nodes two
+// The nodes of one piece. In a whole mesh, all nodes are inside, and a key is the node's number. In a piece with global ids, a
+// key is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of the coordinates. Among a billion nodes two
 // different ones have equal hashes with a probability below 1e-20.
 class PieceNodes {
  public:
