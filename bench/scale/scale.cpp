@@ -17,10 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "program/marking_in_pieces.hpp"
+#include "program/marking_run.hpp"
 #include "program/ranks.hpp"
 #include "program/report.hpp"
-#include "program/valve_source.hpp"
 
 namespace {
 
@@ -96,11 +95,8 @@ class File {
 // The pieces are boxes of side^3 nodes, and share their outer nodes.
 class GridPieces : public MeshPieces {
  public:
-  GridPieces(const std::string &folder, std::int64_t n_pieces, std::int64_t side)
-      : MeshPieces(folder + "/mesh.pvtu", files_in(folder, n_pieces)),
-        folder_(folder),
-        shape_(shape_of(n_pieces)),
-        side_(side) {
+  GridPieces(const MarkOptions &options, const std::string &folder, std::int64_t n_pieces, std::int64_t side)
+      : MeshPieces(options, files_in(folder, n_pieces)), folder_(folder), shape_(shape_of(n_pieces)), side_(side) {
     const std::int64_t most = *std::max_element(shape_.begin(), shape_.end()) * (side - 1);
     spacing_ = 6.0 / static_cast<double>(most);
   }
@@ -264,9 +260,7 @@ int run(int argc, char **argv) {
   std::string folder = std::string(scratch ? scratch : "/tmp") + "/riis-scale-XXXXXX";
   if (!mkdtemp(folder.data())) give_up(folder + " cannot be made");
   MarkOptions options;
-  GridPieces pieces(folder, n_pieces, side);
-  options.mesh = pieces.path();
-  options.pieces = pieces.files();
+  options.mesh = folder + "/mesh.pvtu";
   options.valve = "coapting";
   options.quiet = true;
   if (with_leaks) {
@@ -274,34 +268,37 @@ int run(int argc, char **argv) {
   } else {
     options.output = folder + "/marked.pvtu";
   }
-  Report report;
-  const riis::Valve valve = make_valve(options);
-  riis_surface *made = nullptr;
-  check(riis_surface_create(valve.get(), &options.surface_options, &made));
-  const riis::Surface surface(made);
-  check(riis_surface_get_info(made, &report.surface, sizeof report.surface));
-  pieces.half_thickness = report.surface.half_thickness;
-  if (with_leaks) {
+  Case all = case_of_command_line(options);
+  GridPieces pieces(all.options, folder, n_pieces, side);
+  {
+    riis_surface *made = nullptr;
+    check(riis_surface_create(all.valves[0].valve.get(), &options.surface_options, &made));
+    const riis::Surface surface(made);
+    const riis_surface_info info = info_of(made);
+    pieces.half_thickness = info.half_thickness;
     // Two points on the axis, below and above the valve, in the box.
     const double low = pieces.z_of(0), high = pieces.z_of(pieces.shape()[2] * (side - 1));
-    options.check_leaks = LeakCheck{{0, 0, std::max(report.surface.lower[2] - 0.3, low)},
-                                    {0, 0, std::min(report.surface.upper[2] + 0.3, high)},
-                                    "--between",
-                                    exit_wrong_usage};
+    if (with_leaks)
+      all.options.check_leaks = all.valves[0].options.check_leaks =
+          LeakCheck{{0, 0, std::max(info.lower[2] - 0.3, low)},
+                    {0, 0, std::min(info.upper[2] + 0.3, high)},
+                    "--between",
+                    exit_wrong_usage};
   }
-  mark_pieces(options, pieces, made, valve.get(), {}, report);
+  const Report report = mark_case(all, pieces);
+  const ValveReport &marked = report.valves[0];
   const double seconds = seconds_since(begin);
   std::filesystem::remove_all(folder);
   std::printf("pieces    %lld of %lld nodes (%lld x %lld x %lld), edges of %.4f cm, %.1f nodes across the band\n",
               static_cast<long long>(n_pieces), static_cast<long long>(side * side * side),
               static_cast<long long>(pieces.shape()[0]), static_cast<long long>(pieces.shape()[1]),
               static_cast<long long>(pieces.shape()[2]), pieces.spacing(),
-              2 * report.surface.half_thickness / pieces.spacing());
-  std::printf("mesh      %s nodes, %s cells\n", grouped(report.marks.n_nodes).c_str(), grouped(report.n_cells).c_str());
-  std::printf("marked    %s nodes\n", grouped(report.marks.n_marked).c_str());
+              2 * marked.surface.half_thickness / pieces.spacing());
+  std::printf("mesh      %s nodes, %s cells\n", grouped(marked.marks.n_nodes).c_str(), grouped(report.n_cells).c_str());
+  std::printf("marked    %s nodes\n", grouped(marked.marks.n_marked).c_str());
   if (with_leaks)
-    std::printf("%sregions   %lld\n", line_of_passage(report.leaks).c_str(),
-                static_cast<long long>(*report.flow.n_open_regions));
+    std::printf("%sregions   %lld\n", line_of_passage(report).c_str(),
+                static_cast<long long>(*marked.flow.n_open_regions));
   std::printf(
       "seconds   %.1f, of which processors worked %.1f: making %.1f, reading %.1f, marking %.1f, leaks and shared "
       "nodes %.1f, writing %.1f, checking "
@@ -309,9 +306,9 @@ int run(int argc, char **argv) {
       seconds, processor_seconds(), pieces.seconds_making, pieces.seconds_reading,
       report.seconds.mesh + report.seconds.search, report.seconds.leaks, report.seconds.write, pieces.seconds_checking);
   std::printf("memory    %.0f MB at most\n", peak_megabytes());
-  if (report.marks.n_nodes != pieces.n_nodes() || report.n_cells != pieces.n_cells())
+  if (marked.marks.n_nodes != pieces.n_nodes() || report.n_cells != pieces.n_cells())
     give_up("the mesh has other numbers of nodes or cells");
-  if (!with_leaks && (pieces.n_marked != report.marks.n_marked || pieces.n_wrong > 0))
+  if (!with_leaks && (pieces.n_marked != marked.marks.n_marked || pieces.n_wrong > 0))
     give_up("the files have " + std::to_string(pieces.n_marked) + " marks, of which " + std::to_string(pieces.n_wrong) +
             " are wrong");
   return 0;

@@ -38,13 +38,14 @@ class CaseReader {
     const Json &valves = values.needed("valves");
     if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
     for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
+    read_surfaces(all_);
     return std::move(all_);
   }
 
  private:
   void read_common(const CaseValues &values) {
     MarkOptions &options = all_.options;
-    if (options.mesh.empty()) options.mesh = file_of(values, "mesh");
+    if (options.mesh.empty() && !options.check_crossing) options.mesh = file_of(values, "mesh");
     if (options.mesh.empty() && options.needs_mesh)
       values.refuse("mesh", "it is missing, and no MESH is on the command line");
     options.unit = values.unit("unit");
@@ -54,7 +55,8 @@ class CaseReader {
     }
     const auto limit = values.above_zero("distance_limit");
     if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
-    options.resistance = values.at_least_zero("resistance");
+    const auto resistance = values.at_least_zero("resistance");
+    if (!options.resistance) options.resistance = resistance;
     if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
     if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
   }
@@ -239,18 +241,12 @@ class CaseReader {
     for (const char *key :
          {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
-    Seconds seconds;
-    if (!is_motion_file(source.options.surface)) {
-      if (values.has("period")) values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
-      source.file = read_surface(source.options, seconds);
-      return;
+    if (is_motion_file(source.options.surface)) {
+      if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
+      source.options.period = values.above_zero("period").value_or(0);
+    } else if (values.has("period")) {
+      values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
     }
-    if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
-    source.options.period = values.above_zero("period").value_or(0);
-    KeyframeFiles read = read_keyframes(source.options, seconds);
-    check_no_output_is("a frame of --surface " + source.options.surface, read.files, source.options);
-    source.keyframes = std::move(read.keyframes);
-    all_.files.insert(all_.files.end(), read.files.begin(), read.files.end());
   }
 
   const std::string &path_;

@@ -12,7 +12,8 @@
 
 namespace riis::program {
 
-// Reads the case file of --case. A mesh, times and a distance limit on the command line replace those in the file.
+// Reads the case file of --case. A mesh, times, a distance limit, a resistance and the points of --between on the command line
+// replace those in the file.
 Case read_case(const MarkOptions &options);
 
 // In: the opening of a valve in a case. Out: its law.

@@ -126,6 +126,8 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
     if (options.n_steps > 0) refuse_usage("--cells: --steps times marks of nodes");
     options.series.all_cells = true;  // centres have no parts
   }
+  if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
+    refuse_usage("--steps has no effect with --times and --case: it moves one valve by itself, step by step");
   if (has_case) return options;
   if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
   if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
@@ -145,6 +147,7 @@ MarkOptions finish_crossings(const Command &command, MarkOptions options) {
 }
 
 MarkOptions finish_leaks(const Command &command, MarkOptions options) {
+  if (options.mesh.empty() && options.series.case_file.empty()) refuse_usage("MESH is required");
   finish_valve(command, options);
   check_open_state_is_met(options, false);
   return options;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "program/leaks.hpp"
 #include "program/opening_law.hpp"
+#include "program/passage.hpp"
 #include "program/text.hpp"
 #include "program/valve_file.hpp"
 #include "program/valve_source.hpp"
@@ -256,6 +256,22 @@ void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpola
       ->needs(file);
 }
 
+CLI::Option *declare_case(Command &command, SeriesOptions &series) {
+  return command.text("--case", "FILE.json", "Valves, placements, cycles and times from a file (riis help cases)",
+                      series.case_file);
+}
+
+// Excludes the options for which the case file contains its own values, as far as the command has them.
+void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
+  for (const char *name :
+       {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
+        "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
+        "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
+        "--period",  "--interpolation", "--prefix",        "--time",           "--skirt",          "--wall",
+        "--warp"})
+    if (command.knows(name)) command.option(name)->excludes(all_of_it);
+}
+
 void declare_series(Command &command, MarkOptions &options) {
   SeriesOptions &series = options.series;
   command.group("Series in time, and several valves");
@@ -263,8 +279,7 @@ void declare_series(Command &command, MarkOptions &options) {
       command.value("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output then takes a .pvd",
                     [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
   declare_cycle(command, series.cycle, series.interpolation);
-  CLI::Option *const all_of_it = command.text(
-      "--case", "FILE.json", "Valves, placements, cycles and times from a file (riis help cases)", series.case_file);
+  CLI::Option *const all_of_it = declare_case(command, series);
   command.flag("--all-cells", "Write the whole mesh each time, not only the cells near the sweep", series.all_cells);
   command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
   CLI::Option *const movie =
@@ -274,15 +289,7 @@ void declare_series(Command &command, MarkOptions &options) {
              [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
       ->needs(movie);
   command.choice("--movie-view", "As --view (default oblique)", view_names, series.movie_view, "VIEW")->needs(movie);
-  // A case excludes these options, because the case file contains its own values for them.
-  for (const char *name :
-       {"--surface", "--leaflets",     "--valve",         "--opening",        "--params",         "--params-open",
-        "--set",     "--tolerance",    "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
-        "--unit",    "--surface-unit", "--rotate",        "--translate",      "--half-thickness", "--resistance",
-        "--cycle",   "--period",       "--interpolation", "--prefix",         "--time",           "--warp"})
-    command.option(name)->excludes(all_of_it);
-  for (const char *name : {"--steps", "--stats", "--search", "--distance", "--distance-tolerance"})
-    command.option(name)->excludes(all_of_it)->excludes(times);
+  exclude_by_case(command, all_of_it);
   command.option("--opening")->excludes(times);
   command.option("--time")->excludes(times);
 }
@@ -324,7 +331,9 @@ void declare_surface(Command command, MarkOptions &options) {
 
 void declare_crossings(Command command, MarkOptions &options) {
   options.check_crossing = true;
+  options.needs_mesh = false;
   declare_placed_valve(command, options);
+  exclude_by_case(command, declare_case(command, options.series));
   declare_threads(command, options);
   declare_stats(command, options);
   declare_loudness(command, options);
@@ -332,7 +341,7 @@ void declare_crossings(Command command, MarkOptions &options) {
 
 void declare_leaks(Command command, MarkOptions &options) {
   command.group("Mesh");
-  command.text("MESH", "FILE", mesh_help, options.mesh)->required();
+  command.text("MESH", "FILE", mesh_help, options.mesh);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
               [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
@@ -354,6 +363,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   command.group("Marking");
   declare_half_thickness(command, options);
   declare_search(command, options);
+  exclude_by_case(command, declare_case(command, options.series));
   command.group("Output");
   command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
   declare_stats(command, options);
@@ -387,15 +397,9 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
       command.value("--times", "START:STOP:STEP|T,T,...", "Times of a motion, in place of openings",
                     [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
   declare_cycle(command, series.cycle, series.interpolation);
-  CLI::Option *const all_of_it =
-      command.text("--case", "FILE.json", "Valves, placements, cycles and times from a file", series.case_file);
-  for (const char *name :
-       {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
-        "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
-        "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
-        "--period",  "--interpolation", "--time",          "--count",          "--skirt",          "--wall",
-        "--warp"})
-    command.option(name)->excludes(all_of_it);
+  CLI::Option *const all_of_it = declare_case(command, series);
+  exclude_by_case(command, all_of_it);
+  command.option("--count")->excludes(all_of_it);
   for (const char *name : {"--opening", "--time", "--count"}) command.option(name)->excludes(times);
 }
 

@@ -91,7 +91,7 @@ void warn_of_crossings(const ValveOptions &options, const CrossingReport &report
       is_one_leaflet ? "leaflet " + first + " crosses itself"
                      : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
   // place_text rounds by an edge's length. The mean length of a pair's intersection serves, because it is about that of an edge.
-  warn(part + who + at + ": " + counted(found.n_pairs, "pair") +
+  warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +
        place_text(options, found.deepest_point, found.total_length / static_cast<double>(found.n_pairs)) + advice);
@@ -132,18 +132,19 @@ Surface surface_at(riis_valve *valve, double opening, const riis_surface_options
 
 }  // namespace
 
-void look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
-                        Report &report) {
+CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
+                                  const std::string &part) {
   const Stage stage("looking for crossings", options.quiet);
-  CrossingReport &crossings = report.crossings.emplace();
+  CrossingReport crossings;
   const Valve copy = valve ? copy_of(valve) : nullptr;
   if (copy && !sets_opening(options) && can_open(options, copy.get())) {
     sweep_openings(options, copy.get(), crossings);
   } else {
-    crossings.opening = report.opening;
+    if (valve) crossings.opening = opening_of(valve);
     crossings.found = crossings_of(options, surface);
   }
-  if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings, "", "");
+  if (crossings.found.n_pairs > 0) warn_of_crossings(options, crossings, part, "");
+  return crossings;
 }
 
 std::optional<CrossingReport> check_shape(const ValveOptions &options, const riis_valve *valve, bool has_open_state,
@@ -164,8 +165,7 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
     const riis_crossing_list found = crossings_of(options, surface.get());
     if (found.deepest_depth <= depth_of_contacts(options, surface.get())) continue;
     report.found = found;
-    warn_of_crossings(options, report, part.empty() ? "" : part + ": ",
-                      "; change the sizes, and look at all openings by riis check crossings");
+    warn_of_crossings(options, report, part, "; change the sizes, and look at all openings by riis check crossings");
     return report;
   }
   return report.n_openings > 0 ? std::optional(report) : std::nullopt;

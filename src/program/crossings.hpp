@@ -13,13 +13,13 @@
 
 namespace riis::program {
 
-// Checks 101 openings if the valve can open and the user gave no opening. Otherwise checks the surface itself. Writes
-// report.crossings, and warns on stderr of a crossing. `valve` is null for a surface from a file.
-void look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
-                        Report &report);
+// Checks 101 openings if the valve can open and the user gave no opening. Otherwise checks the surface itself. Warns on stderr of
+// a crossing. `valve` is null for a surface from a file. If there are several valves, `part` begins the warning.
+CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve *valve, const riis_surface *surface,
+                                  const std::string &part);
 
 // Checks the openings 0, 0.5 and 1, as far as the valve can have them, and warns of a crossing. Does not check a default shape.
-// has_open_state tells whether the user chose the open state. If there are several valves, `part` begins the warning.
+// has_open_state tells whether the user chose the open state.
 std::optional<CrossingReport> check_shape(const ValveOptions &options, const riis_valve *valve, bool has_open_state,
                                           const std::string &part = "");
 

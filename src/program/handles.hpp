@@ -25,6 +25,11 @@ inline riis_triangles triangles_of(const riis_surface *surface) {
   check(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
   return triangles;
 }
+inline riis_surface_info info_of(const riis_surface *surface) {
+  riis_surface_info info{};
+  check(riis_surface_get_info(surface, &info, sizeof info));
+  return info;
+}
 inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
   riis_mark_list list{};
   check(riis_marks_get_list(marks, which, &list, sizeof list));

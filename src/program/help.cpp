@@ -40,6 +40,7 @@ riis help states explains the table.)"},
 riis help crossings explains what counts.)"},
     {"leaks", R"(Examples:
   riis check leaks mesh.vtu --valve mitral --opening 0 --between 0,0,2 0,0,-2
+  riis check leaks --case beating_valves.json
 riis help leaks explains what counts.)"},
     {"check", R"(Examples:
   riis check crossings --valve prosthesis.json
@@ -180,13 +181,16 @@ and so on, and beat.pvd, which ParaView plays. --surface-output does the same wi
 all times have the same triangles, so changes of the triangles cause no jumps of K.
 Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
 --resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the previous time. At the
-first time they are means over a step as long as the first one. Without --all-cells the meshes have only the cells near the
-valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input, from 0. All times have the same cells.
+first time they are means over a step as long as the first one. A series of one time has no velocities. Without --all-cells
+the meshes have only the cells near the valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input,
+from 0. All times have the same cells.
 A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line
 then gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second
 behind the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
 seconds for surface and marks. --picture draws the first time. --movie draws all times with one camera, and needs the program
-ffmpeg. The check for leaks runs at the time when the valve is least open. For --surface it runs at the first time.
+ffmpeg. The check for leaks runs at the time when the valve is least open. For --surface it runs at the first time. The numbers of
+--stats are those of this time, and "times" has the openings, marks and speeds of all times. An orifice is that of the largest
+opening.
 )"},
     {"cases", "several valves in one mesh, from a file",
      R"(
@@ -196,7 +200,8 @@ ffmpeg. The check for leaks runs at the time when the valve is least open. For -
  "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
             {"name": "aortic", "valve": "coapting",
              "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
-Paths are relative to the file. A MESH, --times and --distance-limit on the command line replace those in the file.
+Paths are relative to the file. A MESH, --times, --distance-limit, --resistance and --between on the command line replace those
+in the file. A valve's own "resistance" stays. riis check leaks, riis check crossings and riis size-field also take a case.
 A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a
 .pvd. Such a file may have a "period". A valve may have "parameters" and "open_parameters", each an object or a file, and
 "scale", "surface_unit", "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals",
@@ -211,7 +216,8 @@ With "times", and perhaps "period" and "interpolation", "targets" has an array o
 "sources" and "targets" of the open state. With "coordinates": "valve", landmarks are those of the valve before its placement.
 "check_leaks": [x,y,z, x,y,z] has two points, as riis check leaks --between (riis help leaks).
 If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
-the valves. Without times there is one mesh, --output marked.vtu.
+the valves. Without times there is one mesh, --output marked.vtu. With --stats, "valves" has an object for each of several
+valves, with the keys that a single valve has.
 )"},
     {"motion", "a surface from a file that moves",
      R"(
@@ -251,9 +257,9 @@ riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It 
 triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their intersections,
 and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that both only
 touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
-with --opening are checked as they are. The command needs no MESH. riis mark checks only openings 0, 0.5 and 1, and only a
-valve whose shape is set by --set, --params, --params-open or a file. Then contacts of leaflets do not count, nor those of a
-housing with its hinges.
+with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis mark
+checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
+contacts of leaflets do not count, nor those of a housing with its hinges.
 )"},
     {"states", "what the table of riis states has",
      R"(

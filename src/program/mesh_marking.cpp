@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "program/file_nodes.hpp"
 #include "program/handles.hpp"
-#include "program/mesh_reading.hpp"
 #include "program/progress.hpp"
 #include "program/refusal.hpp"
 #include "program/valve_source.hpp"
@@ -15,74 +16,10 @@
 
 namespace riis::program {
 
-MeshFile read_mesh(const MarkOptions &options, Seconds &seconds) {
-  const Stage stage("reading " + options.mesh, options.quiet);
-  MeshFile mesh = read_mesh_file(options.mesh);
-  if (options.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), options.mesh);
-  seconds.read += stage.seconds();
-  return mesh;
-}
-
-Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path) {
-  int64_t n_nodes = 0;
-  const double *xyz = nullptr;
-  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, &xyz));
-  riis_mesh *mesh = nullptr;
-  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), path);
-  return Mesh(mesh);
-}
-
 Marks new_result() {
   riis_marks *result = nullptr;
   check(riis_marks_create(&result));
   return Marks(result);
-}
-
-namespace {
-
-// Gives the mesh an adjacency. The mesh borrows it, so the caller must keep the returned object.
-Adjacency give_adjacency(const MarkOptions &options, const riis_vtk_mesh *file, riis_mesh *mesh, Seconds &seconds) {
-  const Stage stage("finding the nodes' neighbours", options.quiet);
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &handle), options.mesh);
-  Adjacency adjacency(handle);
-  riis_csr rows;
-  check(riis_adjacency_get_csr(adjacency.get(), &rows, sizeof rows));
-  check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
-  seconds.adjacency += stage.seconds();
-  return adjacency;
-}
-
-}  // namespace
-
-MarkedFile mark_file(const MarkOptions &options, const riis_surface *surface, riis_vtk_mesh *file, Seconds &seconds) {
-  MarkedFile marked;
-  {
-    const Stage stage("checking the nodes", options.quiet);
-    marked.mesh = borrow_nodes(file, options.mesh);
-    seconds.mesh += stage.seconds();
-  }
-  if (needs_adjacency(options.mark_options.search))
-    marked.adjacency = give_adjacency(options, file, marked.mesh.get(), seconds);
-  marked.marks = new_result();
-  {
-    const Stage stage("marking", options.quiet);
-    check(riis_mark_nodes(surface, marked.mesh.get(), &options.mark_options, marked.marks.get()), options.mesh);
-    seconds.search += stage.seconds();
-  }
-  check(riis_marks_get_stats(marked.marks.get(), &marked.stats, sizeof marked.stats));
-  set_marks(options, marked.marks.get(), 0, file);
-  ResistanceSum resistance(marked.stats.n_nodes, ResistanceSum::WithVelocity::no);
-  resistance.add(options, marked.marks.get());
-  resistance.set_arrays(options.prefix, file);
-  return marked;
-}
-
-NodeEdges::NodeEdges(const riis_vtk_mesh *file, int32_t n_threads) {
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_adjacency(file, n_threads, &handle));
-  adjacency_.reset(handle);
-  check(riis_adjacency_get_csr(adjacency_.get(), &rows_, sizeof rows_));
 }
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
@@ -180,93 +117,40 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void set_opening(riis_valve *valve, double opening) {
-  check(riis_valve_set_scalar(valve, "opening", opening), "--steps");
-}
-
-// A sequence of openings that goes up to 1, then down to 0, and so on. It may begin anywhere.
-class OpeningSteps {
- public:
-  explicit OpeningSteps(riis_valve *valve) { check(riis_valve_get(valve, "opening", 1, &opening_)); }
-  double opening() const { return opening_; }
-  double next() {
-    if (opening_ + change_ > 1 || opening_ + change_ < 0) change_ = -change_;
-    return opening_ = std::clamp(opening_ + change_, 0.0, 1.0);
-  }
-
- private:
-  double opening_ = 0, change_ = opening_of_step;
-};
-
-// Restores the valve's opening at the end, even if the steps end with an exception.
-class KeptOpening {
- public:
-  explicit KeptOpening(riis_valve *valve) : valve_(valve), opening_(OpeningSteps(valve).opening()) {}
-  ~KeptOpening() { riis_valve_set_scalar(valve_, "opening", opening_); }
-  KeptOpening(const KeptOpening &) = delete;
-  KeptOpening &operator=(const KeptOpening &) = delete;
-
- private:
-  riis_valve *valve_;
-  double opening_;
-};
-
-// A mesh with the data that the search needs.
-struct Steps {
-  Adjacency adjacency;  // declared first, so that it outlives the mesh that borrows it
-  Mesh mesh;
-  Surface surface;
-  Marks result;
-};
-
-Steps prepared(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
-  Steps steps;
-  int64_t n_nodes = 0;
-  const double *xyz = nullptr;
-  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, &xyz));
-  riis_mesh *mesh = nullptr;
-  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh), options.mesh);
-  steps.mesh.reset(mesh);
-  const int32_t search = options.mark_options.search;
-  if (search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER) {
-    riis_adjacency *adjacency = nullptr;
-    check(riis_vtk_mesh_create_adjacency(file, options.mark_options.n_threads, &adjacency), options.mesh);
-    steps.adjacency.reset(adjacency);
-    riis_csr rows;
-    check(riis_adjacency_get_csr(adjacency, &rows, sizeof rows));
-    check(riis_mesh_set_adjacency(mesh, &rows), options.mesh);
-  }
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &options.surface_options, &surface));
-  steps.surface.reset(surface);
-  riis_marks *result = nullptr;
-  check(riis_marks_create(&result));
-  steps.result.reset(result);
-  return steps;
-}
-
 }  // namespace
 
-StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_vtk_mesh *file) {
+StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
   const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
-  const Steps steps = prepared(options, valve, file);
-  const KeptOpening kept(valve);
-  OpeningSteps steps_of_opening(valve);
+  const riis_mark_options &how = options.mark_options;
+  FileNodes nodes(file, options.mesh);
+  std::optional<FileNodes::Lent> lent;
+  if (needs_adjacency(how.search)) {
+    nodes.find_neighbors(how.n_threads);
+    lent.emplace(nodes);
+  }
+  const Valve moved = copy_of(valve);
+  riis_surface *handle = nullptr;
+  check(riis_surface_create(moved.get(), &options.surface_options, &handle));
+  const Surface surface(handle);
+  const Marks result = new_result();
   std::vector<double> of_surface, of_marking;
+  // The opening goes up to 1, then down to 0, and so on.
+  double opening = opening_of(valve), change = opening_of_step;
   for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
+    if (opening + change > 1 || opening + change < 0) change = -change;
+    opening = std::clamp(opening + change, 0.0, 1.0);
     const auto begin = std::chrono::steady_clock::now();
-    set_opening(valve, steps_of_opening.next());
-    check(riis_surface_update(steps.surface.get(), valve, nullptr), "--steps");
+    check(riis_valve_set_scalar(moved.get(), "opening", opening), "--steps");
+    check(riis_surface_update(handle, moved.get(), nullptr), "--steps");
     const double updated = seconds_since(begin);
-    check(riis_mark_nodes(steps.surface.get(), steps.mesh.get(), &options.mark_options, steps.result.get()),
-          options.mesh);
+    check(riis_mark_nodes(handle, nodes.mesh(), &how, result.get()), options.mesh);
     const double marked = seconds_since(begin);
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);
     of_marking.push_back(marked - updated);
   }
   riis_mark_stats stats{};
-  check(riis_marks_get_stats(steps.result.get(), &stats, sizeof stats));
+  check(riis_marks_get_stats(result.get(), &stats, sizeof stats));
   return {options.n_steps, stats.search, median(of_surface), median(of_marking)};
 }
 

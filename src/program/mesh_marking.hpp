@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh, marks it for one valve, and makes its arrays. Runs at a single time and series share this code.
+// The options of a marking, and the arrays of a marked mesh.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -14,38 +14,7 @@
 
 namespace riis::program {
 
-MeshFile read_mesh(const MarkOptions &options, Seconds &seconds);
-// Makes a mesh from the nodes of the file. The file must outlive the mesh. `path` names the file in refusals.
-Mesh borrow_nodes(const riis_vtk_mesh *file, const std::string &path);
 Marks new_result();
-
-// A file whose nodes are marked. Its members are borrowed by later ones.
-struct MarkedFile {
-  Adjacency adjacency;  // null unless the search needs it
-  Mesh mesh;
-  Marks marks;
-  riis_mark_stats stats{};
-};
-// Marks the nodes of a file. Sets the arrays of the marks and of the resistance.
-MarkedFile mark_file(const MarkOptions &options, const riis_surface *surface, riis_vtk_mesh *file, Seconds &seconds);
-
-// The neighbours of each node of a file.
-class NodeEdges {
- public:
-  NodeEdges(const riis_vtk_mesh *file, int32_t n_threads);
-  const riis_csr *rows() const { return &rows_; }
-  template <class Visit>
-  void for_each_neighbor(int64_t node, const Visit &visit) const {
-    const auto *offsets = static_cast<const int64_t *>(rows_.offsets);
-    for (int64_t k = offsets[node]; k < offsets[node + 1]; ++k)
-      visit(rows_.column_bits == 64 ? static_cast<const int64_t *>(rows_.columns)[k]
-                                    : static_cast<const int32_t *>(rows_.columns)[k]);
-  }
-
- private:
-  Adjacency adjacency_;
-  riis_csr rows_{};
-};
 
 // Marks a single node. So the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
@@ -77,8 +46,8 @@ class ResistanceSum {
 
 // Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings.
 
-// Moves the opening back and forth between 0 and 1, and marks the nodes of the file after each step. Afterwards the valve has
-// its old opening. Other surfaces and marks do not change. Throws a Refusal for a valve that cannot move.
-StepTimes time_steps(const MarkOptions &options, riis_valve *valve, const riis_vtk_mesh *file);
+// Moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
+// Throws a Refusal for a valve that cannot move.
+StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file);
 
 }  // namespace riis::program

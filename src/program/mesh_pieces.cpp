@@ -10,15 +10,25 @@
 #endif
 
 #include "common/array_view.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/outputs.hpp"
+#include "program/progress.hpp"
 #include "program/ranks.hpp"
+#include "program/refusal.hpp"
 #include "program/text.hpp"
+#include "program/warnings.hpp"
 
 namespace riis::program {
 
-MeshPieces::MeshPieces(const std::string &path) : path_(path) {
+bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
+
+MeshPieces::MeshPieces(const MarkOptions &options) : options_(options), is_whole_(!is_in_pieces(options.mesh)) {
+  if (is_whole_) {
+    files_.push_back(options.mesh);
+    return;
+  }
   riis_vtk_pieces *list = nullptr;
-  check(riis_vtk_pieces_read(path.c_str(), &list));
+  check(riis_vtk_pieces_read(path().c_str(), &list));
   list_.reset(list);
   std::int64_t n = 0;
   const char *const *files = nullptr;
@@ -26,32 +36,56 @@ MeshPieces::MeshPieces(const std::string &path) : path_(path) {
   files_.assign(files, files + n);
 }
 
-std::vector<std::int64_t> MeshPieces::own() const {
-  std::vector<std::int64_t> own;
-  for (std::int64_t piece = ranks::rank(); piece < view(files_).size(); piece += ranks::n_ranks()) own.push_back(piece);
-  return own;
-}
+MeshPieces::~MeshPieces() = default;
 
 MeshFile MeshPieces::read(std::int64_t piece) const {
+  if (is_whole_) {
+    MeshFile mesh = read_mesh_file(path());
+    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), path());
+    return mesh;
+  }
   riis_vtk_mesh *mesh = nullptr;
   check(riis_vtk_pieces_read_mesh(list_.get(), piece, &mesh));
   return MeshFile(mesh);
 }
 
-void for_own_pieces(const MeshPieces &pieces, const std::function<void(std::int64_t)> &work) {
+void MeshPieces::finished(std::int64_t) const {}
+
+void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds) const {
+  for_wanted([](std::int64_t) { return true; }, work, seconds);
+}
+
+void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
+                            const std::function<void(Piece &)> &work, Seconds *seconds) const {
+  const auto read_piece = [&](std::int64_t number) {
+    const std::string &file_path = view(files_)[number];
+    const Stage stage("reading " + file_path, options_.quiet);
+    MeshFile file = read(number);
+    const double reading = stage.seconds();
+    auto piece = std::make_unique<Piece>(number, file_path, std::move(file), options_, is_whole_);
+    if (seconds) {
+      seconds->read += reading;
+      seconds->mesh += stage.seconds() - reading;
+    }
+    return piece;
+  };
   try {
-    for (const std::int64_t piece : pieces.own()) {
-      work(piece);
+    for (std::int64_t number = ranks::rank(); number < view(files_).size(); number += ranks::n_ranks()) {
+      if (!is_wanted(number)) continue;
+      if (is_whole_) {
+        if (!held_) held_ = read_piece(number);
+        work(*held_);
+        continue;
+      }
+      work(*read_piece(number));
+      if (seconds) finished(number);
       release_free_memory();
     }
   } catch (const Refusal &refusal) {
-    ranks::agree(&refusal);
+    if (ranks::n_ranks() > 1) ranks::agree(&refusal);
+    throw;
   }
 }
-
-void MeshPieces::finished(std::int64_t) const {}
-
-bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
 
 // ---- Nodes ----
 
@@ -77,8 +111,16 @@ std::uint64_t hash_of(const double *point, std::uint64_t seed) {
 
 }  // namespace
 
-PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path) {
-  check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, &xyz_));
+PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole)
+    : is_whole_(is_whole) {
+  check(riis_vtk_mesh_get_nodes(file, &n_, &counts_.n_cells, &xyz_));
+  if (is_whole_) {
+    // The neighbours of all centres are known.
+    std::int64_t *const n_left_out = how.at_cells ? nullptr : &counts_.n_cells_left_out;
+    check(riis_vtk_mesh_get_volume_cells(file, &counts_.n_volume_cells, n_left_out));
+    find_box();
+    return;
+  }
   role_.resize(static_cast<std::size_t>(n_));
   riis_status status = riis_vtk_mesh_get_sharing(file, n_, role_.data(), nullptr, &counts_, sizeof counts_);
   if (status == RIIS_FILE_ERROR) throw Refusal{exit_bad_data, path + ": " + riis_last_error()};
@@ -87,19 +129,95 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path) {
     ids_.resize(role_.size());
     check(riis_vtk_mesh_get_sharing(file, n_, role_.data(), ids_.data(), &counts_, sizeof counts_));
   }
+  find_box();
   if (std::find(role_.begin(), role_.end(), RIIS_VTK_NODE_GHOST) == role_.end()) return;
   mask_.resize(role_.size());
   std::transform(role_.begin(), role_.end(), mask_.begin(),
                  [](std::uint8_t role) { return static_cast<std::uint8_t>(role != RIIS_VTK_NODE_GHOST); });
 }
 
+void PieceNodes::find_box() {
+  for (std::int64_t i = 0; i < n_; ++i)
+    if (!is_ghost(i)) box_.grow(point(i));
+}
+
 NodeKey PieceNodes::key(std::int64_t node) const {
+  if (is_whole_) return {static_cast<std::uint64_t>(node), 0};
   const std::uint64_t first = hash_of(point(node), 0x243f6a8885a308d3);
   if (has_ids()) return {static_cast<std::uint64_t>(id(node)), first};
   return {first, hash_of(point(node), 0x13198a2e03707344)};
 }
 
+Piece::Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole)
+    : number(its_number), path(std::move(its_path)), file(std::move(its_file)), nodes(file.get(), path, how, is_whole) {
+  if (is_whole || nodes.n() > 0) mesh.emplace(file.get(), path);
+}
+
+// ---- Counts ----
+
+void MeshCounts::add(const Piece &piece) {
+  const PieceNodes &nodes = piece.nodes;
+  n_cells += nodes.counts().n_cells;
+  n_volume_cells += nodes.counts().n_volume_cells;
+  n_cells_left_out += nodes.counts().n_cells_left_out;
+  if (nodes.n() == 0) return;
+  ++n_with_nodes;
+  n_with_ids += nodes.has_ids();
+  for (std::int64_t i = 0; i < nodes.n(); ++i) n_nodes += nodes.is_inside(i);
+  box.grow(nodes.box());
+  MeshCounts edges;
+  check(riis_vtk_mesh_get_median_edge(piece.file.get(), &edges.median_edge));
+  if (edges.median_edge > 0) edges.n_edge_cells = static_cast<double>(nodes.counts().n_cells);
+  add(edges);
+}
+
+void MeshCounts::add(const MeshCounts &other) {
+  n_nodes += other.n_nodes;
+  n_cells += other.n_cells;
+  n_volume_cells += other.n_volume_cells;
+  n_cells_left_out += other.n_cells_left_out;
+  n_with_nodes += other.n_with_nodes;
+  n_with_ids += other.n_with_ids;
+  box.grow(other.box);
+  if (other.n_edge_cells == 0) return;
+  n_edge_cells += other.n_edge_cells;
+  median_edge += (other.median_edge - median_edge) * (other.n_edge_cells / n_edge_cells);
+}
+
+MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh) {
+  MeshCounts all;
+  for (const MeshCounts &counts : ranks::gather(std::vector<MeshCounts>{own})) all.add(counts);
+  if (all.n_with_nodes == 0) throw Refusal{exit_bad_data, mesh.path() + ": no piece holds points"};
+  if (all.n_with_ids != 0 && all.n_with_ids != all.n_with_nodes)
+    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " +
+                                     std::to_string(all.n_with_nodes) +
+                                     " pieces have global ids; all or none must have them"};
+  return all;
+}
+
+void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh) {
+  if (counts.n_with_nodes < 2 || matched.n_in_several > 0 || counts.n_volume_cells == 0) return;
+  warn("the pieces of " + mesh.path() +
+       " share no node, so nothing passes from one to another: nodes are the same if their global ids or all their "
+       "coordinates are equal");
+}
+
 // ---- Matching ----
+
+std::vector<SharedNode> shared_nodes_of(const Piece &piece, const std::vector<std::int64_t> &regions) {
+  const PieceNodes &nodes = piece.nodes;
+  std::vector<SharedNode> shared;
+  if (nodes.is_whole()) return shared;
+  std::int64_t n_shared = 0;
+  for (std::int64_t i = 0; i < nodes.n(); ++i) n_shared += nodes.is_shared(i);
+  shared.reserve(static_cast<std::size_t>(n_shared));
+  for (std::int64_t i = 0; i < nodes.n(); ++i) {
+    const std::int64_t region = regions.empty() ? -1 : view(regions)[i];
+    if (nodes.is_shared(i))
+      shared.push_back({nodes.key(i), static_cast<std::int32_t>(region), static_cast<std::int32_t>(piece.number)});
+  }
+  return shared;
+}
 
 namespace {
 
@@ -176,26 +294,38 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
   return all;
 }
 
+std::int64_t MatchedNodes::n_joins() const {
+  std::vector<PieceRegion> regions;
+  for (const auto &[p, q] : joined) regions.insert(regions.end(), {p, q});
+  sort_unique(regions);
+  const auto at = [&](const PieceRegion &region) {
+    return std::lower_bound(regions.begin(), regions.end(), region) - regions.begin();
+  };
+  DisjointSets sets(view(regions).size());
+  std::int64_t n = 0;
+  for (const auto &[p, q] : joined) n += sets.unite(at(p), at(q));
+  return n;
+}
+
 void LooseNodes::add(const PieceNodes &nodes) {
+  if (nodes.is_whole()) return;
   for (std::int64_t i = 0; i < nodes.n(); ++i)
     if (nodes.is_loose(i)) keys_.push_back(nodes.key(i));
 }
 
-void LooseNodes::check(const MeshPieces &pieces) const {
+void LooseNodes::check(const MeshPieces &mesh) const {
   std::vector<NodeKey> keys = ranks::gather(keys_);
   sort_unique(keys);
   if (keys.empty()) return;
   std::int64_t n = 0;
-  for_own_pieces(pieces, [&](std::int64_t piece) {
-    const MeshFile file = pieces.read(piece);
-    const PieceNodes nodes(file.get(), view(pieces.files())[piece]);
-    for (std::int64_t i = 0; i < nodes.n(); ++i)
-      n += nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), nodes.key(i));
+  mesh.for_each_own([&](const Piece &piece) {
+    for (std::int64_t i = 0; i < piece.nodes.n(); ++i)
+      n += piece.nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), piece.nodes.key(i));
   });
   std::int64_t sum = 0;
   for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
   if (sum > 0)
-    throw Refusal{exit_bad_data, pieces.path() + ": " + std::to_string(sum) +
+    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(sum) +
                                      " points are inside one piece, and another piece has them without a cell; "
                                      "write each piece with only the points of its own cells"};
 }

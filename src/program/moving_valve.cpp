@@ -7,66 +7,59 @@
 
 #include "common/array_view.hpp"
 #include "program/crossings.hpp"
-#include "program/leaks.hpp"
 #include "program/mesh_marking.hpp"
 #include "program/refusal.hpp"
 
 namespace riis::program {
 
-namespace {
-
-void set_opening_of(riis_valve *valve, double opening, const std::string &name) {
-  check(riis_valve_set_scalar(valve, "opening", opening), name);
-}
-
-}  // namespace
-
-MovingValve::MovingValve(ValveSource &source, double time) : source_(source), result_(new_result()) {
-  is_at_rest_ = !source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves()));
+MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
+  is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
   if (source.keyframes) source.options.time = time;
   if (source.valve) {
-    before_ = copy_of(source.valve.get());
+    if (moves) before_ = copy_of(source.valve.get());
     opening_ = source.law.at(time);
-    set_opening_of(source.valve.get(), opening_, subject());
-    if (source.warp.moves()) source.warp.apply(time, source.valve.get());
+    set_time(time, source.valve.get());
   }
   has_velocities_ = source.file != nullptr;
-  surface_ = make_surface(source, FileVelocity::zero);
+  surface_ = make_surface(source, moves ? FileVelocity::zero : FileVelocity::none);
+  source.file.reset();
+  if (!moves) source.keyframes.reset();
 }
 
-void MovingValve::move_to(double time) {
-  if (is_at_rest_) return;
-  if (source_.keyframes) return move_to(time, time);
-  opening_ = source_.law.at(time);
-  set_opening_of(source_.valve.get(), opening_, subject());
-  if (source_.warp.moves()) source_.warp.apply(time, source_.valve.get());
-  check(riis_surface_update(surface_.get(), source_.valve.get(), nullptr), subject());
-  has_velocities_ = false;
+std::optional<double> MovingValve::opening() const { return source_.valve ? std::optional(opening_) : std::nullopt; }
+
+void MovingValve::set_time(double time, riis_valve *valve) {
+  check(riis_valve_set_scalar(valve, "opening", source_.law.at(time)), subject());
+  if (source_.warp.moves()) source_.warp.apply(time, valve);
 }
 
-void MovingValve::move_to(double time, double since) {
-  if (is_at_rest_ && has_velocities_) return;
+void MovingValve::move_to(double time, std::optional<double> since) {
+  if (is_at_rest_ && (!since || has_velocities_)) return;
   if (source_.keyframes) {
-    const riis_keyframes *frames = source_.keyframes.get();
-    check(riis_surface_update_from_keyframes(surface_.get(), frames, time, time - since, nullptr), options().surface);
+    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time, time - since.value_or(time),
+                                             nullptr),
+          options().surface);
     return;
   }
+  if (since) set_time(*since, before_.get());
+  set_time(time, source_.valve.get());
   opening_ = source_.law.at(time);
-  set_opening_of(source_.valve.get(), opening_, subject());
-  set_opening_of(before_.get(), source_.law.at(since), subject());
-  if (source_.warp.moves()) {
-    source_.warp.apply(since, before_.get());
-    source_.warp.apply(time, source_.valve.get());
-  }
-  check(riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - since, nullptr, nullptr),
+  check(since ? riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - *since, nullptr,
+                                           nullptr)
+              : riis_surface_update(surface_.get(), source_.valve.get(), nullptr),
         subject());
-  has_velocities_ = true;
+  has_velocities_ = since.has_value();
 }
 
-void MovingValve::mark(const riis_mesh *mesh, int32_t fields) {
+void MovingValve::mark(FileNodes &nodes, int32_t fields) {
   riis_mark_options how = options().mark_options;
   how.fields = fields;
-  check(riis_mark_nodes(surface_.get(), mesh, &how, result_.get()), options().mesh);
+  std::optional<FileNodes::Lent> lent;
+  if (needs_adjacency(how.search)) {
+    nodes.find_neighbors(how.n_threads);
+    lent.emplace(nodes);
+  }
+  check(riis_mark_nodes(surface_.get(), nodes.mesh(), &how, result_.get()), options().mesh);
 }
 
 double MovingValve::largest_speed() const {
@@ -84,31 +77,19 @@ riis_mark_stats MovingValve::stats() const {
   return stats;
 }
 
-void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
-                       const riis_vtk_mesh *file) {
-  for (std::size_t i = 0; i < valves.size(); ++i) {
-    const MovingValve &valve = valves[i];
-    const std::string part = all.part_of(i);
-    Report report;
-    report.marks = valve.stats();
-    check(riis_surface_get_info(valve.surface(), &report.surface, sizeof report.surface));
-    look_for_leaks(valve.options(),
-                   {valve.surface(), valve.source().valve.get(), file, mesh, valve.result(),
-                    "the surface" + (part.empty() ? "" : " of " + part)},
-                   report);
-  }
-}
-
 std::vector<MovingValve> moving_valves(Case &all) {
-  const std::vector<double> &times = all.options.series.times;
   std::vector<MovingValve> valves;
   valves.reserve(all.valves.size());
   for (ValveSource &source : all.valves) {
     try {
-      valves.emplace_back(source, times.empty() ? 0 : times[0]);
+      valves.emplace_back(source, all.times()[0], all.is_series());
+      MovingValve &made = valves.back();
       const std::string part = all.part_of(valves.size() - 1);
-      if (source.valve) check_shape(source.options, source.valve.get(), source.has_open_state, part);
-      rehearse_marking(source.options, valves.back().surface());
+      if (all.options.check_crossing)
+        made.crossings = look_for_crossings(source.options, source.valve.get(), made.surface(), part);
+      else if (source.valve)
+        made.crossings = check_shape(source.options, source.valve.get(), source.has_open_state, part);
+      if (!all.options.mesh.empty()) rehearse_marking(source.options, made.surface());
     } catch (Refusal &refusal) {
       if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)
         refusal = {exit_bad_data, source.subject + ": " + refusal.text};

@@ -1,40 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// One valve of a series: its surface at the present time, with or without velocities, and its marks.
+// One valve of a run: its surface at the present time, with or without velocities, and its marks.
 #pragma once
 
 #include <riis/riis.h>
 #include <riis/riis_vtk.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "program/case.hpp"
+#include "program/file_nodes.hpp"
 #include "program/handles.hpp"
+#include "program/mesh_marking.hpp"
 #include "program/valve_source.hpp"
 
 namespace riis::program {
 
 class MovingValve {
  public:
-  // Borrows the source, and makes the surface at the given time.
-  MovingValve(ValveSource &source, double time);
+  // Borrows the source, and makes the surface at the given time. `moves` says whether it will have other times, and velocities.
+  MovingValve(ValveSource &source, double time, bool moves);
 
-  // Moves the surface to a time. The second form also computes mean velocities since the earlier time.
-  void move_to(double time);
-  void move_to(double time, double since);
-  // Marks with `fields`, a sum of RIIS_FIELD_*. For velocities, the last move must have used the second form of move_to.
-  void mark(const riis_mesh *mesh, int32_t fields);
+  // Moves the surface to a time. If an earlier time is given, also computes the mean velocities since then.
+  void move_to(double time, std::optional<double> since = std::nullopt);
+  // Marks with `fields`, a sum of RIIS_FIELD_*. Velocities need a last move with an earlier time.
+  void mark(FileNodes &nodes, int32_t fields);
+  // Forgets the last marks. Otherwise a search in another mesh would begin at their nodes.
+  void forget_marks() { result_ = new_result(); }
 
   const MarkOptions &options() const { return source_.options; }
   const ValveSource &source() const { return source_; }
   const riis_surface *surface() const { return surface_.get(); }
   riis_marks *result() const { return result_.get(); }
-  double opening() const { return opening_; }  // 0 for a surface from a file
-  double largest_speed() const;                // the largest speed of a vertex
+  std::optional<double> opening() const;  // nothing for a surface from a file
+  double largest_speed() const;           // the largest speed of a vertex
   riis_mark_stats stats() const;
 
+  std::optional<CrossingReport> crossings{};  // set if crossings were looked for
+
  private:
+  // Sets the opening and the warp of a time.
+  void set_time(double time, riis_valve *valve);
   // Returns the name for refusals.
   const std::string &subject() const { return source_.subject.empty() ? options().valve : source_.subject; }
 
@@ -46,12 +54,8 @@ class MovingValve {
   bool is_at_rest_ = false, has_velocities_ = false;
 };
 
-// Looks for leaks of each valve at its last marked position, among all nodes of the file. Warns on stderr.
-void look_for_leaks_of(const Case &all, const std::vector<MovingValve> &valves, riis_mesh *mesh,
-                       const riis_vtk_mesh *file);
-
-// Makes the valves of a case. In a series, the valves are at the series' first time. Tries each valve's options on a single node,
-// so that bad ones are refused early.
+// Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
+// node, so that bad ones are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
 // In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those

@@ -21,11 +21,11 @@
 #include <system_error>
 #include <vector>
 
+#include "program/marked_files.hpp"
 #include "program/mesh_reading.hpp"
 #include "program/pictures.hpp"
 #include "program/ranks.hpp"
 #include "program/refusal.hpp"
-#include "program/series_files.hpp"
 #include "program/text.hpp"
 #include "program/valve_file.hpp"
 #include "program/warnings.hpp"

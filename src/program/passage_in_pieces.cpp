@@ -10,8 +10,8 @@
 #include <map>
 
 #include "common/array_view.hpp"
-#include "program/marking_in_pieces.hpp"
 #include "program/mesh_marking.hpp"
+#include "program/passage.hpp"
 #include "program/ranks.hpp"
 #include "program/refusal.hpp"
 #include "program/text.hpp"
@@ -54,8 +54,9 @@ struct PlacedEnd {
 // Reduces one piece.
 class PieceWays {
  public:
-  PieceWays(std::int64_t piece, const PieceNodes &nodes, const NodeEdges &edges, const riis_mark_list &within)
-      : piece_(piece), nodes_(nodes), edges_(edges), sets_(nodes.n()) {
+  PieceWays(const Piece &piece, const riis_mark_list &within)
+      : piece_(piece.number), nodes_(piece.nodes), edges_(*piece.mesh), sets_(nodes_.n()) {
+    const PieceNodes &nodes = piece.nodes;
     resize(distance_, nodes.n());
     std::fill(distance_.begin(), distance_.end(), std::numeric_limits<double>::infinity());
     for (std::int64_t i = 0; i < within.n_nodes; ++i) view(distance_)[within.node_id[i]] = within.distance[i];
@@ -63,7 +64,7 @@ class PieceWays {
     for (std::int64_t i = 0; i < nodes.n(); ++i) view(is_open_)[i] = is_far(i) && !nodes.is_ghost(i);
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
       if (!view(is_open_)[i]) continue;
-      edges.for_each_neighbor(i, [&](std::int64_t j) {
+      edges_.for_each_neighbor(i, [&](std::int64_t j) {
         if (j < i && view(is_open_)[j]) sets_.unite(i, j);
       });
     }
@@ -124,7 +125,7 @@ class PieceWays {
 
   std::int64_t piece_;
   const PieceNodes &nodes_;
-  const NodeEdges &edges_;
+  const FileNodes &edges_;
   DisjointSets sets_;
   std::vector<double> distance_;  // infinite beyond the limit
   std::vector<std::uint8_t> is_open_;
@@ -168,8 +169,8 @@ class Ways {
   DisjointSets sets_{0};
 };
 
-PiecePassage passage_at(const PassageNode &node, double half_thickness, const PieceEnd (&ends)[2]) {
-  PiecePassage passage{{node.id, node.distance, {0, 0, 0}, 0, RIIS_PASSAGE_CLOSED, 0}, false};
+FoundPassage passage_at(const PassageNode &node, double half_thickness, const PieceEnd (&ends)[2]) {
+  FoundPassage passage{{node.id, node.distance, {0, 0, 0}, 0, RIIS_PASSAGE_CLOSED, 0}, false};
   std::copy_n(node.point, 3, passage.found.point);
   if (node.distance > half_thickness) passage.found.state = RIIS_PASSAGE_OPEN;
   for (const PieceEnd &end : ends) passage.is_end |= end.key == node.key;
@@ -177,19 +178,19 @@ PiecePassage passage_at(const PassageNode &node, double half_thickness, const Pi
 }
 
 // Refuses an end in the band.
-void check_end_is_open(const MarkOptions &options, const MeshPieces &pieces, const PieceEnd (&ends)[2],
+void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const PieceEnd (&ends)[2],
                        const PlacedEnd &placed, double half_thickness) {
   if (placed.node.distance > half_thickness) return;
   const PieceEnd &end = ends[placed.end];
   throw Refusal{options.check_leaks->exit_code,
                 options.check_leaks->subject + ": " + (placed.end == 0 ? "FROM" : "TO") + " is node " +
-                    std::to_string(end.id) + " of " + view(pieces.files())[end.piece] +
+                    std::to_string(end.id) + " of " + view(mesh.files())[end.piece] +
                     ", in the band: its distance to the surface, " + shortest(placed.node.distance) +
                     ", is at most the half thickness, " + shortest(half_thickness)};
 }
 
 // Returns nothing if the passage is wider than the limit.
-std::optional<PiecePassage> passage_within(const MarkOptions &options, const MeshPieces &pieces,
+std::optional<FoundPassage> passage_within(const MarkOptions &options, const MeshPieces &mesh,
                                            const riis_surface *surface, const PieceEnd (&ends)[2], double limit,
                                            double half_thickness) {
   riis_mark_options how = options.mark_options;
@@ -199,47 +200,43 @@ std::optional<PiecePassage> passage_within(const MarkOptions &options, const Mes
   std::vector<PlacedEnd> own_ends;
   std::vector<std::vector<SharedNode>> shared;
   int has_ids = 0;
-  for_own_pieces(pieces, [&](std::int64_t piece) {
-    const MeshFile file = pieces.read(piece);
-    const PieceNodes nodes(file.get(), view(pieces.files())[piece]);
-    if (nodes.n() == 0) return;
-    has_ids = nodes.has_ids();
-    const NodeEdges edges(file.get(), how.n_threads);
+  mesh.for_each_own([&](Piece &piece) {
+    if (!piece.mesh) return;
+    has_ids = piece.nodes.has_ids();
+    piece.mesh->find_neighbors(how.n_threads);
     const Marks marks = new_result();
-    const Mesh mesh = borrow_nodes(file.get(), view(pieces.files())[piece]);
-    check(riis_mark_nodes(surface, mesh.get(), &how, marks.get()));
+    check(riis_mark_nodes(surface, piece.mesh->mesh(), &how, marks.get()));
     const riis_mark_list within = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
-    PieceWays ways(piece, nodes, edges, within);
+    PieceWays ways(piece, within);
     for (int i = 0; i < 2; ++i) {
-      if (ends[i].piece != piece) continue;
+      if (ends[i].piece != piece.number) continue;
       ways.add_terminal(ends[i].node);
       own_ends.push_back({i, ways.place_of(ends[i].node), ways.passage_node(ends[i].node)});
     }
-    shared.push_back(shared_nodes_of(piece, nodes, ways.regions()));
+    shared.push_back(shared_nodes_of(piece, ways.regions()));
     ways.add_links(within, own_links);
   });
   std::vector<PlacedEnd> placed = ranks::gather(own_ends);
   std::sort(placed.begin(), placed.end(), [](const PlacedEnd &a, const PlacedEnd &b) { return a.end < b.end; });
   const std::vector<int> have_ids = ranks::gather(std::vector<int>{has_ids});
   const bool by_id = std::find(have_ids.begin(), have_ids.end(), 1) != have_ids.end();
-  const MatchedNodes matched = match_nodes(std::move(shared), by_id, pieces.files());
+  const MatchedNodes matched = match_nodes(std::move(shared), by_id, mesh.files());
   Ways ways(matched.joined, ranks::gather(own_links), placed);
-  for (const PlacedEnd &end : placed) check_end_is_open(options, pieces, ends, end, half_thickness);
+  for (const PlacedEnd &end : placed) check_end_is_open(options, mesh, ends, end, half_thickness);
   if (ways.are_joined()) {
     // The ends are one node, or there is a way beyond the limit.
     if (placed[0].place.is_region()) return std::nullopt;
     return passage_at(placed[0].node, half_thickness, ends);
   }
   if (const auto node = ways.open_until_joined()) return passage_at(*node, half_thickness, ends);
-  return PiecePassage{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}, false};
+  return FoundPassage{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}, false};
 }
 
 }  // namespace
 
-PiecePassage find_passage(const MarkOptions &options, const MeshPieces &pieces, const riis_surface *surface,
+FoundPassage find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                           const PieceEnd (&ends)[2]) {
-  riis_surface_info info;
-  check(riis_surface_get_info(surface, &info, sizeof info));
+  const riis_surface_info info = info_of(surface);
   // A path comes at least as near to the surface as its ends, and these are nearer than this.
   double farthest = 0;
   for (const PieceEnd &end : ends)
@@ -248,7 +245,7 @@ PiecePassage find_passage(const MarkOptions &options, const MeshPieces &pieces, 
   farthest = std::max(2 * farthest, 2 * info.half_thickness);
   double growth = 2;
   for (double limit = 2 * info.half_thickness;; limit = std::min(limit * growth, farthest)) {
-    if (const auto found = passage_within(options, pieces, surface, ends, limit, info.half_thickness)) return *found;
+    if (const auto found = passage_within(options, mesh, surface, ends, limit, info.half_thickness)) return *found;
     growth *= growth;
   }
 }

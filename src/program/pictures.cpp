@@ -48,34 +48,18 @@ bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve
   return true;
 }
 
-// Draws leaking edges in red. If there are none and the edges of all cells are known, the picture says so.
-void show_leaks(const LeakReport &leaks, riis_vtk_picture_options &how) {
-  static constexpr int64_t none = 0;
-  how.n_leaking_edges = leaks.found.n_edges;
-  how.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
-  if (how.n_leaking_edges == 0 && leaks.has_all_edges()) how.leaking_edges = &none;
-}
-
 // Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
 // scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
-const char *unit_of_mesh(const std::optional<Unit> &given, const ShownValves &valves) {
+const char *unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
   if (given) return name_of(*given);
   std::optional<Unit> told;
-  for (const ValveOptions *valve : valves) {
-    if (!valve->surface.empty() || is_valve_file(valve->valve)) continue;
-    const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve->surface_options.scale);
+  for (const MovingValve &valve : valves) {
+    if (!valve.options().surface.empty() || is_valve_file(valve.options().valve)) continue;
+    const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve.options().surface_options.scale);
     if (!reached || (told && *told != *reached)) return nullptr;
     told = reached;
   }
   return told ? name_of(*told) : nullptr;
-}
-
-// Sets the options that all pictures of a run have in common. Only a single valve has views by its axes.
-void set_mesh_of_pictures(const MarkOptions &options, const ShownValves &valves, riis_vtk_picture_options &how) {
-  const riis_surface_options &placement = valves.front()->surface_options;
-  how.unit = unit_of_mesh(options.unit, valves);
-  std::copy_n(placement.rotation_axis, 3, how.rotation_axis);
-  how.rotation_angle = placement.rotation_angle;
 }
 
 void check_view(const std::string &option, std::int32_t view, std::size_t n_valves, const ValveOptions &valve) {
@@ -113,7 +97,7 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
-std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report) {
+std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);
   if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
@@ -121,32 +105,7 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   return title;
 }
 
-void draw_pictures(const MarkOptions &options, const ShownValves &valves, const std::string &title,
-                   const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
-                   const riis_marks *result, Report &report) {
-  std::vector<int32_t> views;
-  std::vector<const char *> paths;
-  for (const Picture &picture : options.pictures) {
-    views.push_back(picture.view);
-    paths.push_back(picture.path.c_str());
-  }
-  const auto n_pictures = view(paths).size();
-  if (n_pictures == 0) return;
-  const Stage stage("drawing " + options.pictures[0].path + (n_pictures > 1 ? ", ..." : ""), options.quiet);
-  const UnbrokenWrite unbroken;
-  riis_vtk_picture_options how;
-  check(riis_vtk_picture_options_init(&how, sizeof how));
-  how.title = title.c_str();
-  how.leaflet_names = names.data();
-  how.n_leaflet_names = view(names).size();
-  set_mesh_of_pictures(options, valves, how);
-  if (result) show_leaks(report.leaks, how);
-  check(riis_vtk_draw_views(surface, mesh, &how, n_pictures, views.data(), paths.data()));
-  report.written.insert(report.written.end(), paths.begin(), paths.end());
-  report.seconds.picture = stage.seconds();
-}
-
-// ---- Series pictures ----
+// ---- Pictures of a run ----
 
 namespace {
 
@@ -187,9 +146,13 @@ struct JoinedMarks {
   std::vector<double> marked, distance, leaflet;
 };
 
-// Returns the names of all leaflets. Leaflets without names get their numbers.
+// Returns the names of all leaflets. Leaflets without names get their numbers, except those of a single file at one time.
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
+  if (valves.size() == 1 && !all.is_series()) {
+    for (const char *name : leaflet_names(valves[0].options())) texts.emplace_back(name);
+    return texts;
+  }
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
     const std::vector<const char *> names = leaflet_names(valves[valve].options());
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
@@ -204,59 +167,103 @@ std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<Mov
 
 }  // namespace
 
-SeriesPictures::SeriesPictures(const Case &all, MeshFile mesh, const Box &box)
-    : all_(all), mesh_(std::move(mesh)), nodes_(borrow_nodes(mesh_.get(), all.options.mesh)), box_(box) {
+RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box)
+    : all_(all), mesh_(std::move(mesh)), box_(box) {
+  if (all.is_series()) nodes_.emplace(mesh_.get(), all.options.mesh);
   if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
 }
 
-bool SeriesPictures::are_wanted(const MarkOptions &options) {
+bool RunPictures::are_wanted(const MarkOptions &options) {
   return !options.pictures.empty() || !options.series.movie.empty();
 }
 
-void SeriesPictures::set_marks_of(std::vector<MovingValve> &valves) {
-  int64_t n = 0;
-  check(riis_vtk_mesh_get_nodes(mesh_.get(), &n, nullptr, nullptr));
+// riis_vtk draws the arrays with the default names. The output, which may have other names, has its arrays in another mesh, or is
+// already written.
+void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
+  if (!mesh_) return;
+  if (all_.is_series())
+    for (MovingValve &valve : valves) valve.mark(*nodes_, 0);
+  if (valves.size() == 1) {
+    check(riis_vtk_mesh_set_marks(mesh_.get(), valves[0].result(), all_.options.far_distance, nullptr));
+    return;
+  }
+  const std::int64_t n = valves[0].stats().n_nodes;
   JoinedMarks marks(static_cast<std::size_t>(n));
   const std::vector<int32_t> first = first_leaflets(valves);
-  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    valves[valve].mark(nodes_.get(), 0);
-    marks.add(valves[valve].result(), first[valve]);
-  }
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) marks.add(valves[valve].result(), first[valve]);
   check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_marked", n, 1, marks.marked.data()));
   check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_distance", n, 1, marks.distance.data()));
   check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_leaflet", n, 1, marks.leaflet.data()));
 }
 
-std::string SeriesPictures::title(std::size_t step, const std::vector<MovingValve> &valves) const {
+std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const {
+  const MovingValve &first = valves[0];
+  if (valves.size() == 1 && !all_.is_series())
+    return picture_title(first.options(), first.source().valve.get(), report.valves[0]);
   const std::vector<double> &times = all_.options.series.times;
   const std::string time = times.empty() ? "" : fixed(times[step], decimals_of(times));
   if (valves.size() > 1) {
     std::string text = time.empty() ? "" : "Time " + time + ": ";
     for (std::size_t valve = 0; valve < valves.size(); ++valve)
       text += (valve > 0 ? ", " : "") + all_.part_of(valve) +
-              (valves[valve].source().valve ? " " + fixed(valves[valve].opening(), 2) : "");
+              (valves[valve].opening() ? " " + fixed(*valves[valve].opening(), 2) : "");
     return text;
   }
-  std::string text = title_of_valve(valves[0].options());
-  if (!time.empty()) text += ", time " + time;
-  return valves[0].source().valve ? text + ", opening " + fixed(valves[0].opening(), 2) : text;
+  const std::string text = title_of_valve(first.options()) + ", time " + time;
+  return first.opening() ? text + ", opening " + fixed(*first.opening(), 2) : text;
 }
 
-riis_vtk_film *SeriesPictures::film(const ShownValves &valves) {
-  if (film_) return film_.get();
+// Only a single valve has views by its axes, which the placement of the first valve gives.
+riis_vtk_picture_options RunPictures::how(const std::vector<MovingValve> &valves) const {
+  const riis_surface_options &placement = valves[0].options().surface_options;
   riis_vtk_picture_options how;
   check(riis_vtk_picture_options_init(&how, sizeof how));
-  how.view = all_.options.series.movie_view;
   how.leaflet_names = leaflet_names_.data();
   how.n_leaflet_names = view(leaflet_names_).size();
-  set_mesh_of_pictures(all_.options, valves, how);
+  how.unit = unit_of_mesh(all_.options.unit, valves);
+  std::copy_n(placement.rotation_axis, 3, how.rotation_axis);
+  how.rotation_angle = placement.rotation_angle;
+  return how;
+}
+
+void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const std::string &title,
+                                const riis_surface *surface, Report &report) {
+  std::vector<int32_t> views;
+  std::vector<const char *> paths;
+  for (const Picture &picture : all_.options.pictures) {
+    views.push_back(picture.view);
+    paths.push_back(picture.path.c_str());
+  }
+  if (paths.empty()) return;
+  const Stage stage(std::string("drawing ") + paths[0] + (paths.size() > 1 ? ", ..." : ""), all_.options.quiet);
+  const UnbrokenWrite unbroken;
+  riis_vtk_picture_options options = how(valves);
+  options.title = title.c_str();
+  // Draws the leaking edges of a single valve in red. If there are none, and the edges of all cells are known, the picture says
+  // so.
+  static constexpr int64_t none = 0;
+  const LeakReport &leaks = report.valves[0].leaks;
+  if (valves.size() == 1 && mesh_ && !all_.is_series()) {
+    options.n_leaking_edges = leaks.found.n_edges;
+    options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
+    if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
+  }
+  check(riis_vtk_draw_views(surface, mesh_.get(), &options, view(paths).size(), views.data(), paths.data()));
+  report.written.insert(report.written.end(), paths.begin(), paths.end());
+  report.seconds.picture = stage.seconds();
+}
+
+riis_vtk_film *RunPictures::film(const std::vector<MovingValve> &valves) {
+  if (film_) return film_.get();
+  riis_vtk_picture_options options = how(valves);
+  options.view = all_.options.series.movie_view;
   riis_vtk_film *film = nullptr;
-  check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &how, &film));
+  check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &options, &film));
   film_.reset(film);
   return film;
 }
 
-void SeriesPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Report &report) {
+void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Report &report) {
   if (step > 0 && !movie_) return;
   if (leaflet_names_.empty()) {
     leaflet_texts_ = leaflet_texts_of(all_, valves);
@@ -265,14 +272,12 @@ void SeriesPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Re
   set_marks_of(valves);
   const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
   const riis_surface *surface = joined ? joined.get() : valves[0].surface();
-  const std::string text = title(step, valves);
-  ShownValves shown;
-  for (const MovingValve &valve : valves) shown.push_back(&valve.options());
-  if (step == 0) draw_pictures(all_.options, shown, text, leaflet_names_, surface, mesh_.get(), nullptr, report);
-  if (movie_) check(riis_vtk_film_draw(film(shown), surface, text.c_str(), movie_->next_frame().c_str()));
+  const std::string text = title(step, valves, report);
+  if (step == 0) draw_pictures(valves, text, surface, report);
+  if (movie_) check(riis_vtk_film_draw(film(valves), surface, text.c_str(), movie_->next_frame().c_str()));
 }
 
-void SeriesPictures::encode(Report &report) {
+void RunPictures::encode(Report &report) {
   if (!movie_) return;
   const Stage stage("making " + all_.options.series.movie, all_.options.quiet);
   movie_->encode();

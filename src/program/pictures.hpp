@@ -26,20 +26,11 @@ std::string title_of_valve(const ValveOptions &options);
 
 // Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
 // other captions do.
-std::string picture_title(const ValveOptions &options, const riis_valve *valve, const Report &report);
+std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report);
 
 // Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
 // `valve` has the options of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
-
-// The options of the valves in a picture, at least one.
-using ShownValves = std::vector<const ValveOptions *>;
-
-// Draws options.pictures. `mesh` and `result` may be NULL. Leaks are shown only with `result`. The placement of the first valve
-// gives the valve's axes.
-void draw_pictures(const MarkOptions &options, const ShownValves &valves, const std::string &title,
-                   const std::vector<const char *> &names, const riis_surface *surface, const riis_vtk_mesh *mesh,
-                   const riis_marks *result, Report &report);
 
 // In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
 
@@ -65,29 +56,32 @@ class Movie {
   std::size_t n_frames_ = 0;
 };
 
-// Draws the pictures of a series at its first time, and its movie. Both show all valves as one surface, and their marks in the
-// whole mesh.
+// Draws the pictures of a run at its first time, and the movie of a series. Both show all valves as one surface, and their marks
+// in the whole mesh.
 
-class SeriesPictures {
+class RunPictures {
  public:
-  // The mesh gets the arrays that pictures show, so it must not be written to a file. `box` must contain the surfaces at all
-  // times.
-  SeriesPictures(const Case &all, MeshFile mesh, const Box &box);
+  // The mesh gets the arrays that pictures show, so it must not be written to a file. It may be null. `box` must contain the
+  // surfaces at all times.
+  RunPictures(const Case &all, MeshFile mesh, const Box &box);
   // Returns whether the user wants a picture or a movie.
   static bool are_wanted(const MarkOptions &options);
-  // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. The call
-  // changes their marks.
+  // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. In a
+  // series, the call changes their marks.
   void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
   void encode(Report &report);
 
  private:
   void set_marks_of(std::vector<MovingValve> &valves);
-  std::string title(std::size_t step, const std::vector<MovingValve> &valves) const;
-  riis_vtk_film *film(const ShownValves &valves);
+  std::string title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const;
+  riis_vtk_picture_options how(const std::vector<MovingValve> &valves) const;
+  void draw_pictures(const std::vector<MovingValve> &valves, const std::string &title, const riis_surface *surface,
+                     Report &report);
+  riis_vtk_film *film(const std::vector<MovingValve> &valves);
 
   const Case &all_;
   MeshFile mesh_;
-  Mesh nodes_;
+  std::optional<FileNodes> nodes_;
   Box box_;
   std::vector<std::string> leaflet_texts_;
   std::vector<const char *> leaflet_names_;  // point into leaflet_texts_

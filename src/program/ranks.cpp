@@ -54,6 +54,9 @@ Session::~Session() { MPI_Finalize(); }
 int rank() { return own_rank; }
 int n_ranks() { return number; }
 
+Alone::Alone() : n_ranks_(number) { number = 1; }
+Alone::~Alone() { number = n_ranks_; }
+
 void agree(const Refusal *failure) {
   if (number == 1) {
     if (failure) throw AgreedRefusal{*failure};
@@ -106,6 +109,9 @@ Session::~Session() = default;
 
 int rank() { return 0; }
 int n_ranks() { return 1; }
+
+Alone::Alone() : n_ranks_(1) {}
+Alone::~Alone() = default;
 
 void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};

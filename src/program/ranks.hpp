@@ -30,6 +30,19 @@ int n_ranks();
 // Only the first rank prints, and writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
+// While an object of this type lives, the first rank works alone: its exchanges and agreements are with itself. The other ranks
+// meanwhile wait in the agreement at the end of the program.
+class Alone {
+ public:
+  Alone();
+  ~Alone();
+  Alone(const Alone &) = delete;
+  Alone &operator=(const Alone &) = delete;
+
+ private:
+  int n_ranks_;
+};
+
 // A failure that all ranks know.
 struct AgreedRefusal {
   Refusal refusal;

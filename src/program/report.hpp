@@ -42,11 +42,10 @@ struct PassageReport {
 
 struct LeakReport {
   riis_leak_list found{};             // only its numbers are valid, not its pointers
-  std::vector<int64_t> edges;         // (2, found.n_edges)
+  std::vector<int64_t> edges;         // (2, found.n_edges), for a whole mesh
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found
   int64_t n_volume_cells = 0;
-  int64_t n_cells_left_out = 0;          // volume cells whose edges are not known
-  std::optional<PassageReport> passage;  // set if two points are checked
+  int64_t n_cells_left_out = 0;  // volume cells whose edges are not known
 
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
@@ -54,17 +53,11 @@ struct LeakReport {
 // Measures of the valve and the mesh that matter for a flow.
 struct FlowReport {
   std::optional<riis_orifice> orifice;        // set if the surface has an outline
+  std::optional<double> orifice_opening;      // set if the orifice has another opening than the marks
   std::optional<riis_cells_across> cells;     // set if the mesh's edges are known
   std::optional<int64_t> n_open_regions;      // set if the mesh's edges are known
   std::optional<riis_first_passage> first;    // set if the first passage was looked for
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
-};
-
-// The measures of a valve of a case.
-struct ValveFlow {
-  std::string name;               // "" for the only valve
-  std::optional<double> opening;  // the opening of the orifice; not set for a surface from a file
-  FlowReport flow;
 };
 
 struct CrossingReport {
@@ -73,24 +66,42 @@ struct CrossingReport {
   riis_crossing_list found{};     // only its numbers are valid, not its pointers
 };
 
-struct Report {
+// A valve at a time of a series.
+struct TimeReport {
+  double time;
+  std::optional<double> opening;  // not set for a surface from a file
+  int64_t n_marked;
+  double largest_speed;
+};
+
+// One valve of a run. In a series, the numbers are those of its least opening.
+struct ValveReport {
+  std::string name;               // the valve's name among several, or "" for the only one
   std::string surface_name;       // the valve's kind, or a file
   std::optional<double> opening;  // not set for a surface from a file
-  std::optional<double> time;     // set for a surface that moves
-  std::string mesh_name;          // "" if no mesh was marked
-  int64_t n_cells = 0;
-  double distance_limit = 0;
-  int32_t distance = RIIS_MEASURE_TRIANGLES;
-  int64_t n_leaflets = 0;  // number of leaflets that --leaflets found in a file; 0 if it is not printed
+  std::optional<double> time;     // set for a surface that moves, without a series
+  int64_t n_leaflets = 0;         // number of leaflets that --leaflets found in a file; 0 if it is not printed
   riis_surface_info surface{};
   std::optional<riis_gap> gap;  // set if a skirt reaches a wall
+  double distance_limit = 0;
+  int32_t distance = RIIS_MEASURE_TRIANGLES;
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
-  std::vector<ValveFlow> valve_flows;       // by valve, if a case has two points
-  bool prints_flow = false;                 // true if the table for people has the measures of the flow
   std::optional<CrossingReport> crossings;  // set if crossings were looked for
+  std::vector<TimeReport> times;            // the steps of a series that are complete
+};
+
+struct Report {
+  std::vector<double> times;  // empty without a series
+  std::string mesh_name;      // "" if no mesh was marked
+  int64_t n_cells = 0;
+  std::optional<int64_t> n_written;  // number of nodes in each file of a series, if they are only a part of the mesh
+  std::vector<ValveReport> valves;
+  std::optional<PassageReport> passage;  // set if two points are checked
+  bool prints_flow = false;              // true if the table for people has the measures of the flow
   Seconds seconds;
+  std::vector<double> seconds_of_steps;
   std::vector<std::string> written;  // paths of files
   std::optional<StepTimes> step;
 };
@@ -102,14 +113,15 @@ const char *outline_name(int32_t outline);
 // Returns a number with its noun in the singular or plural, such as "1 node".
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
-std::string surface_title(const Report &report);
+std::string surface_title(const ValveReport &report);
 // Returns a reason why leaks are unknown, such as "MESH has no volume cells". Returns "" if all edges of the mesh are known.
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
 // Returns the table's line about the passage, or "" if no points were checked.
-std::string line_of_passage(const LeakReport &leaks);
-// Returns the table's lines about the valves of a case, or "" if no points were checked.
-std::string lines_of_valve_flows(const Report &report);
+std::string line_of_passage(const Report &report);
 std::string json_of(const Report &report);
 std::string table_of(const Report &report);
+// Returns the table of a series, with a line for each complete step. The columns are time, opening, n_marked, largest_speed and
+// seconds. Each of several valves has its own columns, NAME_opening and so on.
+std::string csv_of(const Report &report);
 
 }  // namespace riis::program

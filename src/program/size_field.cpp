@@ -125,7 +125,7 @@ class SweptSurface {
   void add(double time) {
     valve_.move_to(time);
     // An opening that occurs again is skipped, because the valve has the same triangles there.
-    if (!valve_.source().keyframes && !openings_.insert(valve_.opening()).second) return;
+    if (!valve_.source().keyframes && !openings_.insert(valve_.opening().value_or(0)).second) return;
     const riis_triangles triangles = triangles_of(valve_.surface());
     const std::int64_t before = view(xyz_).size() / 3;
     xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
@@ -168,8 +168,7 @@ std::vector<Surface> swept_surfaces(std::vector<MovingValve> &valves, const std:
 
 // Returns the box around all points that are within reach of a surface.
 Box box_around(const std::vector<Surface> &surfaces, const std::vector<Edges> &edges) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Box box{{far, far, far}, {-far, -far, -far}};
+  Box box = empty_box();
   for (std::size_t at = 0; at < surfaces.size(); ++at) {
     riis_surface_info info;
     check(riis_surface_get_info(surfaces[at].get(), &info, sizeof info));

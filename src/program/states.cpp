@@ -218,14 +218,14 @@ constexpr double fair_change = 0.1;
 // Lengths and areas that differ by at most this share count as equal, since they differ by rounding.
 constexpr double same = 1e-9;
 
-using ValueOf = std::function<double(const State &)>;
+using StateValue = std::function<double(const State &)>;
 
 // Finds the states with the least and with the greatest value. Of equal states, finds the first.
 struct Extremes {
   const State *least, *most;
 };
 
-Extremes extremes_of(const States &states, const ValueOf &value) {
+Extremes extremes_of(const States &states, const StateValue &value) {
   const auto less = [&](const State &a, const State &b) { return value(a) < value(b); };
   const auto begin = states.states.begin(), end = states.states.end();
   return {&*std::min_element(begin, end, less), &*std::max_element(begin, end, less)};
@@ -242,7 +242,7 @@ std::string at_first(const States &states) {
   return at(states.states.front());
 }
 
-std::string ratios_of(const States &states, const ValueOf &value) {
+std::string ratios_of(const States &states, const StateValue &value) {
   const double closed = value(states.states.front());
   std::string text = shown(closed) + (states.is_of_file ? at_first(states) : " when closed");
   if (states.states.size() == 1) return text;
@@ -253,11 +253,11 @@ std::string ratios_of(const States &states, const ValueOf &value) {
          at(*most);
 }
 
-ValueOf edge_of(std::size_t leaflet) {
+StateValue edge_of(std::size_t leaflet) {
   return [=](const State &state) { return state.leaflets[leaflet].edge; };
 }
 
-ValueOf area_of_leaflet(std::size_t leaflet) {
+StateValue area_of_leaflet(std::size_t leaflet) {
   return [=](const State &state) { return state.leaflets[leaflet].area; };
 }
 
@@ -290,7 +290,7 @@ std::string text_of_orifice(const States &states) {
   if (states.disc.empty() && states.is_of_file) return "not measured: no closed line of open edges encloses an area";
   if (states.disc.empty())
     return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
-  const ValueOf value = [](const State &state) { return state.orifice->area; };
+  const StateValue value = [](const State &state) { return state.orifice->area; };
   std::string text = rounded(value(states.states.front())) + at_first(states);
   if (states.states.size() > 1) {
     const State *most = extremes_of(states, value).most;
@@ -301,7 +301,7 @@ std::string text_of_orifice(const States &states) {
 
 // Names the areas that the band leaves to the flow.
 std::string text_of_effective(const States &states) {
-  const ValueOf value = [](const State &state) { return state.orifice->effective_area; };
+  const StateValue value = [](const State &state) { return state.orifice->effective_area; };
   std::string text = rounded(value(states.states.front())) + at_first(states);
   if (states.states.size() > 1) {
     const State *most = extremes_of(states, value).most;

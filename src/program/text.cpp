@@ -150,6 +150,7 @@ std::vector<double> stepped(double start, double stop, double step, const std::s
   // The small additions keep rounding from losing the last step if the step divides the span.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
+  if (n < 2) refuse_times(subject, "the step " + shortest(step) + " is beyond the stop " + shortest(stop));
   std::vector<double> times;
   for (double i = 0; i < n; ++i) times.push_back(std::min(tidied(start + i * step, step), stop));
   return times;
@@ -179,8 +180,7 @@ void check_times(const std::vector<double> &times, const std::string &subject) {
       refuse_times(subject,
                    "the time " + shortest(times[i]) + " is not above the time before it, " + shortest(times[i - 1]));
   }
-  if (times.size() < 2)
-    refuse_times(subject, "a series has at least two times; without times --opening gives one state");
+  if (times.empty()) refuse_times(subject, "a series has one time or more");
 }
 
 // ---- CSV ----

@@ -72,7 +72,7 @@ inline constexpr std::size_t most_times = 100000;
 // refusals.
 std::vector<double> parse_times(const std::string &text, const std::string &subject);
 
-// Refuses times that do not ascend, fewer than two times, and more than most_times.
+// Refuses times that do not ascend, no times, and more than most_times.
 void check_times(const std::vector<double> &times, const std::string &subject);
 
 }  // namespace riis::program

@@ -22,16 +22,6 @@ Cause first_cause = Cause::leaks;  // the cause whose advice was printed
 // Smaller meshes are not judged, because all nodes of a small mesh may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;
 
-Box box_of(int64_t n_nodes, const double *xyz) {
-  Box box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
-  for (int64_t i = 0; i < 3 * n_nodes; ++i) {
-    const auto axis = i % 3;
-    box.lower[axis] = std::min(box.lower[axis], xyz[i]);
-    box.upper[axis] = std::max(box.upper[axis], xyz[i]);
-  }
-  return box;
-}
-
 // Returns a coordinate as text, rounded to a tenth of the edge or finer. It has no trailing zeros, and 0 has no sign.
 std::string coordinate_text(double x, double edge) {
   constexpr int most_digits = 17;  // the most digits of a double
@@ -102,19 +92,6 @@ Warning warning_of_places(const Situation &s) {
 }
 
 }  // namespace
-
-Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
-                       const riis_vtk_mesh *mesh) {
-  int64_t n_nodes = 0;
-  const double *xyz = nullptr;
-  check(riis_vtk_mesh_get_nodes(mesh, &n_nodes, nullptr, &xyz));
-  Situation situation{options, n_nodes, marks.n_marked, box_of(n_nodes, xyz),
-                      {},      0,       surface.area,   surface.half_thickness};
-  std::copy_n(surface.lower, 3, situation.surface.lower);
-  std::copy_n(surface.upper, 3, situation.surface.upper);
-  check(riis_vtk_mesh_get_median_edge(mesh, &situation.median_edge));
-  return situation;
-}
 
 std::optional<Warning> warning_of(const Situation &s) {
   const bool has_none = s.n_marked == 0 && !s.options.allow_none;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "program/box.hpp"
 #include "program/options.hpp"
 #include "program/sizes.hpp"
 
@@ -24,9 +25,6 @@ struct Situation {
   double area;         // area of the surface
   double half_thickness;
 };
-
-Situation situation_of(const MarkOptions &options, const riis_surface_info &surface, const riis_mark_stats &marks,
-                       const riis_vtk_mesh *mesh);
 
 // The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
 // cause leaks.

@@ -143,7 +143,8 @@ TEST(test_one_time) {
       "\"parameters\": \"more.json\"}",
       "\"resistance\": 3,");
   RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", out, "--surface-output", scratch_path("one.vtp"));
-  assert_non_null(strstr(program_out, "valve     a: opening 0.25, "));
+  assert_non_null(strstr(program_out, "surface   a: mitral valve, opening 0.25: "));
+  assert_non_null(strstr(program_out, "\nleaks     b: "));
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25",
            "--resistance", "5", "--prefix", "a", "--output", scratch_path("a1.vtu"), "--quiet");
   RUN_FINE("mark", scratch_path("a1.vtu"), "--valve", "aortic", "--half-thickness", "0.4", "--translate", "0,0,1",
@@ -165,6 +166,17 @@ TEST(test_one_time) {
   }
   assert_true(n_both > 0);
   assert_false(has_array(out, "riis_K_u_surface"));
+}
+
+static const char *text_of(const char *name) { return scratch_read(scratch_path(name), NULL); }
+
+/* Removes the values of the seconds, which differ from run to run. */
+static char *without_seconds(const char *name) {
+  char *text = scratch_read(scratch_path(name), NULL), *const begin = strstr(text, "\"seconds\"");
+  assert_non_null(begin);
+  char *const end = strchr(begin, '}');
+  memmove(begin, end, strlen(end) + 1);
+  return text;
 }
 
 /* A surface from a file is at rest beside moving valves. */
@@ -329,12 +341,110 @@ TEST(test_refused_options) {
   RUN_REFUSED(2, "--series-table needs times: ", "mark", "--case", file, "--series-table", scratch_path("a.csv"));
   RUN_REFUSED(2, "--all-cells needs times: ", "mark", "--case", file, "--all-cells");
   RUN_REFUSED(2, "--valve excludes --case", "mark", "--case", file, "--valve", "mitral");
-  RUN_REFUSED(2, "--resistance excludes --case", "mark", "--case", file, "--resistance", "1");
+  RUN_REFUSED(2, "--steps has no effect with --times and --case", "mark", "--case", file, "--steps", "2");
   RUN_REFUSED(2, "--half-thickness excludes --case", "mark", "--case", file, "--half-thickness", "1");
   RUN_REFUSED(2, "--prefix excludes --case", "mark", "--case", file, "--prefix", "x", "--output", "o.vtu");
-  RUN_REFUSED(2, "--stats excludes --case", "mark", "--case", file, "--stats", "-");
   RUN_REFUSED(2, "is also the file of MESH", "mark", "--case", file, "--output", scratch_path("in.vtu"), "--replace");
   RUN_REFUSED(2, "is also the file of --case", "mark", "--case", file, "--surface-output", scratch_path("case.json"));
+}
+
+/* A case of one valve gives the statistics of the same valve on the command line, and each valve of a case has the numbers that
+ * it has alone. */
+TEST(test_statistics) {
+  const char *mesh = scratch_path("in.vtu");
+  write_case("{\"valve\": \"mitral\", \"opening\": 0.25}", "");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--resistance", "7", "--search", "neighbor", "--output",
+           scratch_path("one.vtu"), "--stats", scratch_path("case_stats.json"), "--quiet");
+  RUN_FINE("mark", mesh, "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.25", "--resistance", "7",
+           "--search", "neighbor", "--output", scratch_path("single.vtu"), "--stats", scratch_path("stats.json"),
+           "--quiet");
+  char *const of_case = without_seconds("case_stats.json"), *const single = without_seconds("stats.json");
+  assert_string_equal(of_case, single);
+  assert_true(json_has_text(single, "search", "\"neighbor\""));
+  assert_true(scratch_is_same("one.vtu", "single.vtu"));
+  write_case(
+      "{\"name\": \"a\", \"valve\": \"mitral\", \"opening\": 0.25},"
+      "{\"name\": \"b\", \"valve\": \"aortic\", \"resistance\": 2}",
+      "");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--resistance", "7", "--search", "neighbor", "--stats", "-");
+  static const char *const keys[] = {"n_marked", "n_within_limit",  "n_triangles",
+                                     "area",     "n_leaking_edges", "effective_area"};
+  const char *const first = strstr(program_out, "\"name\": \"a\""), *const second =
+                                                                        strstr(program_out, "\"name\": \"b\"");
+  assert_true(first && second);
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i)
+    assert_true(json_number(first, keys[i]) == json_number(single, keys[i]));
+  assert_true(json_has_text(second, "valve", "\"aortic\""));
+  free(of_case);
+  free(single);
+}
+
+/* In a series, the statistics have an entry for each time, and the numbers of the least opening. */
+TEST(test_statistics_of_series) {
+  static const char *const openings[] = {"0.5", "0.25", "1"};
+  write_case(
+      "{\"name\": \"a\", \"valve\": \"mitral\", \"opening\": {\"times\": [0, 1, 2], \"openings\": [0.5, 0.25, 1]}},"
+      "{\"name\": \"b\", \"valve\": \"aortic\"}",
+      "\"times\": [0, 1, 2],");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--search", "clusters", "--stats", "-");
+  const char *const second = strstr(program_out, "\"name\": \"b\""), *time = strstr(program_out, "\"times\"");
+  assert_true(second && time && time < second);
+  assert_true(json_number(program_out, "opening") == 0.25);
+  double n_least = 0;
+  char *const out = strdup(program_out);
+  for (int i = 0; i < 3; ++i) {
+    time = strstr(out + (time - program_out) * (i == 0) + (i > 0) * (time - out), "\"time\": ");
+    assert_non_null(time);
+    RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", openings[i],
+             "--stats", scratch_path("stats.json"), "--quiet");
+    const char *const single = text_of("stats.json");
+    assert_true(json_number(time, "n_marked") == json_number(single, "n_marked"));
+    if (i == 1) n_least = json_number(single, "n_marked");
+    free((void *)single);
+    time += 8;
+  }
+  assert_true(json_number(out, "n_marked") == n_least);
+  free(out);
+}
+
+/* A series may have one time. Its mesh has the marks of that opening, and no velocities. */
+TEST(test_one_time_of_series) {
+  static double one[n_box], two[n_box];
+  scratch_write_text("beat.csv", "0,0\n0.2,1\n");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--cycle",
+           scratch_path("beat.csv"), "--times", "0.1", "--output", scratch_path("single.pvd"), "--all-cells",
+           "--quiet");
+  RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3", "--opening", "0.5",
+           "--output", scratch_path("half.vtu"), "--quiet");
+  read_array(scratch_path("single/single_0000.vtu"), "riis_distance", one);
+  assert_int_equal(read_array(scratch_path("half.vtu"), "riis_distance", two), n_box);
+  assert_memory_equal(one, two, n_box * sizeof *one);
+  assert_true(has_array(scratch_path("single/single_0000.vtu"), "riis_side"));
+  assert_false(has_array(scratch_path("single/single_0000.vtu"), "riis_velocity"));
+}
+
+/* riis check takes a case. Each valve of it has its own lines. */
+TEST(test_checks) {
+  write_case(
+      "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"b\", \"valve\": \"trileaflet\", \"translate\": [0, 0, "
+      "0.5]}",
+      "\"check_leaks\": [0,0,-1.9, 0,0,1.9],");
+  const char *file = scratch_path("case.json");
+  RUN_FINE("check", "leaks", "--case", file);
+  assert_non_null(strstr(program_out, "\npassage   "));
+  assert_non_null(strstr(program_out, "\nacross    a: "));
+  assert_non_null(strstr(program_out, "\norifice   b, opening 0: "));
+  assert_non_null(strstr(program_out, "\nleaks     b: "));
+  RUN_REFUSED(2, "--first-passage takes one valve", "check", "leaks", "--case", file, "--between", "0,0,-1.9",
+              "0,0,1.9", "--first-passage");
+  RUN_REFUSED(2, "--valve excludes --case", "check", "leaks", "--case", file, "--valve", "mitral");
+  RUN_FINE("check", "crossings", "--case", file, "--stats", "-");
+  assert_non_null(strstr(program_out, "\"name\": \"b\""));
+  assert_true(json_number(program_out, "n_openings") == 101);
+  RUN_FINE("check", "crossings", "--case", file);
+  assert_non_null(strstr(program_out, "\ncrossing  a: none: no triangles go through each other at 101 openings"));
+  assert_non_null(strstr(program_out, "\ncrossing  b: none"));
+  assert_null(strstr(program_out, "\nmesh "));
 }
 
 static int make_heart(void **state) {

@@ -140,7 +140,8 @@ static void expect_tall(const char *begins) {
 
 TEST(what_has_no_effect_is_refused) {
   RUN_REFUSED(2, "in.vtu is one argument too many", "check", "crossings", scratch_path("in.vtu"));
-  RUN_REFUSED(2, "--case is not an option", "check", "crossings", "--case", RIIS_EXAMPLES "/beating_valves.json");
+  RUN_REFUSED(2, "--valve excludes --case", "check", "crossings", "--case", RIIS_EXAMPLES "/beating_valves.json",
+              "--valve", "mitral");
   RUN_REFUSED(2, "--times is not an option", "check", "crossings", "--valve", "mitral", "--times", "0,1");
 }
 

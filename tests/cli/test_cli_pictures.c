@@ -224,8 +224,8 @@ TEST(test_cases) {
                     patient[] = "{\"name\": \"patient\", \"surface\": \"patient.vtp\"}";
   RUN_FINE("surface", "--valve", "trileaflet", "--translate", "0,0,-0.5", "--output", scratch_path("patient.vtp"));
   draw_case(aortic, patient);
-  assert_non_null(strstr(program_out, "\nvalve     aortic: opening 0.5, "));
-  const char *const line = strstr(program_out, "\nvalve     patient: ");
+  assert_non_null(strstr(program_out, "\nsurface   aortic: aortic valve, opening 0.5: "));
+  const char *const line = strstr(program_out, "\nmarked    patient: ");
   assert_non_null(line);
   assert_true(line[20] >= '1' && line[20] <= '9');
   RUN_REFUSED(2, "--view valve-side: there are 2 valves, each with axes of its own; side looks by the mesh's axes",

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of a series: one file for each time, in a folder, and next to the folder a .pvd file that lists them with their
-// times.
+// The files of a run: the marked mesh and the surfaces, at one time or at many, whole or in pieces, and the lists of these files.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +13,9 @@
 #include <vector>
 
 #include "program/case.hpp"
+#include "program/mesh_pieces.hpp"
 #include "program/moving_valve.hpp"
+#include "program/report.hpp"
 
 namespace riis::program {
 
@@ -29,7 +30,7 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, and a path that is a file.
   void check_folder() const;
-  // Makes the folder if it does not exist.
+  // Makes the folder if it is wanted and does not exist.
   void make_folder() const;
   // Returns the path of a step's file. If a step has several files, `part`, a valve's name, distinguishes them. Otherwise it is
   // "".
@@ -37,8 +38,10 @@ class SeriesFiles {
   // Adds a file to the list, once the file is complete.
   void add(double time, std::size_t part_number, const std::string &path);
   std::size_t n_written() const { return entries_.size(); }
-  // Writes the list of all complete files.
+  // Writes the list of all complete files, if there are some.
   void write_list() const;
+  // Adds the list to the report, if it is wanted.
+  void report(Report &report) const;
 
  private:
   struct Entry {
@@ -80,33 +83,41 @@ class SeriesLists {
   std::thread thread_;
 };
 
-// The table of a series in CSV, with a line for each time.
-
-// The columns are time, opening, n_marked, largest_speed and seconds. Each of several valves has its own columns, NAME_opening
-// and so on.
-class SeriesTable {
+// The files of the marked mesh. In a series, there is a file for each time. A mesh in pieces has a file for each piece, and a
+// .pvtu that lists those of a time.
+class MarkedFiles {
  public:
-  explicit SeriesTable(const Case &all);
-  void add(double time, const std::vector<MovingValve> &valves, double seconds);
-  // Takes the numbers of marked nodes, by valve, from the caller.
-  void add(double time, const std::vector<MovingValve> &valves, const std::vector<int64_t> &n_marked, double seconds);
-  const std::string &text() const { return text_; }
-  // Returns the largest number of marked nodes of any valve at any time.
-  int64_t most_marked() const;
-  // Returns a line for each valve, with its openings, marked nodes and speed.
-  std::string summary() const;
+  MarkedFiles(const Case &all, const MeshPieces &mesh);
+
+  bool is_wanted() const { return !path_.empty(); }
+  // Returns whether the files of a series are in a list.
+  bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
+  // Makes the folder of the files, if there is more than one file.
+  void make_folder() const;
+  void write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file);
+  // Adds a complete file of a whole mesh to the list of the series.
+  void add(std::size_t step);
+  // Writes a .pvtu for each time, after all ranks have written their pieces.
+  void list_pieces();
+  void write_list() const;
+  const std::string &folder() const { return steps_.folder(); }
+  // Adds what is written to the report.
+  void report(Report &report) const;
 
  private:
-  struct Range {
-    double least, most;
-    void add(double value);
+  // A file that a rank has written.
+  struct Written {
+    std::int64_t step, piece;
+    bool operator<(const Written &other) const { return std::tie(step, piece) < std::tie(other.step, other.piece); }
   };
-  struct Row {
-    std::string name;
-    Range opening, n_marked, speed;
-  };
-  std::string text_;
-  std::vector<Row> rows_;
+  std::string path_of(std::int64_t piece, std::size_t step) const;
+
+  const std::string path_;
+  const std::vector<double> times_;
+  const bool is_series_, is_whole_, is_foam_case_;
+  SeriesFiles steps_, pieces_;
+  std::vector<Written> written_;
+  PieceList sample_;  // with the arrays of this rank's first file that has nodes, if there is one
 };
 
 }  // namespace riis::program

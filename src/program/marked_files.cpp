@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/series_files.hpp"
+#include "program/marked_files.hpp"
 
 #include <unistd.h>
 
@@ -7,16 +7,16 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 #include <utility>
 
+#include "common/array_view.hpp"
 #include "common/xml_text.hpp"
+#include "program/mesh_reading.hpp"
 #include "program/outputs.hpp"
+#include "program/ranks.hpp"
 #include "program/refusal.hpp"
-#include "program/report.hpp"
 #include "program/text.hpp"
-#include "program/warnings.hpp"
 
 namespace riis::program {
 
@@ -39,6 +39,7 @@ void SeriesFiles::check_folder() const {
 }
 
 void SeriesFiles::make_folder() const {
+  if (!is_wanted()) return;
   check_folder();
   std::error_code error;
   std::filesystem::create_directory(folder_, error);
@@ -56,6 +57,7 @@ void SeriesFiles::add(double time, std::size_t part_number, const std::string &p
 }
 
 void SeriesFiles::write_list() const {
+  if (entries_.empty()) return;
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
       "<Collection>\n";
@@ -64,6 +66,10 @@ void SeriesFiles::write_list() const {
             "\" file=\"" + in_xml(entry.name) + "\"/>\n";
   }
   write_text(pvd_, text + "  </Collection>\n</VTKFile>\n");
+}
+
+void SeriesFiles::report(Report &report) const {
+  if (is_wanted()) report.written.push_back(pvd_ + ", " + counted(view(entries_).size(), "file") + " in " + folder_);
 }
 
 // ---- Series lists ----
@@ -117,71 +123,84 @@ void SeriesLists::stop() {
   thread_.join();
 }
 
-// ---- Series table ----
+// ---- Marked files ----
 
-namespace {
+MarkedFiles::MarkedFiles(const Case &all, const MeshPieces &mesh)
+    : path_(all.options.output),
+      times_(all.times()),
+      is_series_(all.is_series()),
+      is_whole_(mesh.is_whole()),
+      is_foam_case_(is_series_ && program::is_foam_case(path_)),
+      steps_(is_foam_case_ ? "" : path_, is_whole_ ? ".vtu" : ".pvtu",
+             is_series_ ? times_.size() : mesh.files().size()),
+      pieces_(path_, ".vtu", is_series_ ? times_.size() : mesh.files().size()) {}
 
-std::string from_to(const std::string &least, const std::string &most) {
-  return least == most ? least : least + " to " + most;
+void MarkedFiles::make_folder() const {
+  if (is_series_ || !is_whole_) steps_.make_folder();
 }
 
-}  // namespace
-
-void SeriesTable::Range::add(double value) {
-  least = std::min(least, value);
-  most = std::max(most, value);
+std::string MarkedFiles::path_of(std::int64_t piece, std::size_t step) const {
+  if (is_foam_case_) return foam_time(path_, times_[step]);
+  if (is_whole_) return is_series_ ? steps_.path_of(step, "") : path_;
+  if (!is_series_) return pieces_.path_of(static_cast<std::size_t>(piece), "");
+  const std::string digits = std::to_string(piece);
+  return pieces_.path_of(step, "p" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits);
 }
 
-SeriesTable::SeriesTable(const Case &all) : text_("time") {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  for (std::size_t valve = 0; valve < all.valves.size(); ++valve) {
-    const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + "_";
-    const MarkOptions &options = all.valves[valve].options;
-    text_ += "," + prefix + "opening," + prefix + "n_marked," + prefix + "largest_speed";
-    const std::string name = part.empty() ? (options.surface.empty() ? options.valve : options.surface) : part;
-    rows_.push_back({name, {far, -far}, {far, -far}, {far, -far}});
+void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file) {
+  if (!is_wanted()) return;
+  const std::string path = path_of(piece, step);
+  const UnbrokenWrite unbroken;
+  check(riis_vtk_mesh_write(file, path.c_str()));
+  if (is_whole_) return;
+  written_.push_back({static_cast<std::int64_t>(step), piece});
+  std::int64_t n_nodes = 0;
+  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
+  if (sample_ || n_nodes == 0) return;
+  const char *const name = path.c_str();
+  riis_vtk_pieces *list = nullptr;
+  check(riis_vtk_pieces_create(file, 1, &name, &list));
+  sample_.reset(list);
+}
+
+void MarkedFiles::add(std::size_t step) {
+  if (has_list() && is_whole_) steps_.add(times_[step], 0, steps_.path_of(step, ""));
+}
+
+void MarkedFiles::list_pieces() {
+  if (!is_wanted()) return;
+  std::vector<Written> written = ranks::gather(written_);
+  std::sort(written.begin(), written.end());
+  // The lists name the arrays of a file with nodes. The first rank that has such a file writes the lists.
+  const std::vector<int> have = ranks::gather(std::vector<int>{sample_ ? 1 : 0});
+  const bool is_writer = std::find(have.begin(), have.end(), 1) - have.begin() == ranks::rank();
+  const UnbrokenWrite unbroken;
+  for (auto next = written.begin(); next != written.end();) {
+    const auto step = static_cast<std::size_t>(next->step);
+    std::vector<std::string> files;
+    std::vector<const char *> names;
+    for (; next != written.end() && static_cast<std::size_t>(next->step) == step; ++next)
+      files.push_back(path_of(next->piece, step));
+    for (const std::string &file : files) names.push_back(file.c_str());
+    const std::string path = is_series_ ? steps_.path_of(step, "") : path_;
+    if (is_writer) {
+      check(riis_vtk_pieces_set_files(sample_.get(), view(names).size(), names.data()));
+      check(riis_vtk_pieces_write(sample_.get(), path.c_str()));
+    }
+    if (is_series_) steps_.add(times_[step], 0, path);
   }
-  text_ += ",seconds\n";
+  ranks::agree();
 }
 
-void SeriesTable::add(double time, const std::vector<MovingValve> &valves, double seconds) {
-  std::vector<int64_t> n_marked;
-  for (const MovingValve &valve : valves) n_marked.push_back(valve.stats().n_marked);
-  add(time, valves, n_marked, seconds);
-}
+void MarkedFiles::write_list() const { steps_.write_list(); }
 
-void SeriesTable::add(double time, const std::vector<MovingValve> &valves, const std::vector<int64_t> &n_marked,
-                      double seconds) {
-  text_ += shortest(time);
-  for (std::size_t i = 0; i < valves.size(); ++i) {
-    const double opening = valves[i].opening(), speed = valves[i].largest_speed();
-    text_ += "," + (valves[i].source().valve ? shortest(opening) : "") + "," + std::to_string(n_marked[i]) + "," +
-             shortest(speed);
-    if (valves[i].source().valve) rows_[i].opening.add(opening);
-    rows_[i].n_marked.add(static_cast<double>(n_marked[i]));
-    rows_[i].speed.add(speed);
-  }
-  text_ += "," + shortest(seconds) + "\n";
-}
-
-int64_t SeriesTable::most_marked() const {
-  double most = 0;
-  for (const Row &row : rows_) most = std::max(most, row.n_marked.most);
-  return static_cast<int64_t>(most);
-}
-
-std::string SeriesTable::summary() const {
-  std::string text;
-  for (const Row &row : rows_) {
-    // The line of a surface from a file shows no opening, because the surface has none.
-    const bool has_opening = row.opening.least <= row.opening.most;
-    text +=
-        "valve     " + row.name + ": " +
-        (has_opening ? "opening " + from_to(shown(row.opening.least), shown(row.opening.most)) + ", " : "") +
-        from_to(grouped(static_cast<int64_t>(row.n_marked.least)), grouped(static_cast<int64_t>(row.n_marked.most))) +
-        " nodes marked, largest speed " + shown(row.speed.most) + "\n";
-  }
-  return text;
+void MarkedFiles::report(Report &report) const {
+  if (is_foam_case_)
+    report.written.push_back(path_ + ", fields of " + counted(view(times_).size(), "time"));
+  else if (is_series_)
+    steps_.report(report);
+  else if (is_wanted())
+    report.written.push_back(path_);
 }
 
 }  // namespace riis::program
