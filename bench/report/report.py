@@ -648,7 +648,7 @@ def plot_left_out(data, name, title):
 
 
 def write_figures(data, folder):
-    """Writes the plots for the page of riis-figures, and plots.json, which has their texts and names the missing plots with
+    """Writes the plots for the page of figures, and plots.json, which has their texts and names the missing plots with
     reasons."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the cost of riis_adjacency_create_from_cells with its former loop (plain_adjacency.hpp).
+// Compares the cost of riis_adjacency_create_from_cells with its former loop.
 #pragma once
 
 #include <cstdint>

@@ -32,7 +32,12 @@ static int run(const char *program, const char *arguments) {
   return WEXITSTATUS(status);
 }
 
-static int run_program(const char *arguments) { return run(RIIS_FIGURES_PROGRAM, arguments); }
+static int run_program(const char *arguments) {
+  char all[4096];
+  const int n = snprintf(all, sizeof all, "-B '" RIIS_DRAW_PAGE "' '" RIIS_PROGRAMS "' %s", arguments);
+  assert_true(n > 0 && (size_t)n < sizeof all);
+  return run(RIIS_PYTHON, all);
+}
 
 /* Draws the page with a JSON file whose plots follow the figures. Returns the program's exit status. */
 static int run_with_plots(const char *name, const char *json) {
@@ -61,6 +66,11 @@ static int measure_states(void) {
 
 static int draw_page(void **state) {
   scratch_setup(state);
+  if (system("'" RIIS_PYTHON "' -c 'import matplotlib, vtkmodules' 2>/dev/null") != 0) {
+    puts("skipped: " RIIS_PYTHON " lacks matplotlib or VTK (Debian: python3-matplotlib, python3-vtk9)");
+    scratch_teardown(state);
+    exit(77);
+  }
   const char plots[] =
       "{\"figures\": [{\"title\": \"Costs\", \"columns\": 2, \"caption\": \"All of them.\", \"paper\": \"a table\", "
       "\"panels\":"

@@ -79,6 +79,8 @@ def main(folder):
         complaints.append(f"drawing.hpp has {len(palette)} colours, not 6")
     if colours_in(folder, "python/riis/_plot.py", r"\nCOLOURS = (\(.*?\))\n") != palette:
         complaints.append("the colours of python/riis/_plot.py are not those of drawing.hpp")
+    if colours_in(folder, "bench/figures/picture.py", r"\nPALETTE = (\(.*?\))\n") != palette:
+        complaints.append("the colours of bench/figures/picture.py are not those of drawing.hpp")
     if plots[:6] != palette:
         complaints.append("the colours of bench/report/report_text.py do not begin with those of drawing.hpp")
     for path, colours in examples.items():

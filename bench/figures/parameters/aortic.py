@@ -7,6 +7,7 @@ import bezier
 from sheet import BLUE, DARK, GREEN, GREY, NORMAL, PALE, PURPLE, SMALL, VERMILION, Sheet, along, distance, plain
 
 LEAFLET, BENDING, SINUS, SYMMETRY = VERMILION, BLUE, PURPLE, GREEN
+CUSPS = ("right", "left", "non_coronary")
 CUSP = "left"
 
 
@@ -201,14 +202,14 @@ def draw_placement(sheet, cusps):
 
 def draw_opening(sheet, aortic):
     panel = sheet.panel((9.95, 0.55), (4.95, 3.85), "e   Opening to the state of the last two parameters", (-0.35, -0.3), 0.43)
-    index = [cusp["name"] for cusp in aortic["cusps"]].index(CUSP)
-    states = aortic["openings"]
+    index = CUSPS.index(CUSP)
+    states = aortic["states"]
     ways, ends = [], []
     for state, color in zip(states, (DARK, GREY, PALE)):
-        symmetry = state["cusps"][index]["symmetry"]
+        symmetry = state["own_frames"][index]["symmetry"]
         panel.curve(symmetry, section, color, 2.2 if state["opening"] == 0 else 1.6)
         ways.append(section(symmetry[0][-1]))
-        ends.append(plan(state["cusps"][index]["leaflet"][0][0][-1]))
+        ends.append(plan(state["own_frames"][index]["leaflet"][0][0][-1]))
         panel.points(ways[-1], color=color, size=5)
         panel.note((ways[-1][0], ways[-1][1] + 0.07), plain(state["opening"]), color=color, ha="center", fontsize=NORMAL)
     sheet.check("opening", states[0]["opening"])
@@ -232,11 +233,16 @@ def draw(aortic):
     text = "Defaults; three values: right | left | non_coronary cusp. Curves and lengths: the left cusp at its defaults."
     sheet.text(0.30, 1 - 0.27 / 11.8, text, va="center")
     sheet.skirt(11.8)
-    cusp = next(each for each in aortic["cusps"] if each["name"] == CUSP)["own_frame"]
+    state = aortic["states"][0]
+    cusps = [
+        {"name": name, "own_frame": own, "placed": placed}
+        for name, own, placed in zip(CUSPS, state["own_frames"], state["cusps"])
+    ]
+    cusp = cusps[CUSPS.index(CUSP)]["own_frame"]
     draw_plan(sheet, cusp)
     draw_section(sheet, cusp)
-    draw_rotations(sheet, aortic["cusps"])
-    draw_placement(sheet, aortic["cusps"])
+    draw_rotations(sheet, cusps)
+    draw_placement(sheet, cusps)
     draw_opening(sheet, aortic)
     names = ("leaflet curve (free edge)", "bending curve", "sinus curve", "symmetry curve")
     legend = zip(names, (LEAFLET, BENDING, SINUS, SYMMETRY))

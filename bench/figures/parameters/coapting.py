@@ -113,7 +113,7 @@ def draw_opening(sheet, states):
     panel = sheet.panel((6.75, 0.75), (3.9, 3.5), "e   Symmetry curve at 0, 0.5, 1", (-0.35, -0.62), 0.6)
     ways = []
     for state, color in zip(states, (DARK, GREY, PALE)):
-        symmetry = state["own_frame"]["symmetry"]
+        symmetry = state["own_frames"][0]["symmetry"]
         panel.curve(symmetry, section, color, 2.2 if state["opening"] == 0 else 1.6)
         ways.append(section(symmetry[-1][-1]))
         panel.points(ways[-1], color=color, size=5)
@@ -123,7 +123,7 @@ def draw_opening(sheet, states):
     panel.line((0, -0.1), (0, 1.3), color=GREY, width=0.6, style=AXIS)
     panel.line((-0.2, 0), (1.5, 0), color=GREY, width=0.6)
     panel.label("opening", (0.9, 1.25), ways[1], value=f"{sheet.value_text('opening')}: closed, to 1: open")
-    own, placed = states[0]["own_frame"]["symmetry"][0][0], states[0]["cusps"][0]["symmetry"][0][0]
+    own, placed = states[0]["own_frames"][0]["symmetry"][0][0], states[0]["cusps"][0]["symmetry"][0][0]
     values = sheet.parameters["translation"]["values"]
     for measured, value in zip((a - b for a, b in zip(placed, own)), values):
         sheet.check("translation", measured, value)
@@ -155,7 +155,7 @@ def draw(coapting):
     sheet.text(0.33, 1 - 0.27 / 10.6, text, va="center")
     sheet.skirt(10.6)
     states = coapting["states"]
-    own = states[0]["own_frame"]
+    own = states[0]["own_frames"][0]
     draw_plan(sheet, own)
     draw_section(sheet, own)
     draw_zone(sheet, own)

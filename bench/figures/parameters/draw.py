@@ -3,7 +3,7 @@
 """Draws the meaning of every parameter of a valve, from the library's own curves at the default parameters.
 
 draw.py CURVES.json FOLDER [KIND...]: CURVES.json comes from riis-figures --curves. For these kinds of valve, or for all, the
-script writes KIND_parameters as .png and .svg into the folder. It also writes parameters.json, with which riis-figures puts
+script writes KIND_parameters as .png and .svg into the folder. It also writes parameters.json, with which draw_page.py puts
 the drawings on its page. It refuses a drawing that leaves a parameter out, shows a wrong value, or has labels that overlap."""
 
 import json
@@ -13,6 +13,7 @@ import sys
 import aortic
 import bileaflet
 import coapting
+import curves
 import mitral
 import sheet
 import trileaflet
@@ -40,13 +41,14 @@ def main(arguments):
     if len(arguments) < 2 or not set(arguments[2:]) <= set(MODULES):
         print(f"usage: draw.py CURVES.json FOLDER [{'|'.join(MODULES)}...]", file=sys.stderr)
         return 2
-    curves, folder, *kinds = arguments
-    with open(curves, encoding="utf-8") as file:
+    path, folder, *kinds = arguments
+    with open(path, encoding="utf-8") as file:
         valves = json.load(file)
     figures = []
     for valve in kinds or MODULES:
         try:
-            MODULES[valve].draw(valves[valve]).save(os.path.join(folder, f"{valve}_parameters"))
+            states = [curves.state_of(valve, state) for state in valves[valve]["states"]]
+            MODULES[valve].draw({**valves[valve], "states": states}).save(os.path.join(folder, f"{valve}_parameters"))
         except sheet.Refused as why:
             print(f"draw.py: {valve} valve: {why}", file=sys.stderr)
             return 1

@@ -82,7 +82,7 @@ def draw_opening(sheet, states):
     panel = sheet.panel((5.0, 0.55), (4.7, 3.4), title, (-0.35, -0.35), 0.52)
     ways = []
     for state, color in zip(states, (DARK, GREY, PALE)):
-        symmetry = state["own_frame"]["symmetry"]
+        symmetry = state["own_frames"][0]["symmetry"]
         panel.curve(symmetry, section, color, 2.2 if state["opening"] == 0 else 1.6)
         ways.append(section(symmetry[0][-1]))
         panel.points(ways[-1], color=color, size=5)
@@ -123,7 +123,7 @@ def draw(trileaflet):
     sheet.text(0.33, 1 - 0.27 / 10.6, text, va="center")
     sheet.skirt(10.6)
     states = trileaflet["states"]
-    own = states[0]["own_frame"]
+    own = states[0]["own_frames"][0]
     draw_plan(sheet, own)
     draw_section(sheet, own)
     draw_placement(sheet, own, states[0]["cusps"][0])
