@@ -13,8 +13,8 @@ heart_least_opening=0.35                                     # of the regurgitan
 #   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
 #   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
-#   --short has one beat in a coarse mesh. With --coupled the pressures of the flow open the valves, and the wall moves by its
-#   elastance. --resume goes on with a run that was cut off. It is left out like openfoam.
+#   --short has one beat in a coarse mesh. With --coupled, the pressures of the flow open the valves, and the wall moves by its
+#   elastance. --resume continues a run that was cut off. It is left out like openfoam.
 run_heart() {
   local python name of_keep=
   [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }

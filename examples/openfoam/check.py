@@ -174,8 +174,8 @@ def hexahedra(*ratios):
 
 
 def estimate(case):
-    """Returns what the plug-in's log says of the closed valve: its area in the mesh, its drop over (R / eps) u, and the factor
-    of K or 1."""
+    """Returns three numbers of the closed valve from the plug-in's log: its area in the mesh, its drop over (R / eps) u, and the
+    factor of K or 1."""
     log = foam.text(pathlib.Path(case) / "log.pimpleFoam")
     found = re.search(r"the closed valve has (\S+) m2 in the mesh, and is expected to drop (\S+) of \(R / eps\) u,"
                       r" u = flow / area(?:\. K is multiplied by (\S+))?", log)

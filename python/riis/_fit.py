@@ -40,7 +40,7 @@ _MOST_SCATTER = 0.05  # as a share of the valve's size, if no noise is stated
 
 
 class Rival(NamedTuple):
-    """Another fit, whose cost is similar but whose surface is not that of the best fit."""
+    """Another fit with a similar cost, but with another surface than the best fit."""
 
     parameters: dict[str, float]
     placement: dict[str, Any]

@@ -16,8 +16,8 @@ from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_r
 _N_ROTATIONS = 150
 # A start for a whole valve chooses a good one of this many valves with random sizes.
 _N_VALVES = 3
-# Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas
-# differ by at most this fraction.
+# Two ends are the same surface if their areas differ by at most this fraction, and if nine tenths of one surface lie near the
+# other. Near means within this fraction of the valve's size.
 _SAME = 0.02
 # A rough end whose cost for each point exceeds the least by this is not refined.
 _HOPELESS = 0.15
@@ -192,8 +192,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
     def begin() -> tuple[Pose, Reals] | None:
-        """Returns a random start. For a whole valve it is the one with the closest points among a few, because a start with
-        sizes far from the valve's ends at a wrong fit."""
+        """Returns a random start. For a whole valve the closest of a few valves is chosen, because a start with sizes far from
+        the true sizes leads to a wrong fit."""
         best = None
         for _ in range(_N_VALVES if problem.whole else 1):
             x, rotations = given.copy(), numpy.eye(3)[None]

@@ -402,8 +402,8 @@ def place(
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
     of the size of a heart valve in this unit. If landmarks are not at the nodes, the message says whether they would be with the
-    axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not go together, for a warp that
-    folds, and for a warp of a bileaflet valve, which is rigid.
+    axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not go together, for a folding
+    warp, and for any warp of a bileaflet valve, which is rigid.
     """
     if warp not in ("none", "exact", "smoothed"):
         raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")

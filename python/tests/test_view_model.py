@@ -293,7 +293,7 @@ def test_clicks_place_the_annulus(kind, unit, random):
 
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_clicks_anywhere_on_a_circle(kind, random):
-    """The circle through any three clicks becomes that of the annulus, on the side to which the axis points."""
+    """The circle through any three clicks becomes the annulus, and the axis points to its given side."""
     model = view.Model(numpy.zeros((1, 3)), unit="mm")
     i = model.add(kind)
     for _ in range(5):
