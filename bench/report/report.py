@@ -52,7 +52,7 @@ class Data:
         return times
 
     def run(self, name):
-        """Returns when, by which command and under which load a part was measured, or None if this is unknown."""
+        """Returns the time, the command and the load of a part's measurement, or None if they are unknown."""
         return ((self.machine or {}).get("runs") or {}).get(name)
 
     def run_values(self, name):

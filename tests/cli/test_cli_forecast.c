@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * `riis export FOLDER MESH`: the forecast of what svMultiPhysics will do. The test reads the exported files as the solver does,
- * and repeats each number of the forecast: distances by a loop over all triangles, shape functions by VTK, volumes of nodes in
- * closed form, and the drop by a dense matrix and elimination. */
+ * and repeats each number of the forecast. Distances come from a loop over all triangles, and shape functions from VTK. Volumes
+ * of nodes have a closed form, and the drop comes from a dense matrix and elimination. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 

@@ -434,7 +434,7 @@ TEST(folds_are_refused) {
   RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
 }
 
-/* The sizes that landmarks do not tell may not go together with those that they tell. */
+/* The sizes from landmarks may not go together with the other sizes. */
 TEST(sizes_that_do_not_go_together_are_named) {
   const char *path = json_of("a.json", "mm", 10, "LPS", 1, "");
   RUN_REFUSED(1,

@@ -93,8 +93,8 @@ static riis_reaction reaction_to(sums *to, const double *about, int64_t n_leafle
 /* --- Plates ---------------------------------------------------------------------------------------------------------- */
 
 /* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame. It has the leaflet 0 for a < 1 and the leaflet 3 for a > 1. Nodes are the centres
- * of cells with the side h. On each side of the plate lie n_layers layers of nodes. The sum of h K over the layers is therefore
- * exactly R / eps, and the sum over the cells of a layer integrates a linear function exactly. */
+ * of cells with the side h. On each side of the plate lie n_layers layers of nodes. So the sum of h K over the layers is exactly
+ * R / eps. The sum over the cells of a layer integrates a linear function exactly. */
 enum { n_layers = 5, n_long = 32, n_wide = 16 };
 static const double plate_length = 2, plate_width = 1, plate_h = 1.0 / 16, plate_eps = 5.0 / 16;
 

@@ -303,8 +303,8 @@ TEST(crowded_points_equal_single_queries) {
   }
 }
 
-/* The results of a single query are consistent: the point is on the triangle and at the distance, the normal is the
- * triangle's, and the side is the sign of the height. */
+/* The results of a single query are consistent. The point is on the triangle and at the distance, the normal is the triangle's,
+ * and the side is the sign of the height. */
 TEST(closest_is_consistent) {
   riis_surface *surface = aortic_surface(NULL);
   const double *xyz = triangles_of(surface).xyz;

@@ -187,8 +187,8 @@ TEST(leaflets_and_patches) {
   }
 }
 
-/* An edge of only one triangle lies on the annulus or on the free edge of an open valve, or else, up to rounding, inside
- * another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
+/* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Otherwise it lies, up to rounding,
+ * inside another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
 TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();

@@ -221,8 +221,8 @@ static double fastest_of_skirt(const riis_triangles *t) {
   return fastest;
 }
 
-/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length of the
- * attachment, and of the length of the line that lies outwards from it. Inside triangles the bound of velocities holds. */
+/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length of two
+ * lines: the attachment, and the line outwards from it. Inside triangles the bound of velocities holds. */
 TEST(skirts_have_the_velocity_of_their_points) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {

@@ -362,7 +362,7 @@ TEST(a_rigid_warp_equals_a_placement) {
 }
 
 /* Curves of warped valves against the map: ends, directions of end tangents, and how far the curve is from the mapped curve. A
- * curve that is not warped must be that of the plain valve. */
+ * curve that is not warped must equal the plain valve's curve. */
 static void evaluate(const double *control, int degree, double t, double *point) {
   double q[4][3];
   memcpy(q, control, (size_t)(degree + 1) * sizeof *q);
