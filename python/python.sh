@@ -137,8 +137,8 @@ view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-cor
 #   Shows a valve in a mesh, in a browser (docs/view.md), with the environment of ./run python.
 # ./run view --check
 #   Uses that page in Chromium without a window: it loads, moves, clicks landmarks, plays, writes and opens again, and gives bad
-#   input. It leaves a picture of each step in out/view, compares the marks with those of the copied command, and prints the time
-#   of a move, in five minutes. If there is no environment, as in ./run debian13 view --check, it first makes one.
+#   input. It leaves a picture of each step in out/view, compares the marks with the copied command's marks, and prints the time
+#   of a move. It takes five minutes. If there is no environment, as in ./run debian13 view --check, it first makes one.
 run_view() {
   if [[ ${1:-} != --check ]]; then
     python_needs_environment view

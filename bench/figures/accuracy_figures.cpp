@@ -163,7 +163,8 @@ Figure accuracy_figure() {
     const SmoothSurface smooth(patches);
     for (const Setting &setting : painted) {
       const MeasuredSurface surface(patches, setting.method, setting.tolerance);
-      // Minimisation is slow, and its errors vary over larger distances than those of sampling. Its cells are therefore larger.
+      // Minimisation is slow, and its errors vary over larger distances than the errors of sampling. Its cells are therefore
+      // larger.
       const double cell = setting.method == RIIS_MEASURE_MINIMIZATION ? 0.007 : 0.0035;
       const Painting painting = row == 1
                                     ? Painter(smooth, surface, 0.001).part(smooth.image_of(0), {0, 0.3}, {0.6, 0.9})

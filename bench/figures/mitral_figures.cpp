@@ -34,7 +34,7 @@ void name_annulus_points(Picture &picture, const Pieces &annulus, bool from_top)
   const std::size_t n = annulus.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t of_paper = annulus[1].first().x > annulus[0].first().x ? i : (n - i) % n;
-    // Seen from the side, points with x < 0 are hidden by those with x > 0.
+    // Seen from the side, points with x > 0 hide points with x < 0.
     if (!from_top && annulus[i].first().x < -1e-9) continue;
     const std::string name = "A" + std::to_string(of_paper);
     if (from_top)

@@ -404,7 +404,7 @@ void Flow::assemble(double time) {
     double volume = 0, mean_K = 0;
     for (unsigned int q = 0; q < n_q; ++q) volume += fe_values.JxW(q), mean_K += K[point + q] * fe_values.JxW(q);
     mean_K /= volume;
-    // In the band the pressure is steep. A grad-div term holds down what the pressure's error there does to the velocity.
+    // In the band the pressure is steep. A grad-div term limits the effect of the pressure's error there on the velocity.
     const double grad_div = parameters.grad_div * mean_K * std::pow(volume, 2. / 3);
 
     for (unsigned int q = 0; q < n_q; ++q, ++point) {

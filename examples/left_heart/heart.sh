@@ -118,8 +118,8 @@ heart_held() {
 }
 
 # heart_orifice VALVE [DISEASE]: the heart stands still, with the other valve open. The valve first opens without a pressure, and
-# the flow is what its leaflets displace. Then it takes one opening after the other between 12 and 0 mmHg. The flow and the
-# pressures give the area that each opening leaves, and the leak of the closed valve.
+# its leaflets displace the flow. Then it takes one opening after the other between 12 and 0 mmHg. The flow and the pressures
+# give the area that each opening leaves, and the leak of the closed valve.
 heart_orifice() {
   local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic

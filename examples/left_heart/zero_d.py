@@ -56,7 +56,7 @@ def atrial_elastance(t):
 
 
 class Orifice(typing.NamedTuple):
-    """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does.
+    """The area that a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never seals.
 
     It seals while its leak is less than 1.1 times the leak at opening 0.
     """

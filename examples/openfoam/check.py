@@ -184,7 +184,7 @@ def estimate(case):
 
 
 def expected(*cases):
-    """Compares the expected drops of closed flat leaflets in a duct with those of the solver, without calibration and with it."""
+    """Compares the expected drops of closed flat leaflets in a duct with the solver's drops, without calibration and with it."""
     print("A closed flat leaflet in a duct. Drops are over (R / eps) u. h is the cube root of the mean volume of a cell.")
     print(f"  {'cells':<10} {'leans':>5} {'eps / h':>8} {'dt, ms':>6} {'expected':>9} {'measured':>9} {'difference':>10}"
           f" {'factor':>7} {'calibrated':>10}")
@@ -362,7 +362,7 @@ def restart(whole, again, none, none_again):
 
 
 def model(*cases):
-    """Compares flows of the plug-in for the Foundation's OpenFOAM with those of riisValve and riisSource."""
+    """Compares flows of the plug-in for the Foundation's OpenFOAM with flows of riisValve and riisSource."""
     print("The plug-in for the Foundation's OpenFOAM with a stand-in for its fvModel, against riisValve and riisSource:")
     for case in cases:
         time, again = foam.times(case)[-1], f"{case}-model"
@@ -382,7 +382,7 @@ def nan(pressure, owner):
 
 
 def forces(case):
-    """Returns the time and the force of the flow on the valves in each step, (n, 4). The force is that of the last pressure
+    """Returns the time and the force of the flow on the valves in each step, (n, 4). The force comes from the last pressure
     corrector. The forces of several valves are added."""
     logs = sorted(pathlib.Path(case).glob("log.p*Foam"))
     if not logs:

@@ -54,7 +54,7 @@ END
   of_logged "$1" topoSet topoSet -case "$of_cases/$1"
 }
 
-# of_deforms NAME: lets the mesh deform, because the points of the inlet swing and those of the outlet rest. Landmarks of the
+# of_deforms NAME: lets the mesh deform, because the points of the inlet swing and the points of the outlet rest. Landmarks of the
 # valve follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six
 # digits.
 of_deforms() {

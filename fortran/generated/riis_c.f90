@@ -635,7 +635,7 @@ module riis_c
     real(c_double) :: translation(3)        !< mesh units
     real(c_double) :: rms                   !< root mean square of the residuals, mesh units
     real(c_double) :: worst                 !< the largest residual, mesh units
-    real(c_double) :: noise                 !< noise behind standard errors: that of the landmarks, or more if the
+    real(c_double) :: noise                 !< the noise for the standard errors: the landmarks' noise, or more if the
                                             !! residuals show more
     real(c_double) :: rotation_error        !< standard error of the rotation, degrees
     real(c_double) :: position_error        !< standard error of the place of the valve's origin, mesh units

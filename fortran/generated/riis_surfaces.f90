@@ -39,7 +39,7 @@ module riis_surfaces
   !! once. One thread may write it while no other reads it.
   !!
   !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays. Options that are passed to
-  !! an update replace those of the surface. Other options stay as they were.
+  !! an update replace the surface's options. Other options stay as they were.
   type :: riis_surface
     private
     type(c_ptr) :: handle = c_null_ptr

@@ -43,7 +43,7 @@ typedef struct riis_direction {
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
  *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
  * With the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md).
- * They are those of the triangles with every RIIS_MEASURE_*.
+ * They belong to the triangles with every RIIS_MEASURE_*.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
                                                 riis_direction *direction, int64_t struct_size);

@@ -71,8 +71,8 @@ enum {
  * filter_time 0.002 and dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused. So is that of the next field */
-  double closing_duration; /* time from open to closed, > 0 */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused */
+  double closing_duration; /* time from open to closed, > 0. Default NaN, which is refused */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
   double filter_time;  /* time constant of a filter of pressure difference and flow, >= 0. Default 0: no filter */

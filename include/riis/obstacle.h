@@ -60,8 +60,8 @@ typedef struct riis_reaction {
                                magnitude at most 1e60. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
                                leaflet needs an edge. NULL, the default: it counts for the nearest of all edges */
-  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. Distances are those of a
-                               node's closest point. If edges are equally near, the first one counts */
+  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. A node's distances are measured
+                               to its closest point. If edges are equally near, the first one counts */
   double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
 } riis_reaction;
 /* Fills *reaction with the defaults. */

@@ -69,7 +69,8 @@ typedef struct riis_placement {
   double translation[3];     /* mesh units */
   double rms;                /* root mean square of the residuals, mesh units */
   double worst;              /* the largest residual, mesh units */
-  double noise;              /* noise behind standard errors: that of the landmarks, or more if the residuals show more */
+  double noise;              /* the noise for the standard errors: the landmarks' noise, or more if the residuals show
+                                more */
   double rotation_error;     /* standard error of the rotation, degrees */
   double position_error;     /* standard error of the place of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */

@@ -31,8 +31,8 @@ RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy)
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
- *   name      such as "root_radius". A name such as "right.leaflet_angle" is that of one cusp ("right", "left",
- *             "non_coronary"), and "leaflet_angle" stands for all three
+ *   name      such as "root_radius". A name such as "right.leaflet_angle" means one cusp ("right", "left",
+ *             "non_coronary"), and "leaflet_angle" means all three
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range
  * Two parameters change the whole valve:
@@ -128,9 +128,9 @@ RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
-/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, the
- * arrays are those of riis_patches, and make the same shape. Trileaflet and aortic valves and valves from patches have
- * as many pieces as curves. */
+/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves,
+ * riis_patches has the same arrays, and they make the same shape. Trileaflet and aortic valves and valves from patches
+ * have as many pieces as curves. */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */

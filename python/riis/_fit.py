@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits a valve to points, such as those of a segmented image. It maximizes a likelihood of the distances to closest points."""
+"""Fits a valve to points, for example from a segmented image. It maximizes a likelihood of the distances to closest points."""
 
 from __future__ import annotations
 
@@ -67,7 +67,8 @@ class FitResult:
     singular_values: Reals  #: of the Jacobian (rows: points, columns: unknowns), descending, in units of the valve's size
     rms: float  #: root mean square of the residuals, with the weights below
     noise: float  #: standard deviation of the residuals of the points that are no outliers
-    misfit: float  #: the residuals' variance in parts of the valve, by that of independent points; large if the model is wrong
+    misfit: float  #: the residuals' variance in parts of the valve, divided by the variance of independent points; large if the
+                   #: model is wrong
     outliers: float  #: share of the points that are outliers
     covered: float  #: share of the fitted surface with points nearby
     percentile95: float  #: 95 % of all points have at most this distance

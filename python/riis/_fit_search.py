@@ -271,7 +271,8 @@ class Judge:
         scatter = max(mixture.noise, self.noise, pose.scale * surface.info.error_bound)
         n_spare = n_points - problem.n
         factor = n_points / (n_spare - 2.0) if n_spare > 3.0 else n_points  # the variance of Student's distribution
-        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # each unknown is known to within its range
+        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # the data determine each unknown to within its
+                                                                               # range
         covariance = numpy.linalg.inv(precision)
         # If residuals are alike within parts of the valve, the points are not independent and count as fewer.
         n_parts = int(min(_N_PARTS, n_points / 8.0))

@@ -56,7 +56,7 @@ class PlaceResult:
     rms: float  #: root mean square of the residuals
     worst: float  #: the largest residual
     worst_landmark: str  #: its landmark
-    noise: float  #: on which standard errors rest: that of the landmarks, or more if the residuals show it
+    noise: float  #: for the standard errors: the landmarks' noise, or more if the residuals show it
     rotation_error: float  #: standard error of the rotation, degrees
     position_error: float  #: standard error of the place of the valve's origin
     standard_errors: dict[str, float]  #: of the parameters that the landmarks bear on

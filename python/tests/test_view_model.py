@@ -116,7 +116,7 @@ def faces_alone(cells, faces):
 
 
 def test_the_wall_is_the_boundary(small, random):
-    """The wall of tetrahedra with a hole inside, and of hexahedra, with normals outwards: its volume is that of the cells."""
+    """The wall of tetrahedra with a hole inside, and of hexahedra, has normals outwards. It encloses the volume of the cells."""
     points, tetrahedra = small
     n = 5
     axis = numpy.linspace(-1.0, 1.0, n)

@@ -371,7 +371,7 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
   return scratch_path("points.json");
 }
 
-/* What a person gets wrong at the first try. */
+/* These are a person's usual faults at the first try. */
 TEST(wrong_landmarks_are_refused) {
   double points[6][3];
 #define CHANGED(words, ...)                                                                               \

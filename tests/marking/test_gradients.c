@@ -351,7 +351,7 @@ TEST(derivatives_are_central_differences) {
           if (skirt == 0 || !apply(c, shifts, half, &after) || !apply(c, shifts, -half, &before)) continue;
           const riis_status status =
               riis_surface_add_direction(surface, after.valve, before.valve, 2 * half, &after.options, &before.options);
-          if (status == RIIS_INVALID_PARAMETER) continue; /* values at the edge of those that fit together */
+          if (status == RIIS_INVALID_PARAMETER) continue; /* values that barely fit together */
           CHECK_OK(status);
           directions[n++] = *c;
         }
@@ -554,8 +554,8 @@ TEST(rims_and_the_surface_itself) {
   }
 }
 
-/* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the derivative is that of the triangle in
- * triangle_id, the lower one. The distance has a kink there: its derivatives on both sides are 0 and -1. */
+/* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the triangle in triangle_id, the lower one,
+ * gives the derivative. The distance has a kink there: its derivatives on both sides are 0 and -1. */
 TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);

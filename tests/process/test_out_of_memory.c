@@ -93,7 +93,7 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
 
 static random_source rng;
 
-static int64_t n_injected[4], n_calls_failed[4]; /* indexed by whose memory fails */
+static int64_t n_injected[4], n_calls_failed[4]; /* one for each owner whose memory can fail */
 
 /* The state of all objects before and after the call. */
 typedef struct reference {
@@ -234,7 +234,7 @@ TEST(memory_of_other_threads_runs_out) {
   }
 }
 
-/* All allocations fail, even those for the C++ library's exceptions and for the message. */
+/* All allocations fail, even for the C++ library's exceptions and for the message. */
 TEST(all_memory_runs_out) {
   if (!memory_of_all_can_fail()) skip();
   for (int i = 0; i < n_scenarios; ++i) {

@@ -392,7 +392,7 @@ class AddedByMaterial {
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
     rest_ = sizes_of([&](double share) { return material.rest(share); });
-    // Between a joint and its slid place, the second derivatives are those of two pieces.
+    // Between a joint and its slid place, the second derivatives belong to two pieces.
     of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
   }
 

@@ -181,8 +181,8 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
   return area;
 }
 
-/* Orifices are compared with those of turned lines. They must also stay within 0.1 % of the numbers that the program measured
- * before the library did. */
+/* Orifices are compared with the results of turned lines. They must also stay within 0.1 % of the numbers that the program
+ * measured before the library did. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double before[n_kinds][5] = {{0.885854, 1.550407, 2.278302, 3.061292, 3.887267},

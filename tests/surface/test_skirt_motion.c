@@ -28,7 +28,7 @@ static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "
 
 /* What moves. The middle of a step has these values plus half of the rates. */
 typedef struct state_of_skirt {
-  double opening, size[3]; /* the sizes are factors; the last is that of the skirt's length */
+  double opening, size[3]; /* the sizes are factors; the last one scales the skirt's length */
   riis_surface_options placed;
 } state_of_skirt;
 
@@ -443,8 +443,7 @@ TEST(skirts_move_with_warped_attachments) {
       const riis_surface_options in_place = surface_options();
       then.placed = in_place;
       then.placed.triangulation = fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-      then.placed.tolerance =
-          0.002; /* so that velocities between vertices are hardly less exact than those at vertices */
+      then.placed.tolerance = 0.002; /* so velocities between vertices are hardly less exact than at vertices */
       now = then;
       if (between(0, 1) < 0.5) move(&now, opens, seconds);
       riis_valve *valve = valve_at(kind, &now), *before = valve_at(kind, &then);

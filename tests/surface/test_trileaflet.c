@@ -125,7 +125,7 @@ TEST(cusps_are_equal) {
   }
 }
 
-/* The only triangles without area are those at the three root points. */
+/* Only the triangles at the three root points have no area. */
 TEST(triangles_have_an_area) {
   for (int i = 0; i <= 10; ++i) {
     riis_surface *surface = new_surface(valve_at("trileaflet", i / 10.0), NULL);

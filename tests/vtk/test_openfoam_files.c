@@ -322,7 +322,7 @@ static void test_centers(const char *name) {
 TEST(test_block_centers) { test_centers("text"); }
 
 #ifdef RIIS_GMSH
-/* gmsh's tetrahedra, and those with a layer of prisms and hexahedra, as cases of OpenFOAM, and their dual polyhedra. */
+/* The cases of OpenFOAM have gmsh's tetrahedra, the same with a layer of prisms and hexahedra, and their dual polyhedra. */
 TEST(test_other_cells) {
   scratch_write_text("mix.geo",
                      "SetFactory(\"OpenCASCADE\");\nBox(1) = {-1, -1.1, -1.2, 2, 2.2, 2.4};\nMesh.MeshSizeMax = 0.9;\n"

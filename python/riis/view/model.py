@@ -107,7 +107,7 @@ class Model(Valves):
     def near(cls, points: Any, cells: Any = None, **options: Any) -> Model:
         """Makes a model of a large mesh. It keeps the whole mesh, and works with the cells near the valves.
 
-        The marks are those of the whole mesh. When a valve leaves the cells near it, the next update finds new ones, which takes
+        The marks equal the whole mesh's marks. When a valve leaves the cells near it, the next update finds new ones, which takes
         about a second for 5 million nodes.
         """
         return cls(points, cells, _near=True, **options)

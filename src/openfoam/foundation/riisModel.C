@@ -3,7 +3,7 @@
 // source to the equation of p.
 //
 // It moves the valve by a law in time, and marks the cells once in a step. It adds K (U - U_valve) / rho to the equation of a
-// solver with kinematic pressure, such as the module incompressibleFluid. The source is that of ../riisNetSource.H. The solver
+// solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H. The solver
 // takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md says which entries it takes.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"

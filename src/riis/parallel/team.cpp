@@ -143,7 +143,7 @@ class Team {
     }
   }
 
-  // Takes up to n workers off the number of those that sleep, and returns how many.
+  // Subtracts up to n workers from the number of sleeping workers, and returns how many.
   int take_asleep(int n) {
     int n_asleep = n_asleep_.load(), n_taken = 0;
     do n_taken = std::clamp(n, 0, n_asleep);

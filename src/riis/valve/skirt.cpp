@@ -191,7 +191,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. They lie outwards from those of the inner side.
+  // Returns the material points of the outer side. They lie outwards from the inner side's points.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;

@@ -50,7 +50,7 @@ std::string_view without_leaflet(std::string_view name) {
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Says whether a name is that of a parameter, and how.
+// Says whether a name means a parameter, and how.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // it names no other parameter
