@@ -707,7 +707,7 @@ def values_of_page(data, plots):
     }
 
 
-# The heading of the page's section, and the part of details.template.md, that ./run bench PART prints.
+# For each PART of ./run bench: the heading of the page's section, and the part of details.template.md to print.
 PRINTED = {
     "search": ("## The paper's tables", "searches"), "marking": ("## A time step", "marking"), "roofline": (None, "roofline"),
     "peers": ("## Others", None),

@@ -521,10 +521,10 @@ module riis_c
 
   !> The widest passage from one set of nodes to another: the path whose least distance from the surface is largest.
   type, bind(c) :: riis_passage
-    integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. Of nodes at
-                                   !! equal distances, the one with the higher id counts as nearest
-    real(c_double) :: distance     !< the distance of node_id. A half thickness closes the passage, for these triangles,
-                                   !! if it is at least this distance; a smaller one leaves it open. 0 without a path
+    integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. If nodes have
+                                   !! equal distances, the higher id counts as nearest
+    real(c_double) :: distance     !< the distance of node_id. For these triangles, a half thickness of at least this
+                                   !! distance closes the passage, and a smaller one leaves it open. 0 without a path
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*

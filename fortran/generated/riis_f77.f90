@@ -4351,10 +4351,10 @@ end subroutine riisf_opening_angle_advance
 ! Placing and warping by a patient's landmarks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement, for riisf_surface_create. Lengths that
-!! no landmark bears on keep the valve's proportions. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one
-!! place, collinear, mirrored or not those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and
-!! for sizes that do not fit together.
+!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement, for riisf_surface_create. Lengths that no
+!! landmark bears on keep the valve's proportions. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place,
+!! collinear, mirrored, or too large or small for a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches
+!! and for sizes that do not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof

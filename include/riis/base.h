@@ -54,7 +54,7 @@ RIIS_API const char *riis_version_string(void);
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
 /* The levels of a message. */
 enum {
-  RIIS_LOG_INFO = 0,   /* what was built and how large */
+  RIIS_LOG_INFO = 0,   /* the shape that was built, and its size */
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
 /* Sets the log function of the process. Any thread may call riis_set_log.

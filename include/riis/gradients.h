@@ -19,8 +19,8 @@ extern "C" {
  *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than
  *                   in the surface. If only the placement changes, pass the same valve twice
  *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
- *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: those
- *                   of the surface
+ *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: the
+ *                   surface's options
  * The first call makes direction 0, the next call direction 1. An update removes all directions. A marking with
  * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md).
  * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. The error of the

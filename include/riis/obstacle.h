@@ -50,8 +50,8 @@ typedef struct riis_reaction {
                                Default 0 */
   double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
   double *moment;           /* (3): moment on the whole surface */
-  int64_t n_leaflets;       /* the number of columns in both sums of leaflets, which alone use it: more than
-                               riis_surface_info.largest_leaflet_id. Default 0 */
+  int64_t n_leaflets;       /* the number of columns in both sums of leaflets: more than
+                               riis_surface_info.largest_leaflet_id. Nothing else uses it. Default 0 */
   double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
                                riis_mark_list.leaflet_id, also if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */

@@ -90,7 +90,7 @@ typedef struct riis_placement_arrays {
                                 nearest to it */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
-/* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement.
+/* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
  *   valve   the template, a kind with any parameters: lengths that no landmark bears on keep their proportions. Translation
  *           and opening stay, and so does the open state of riis_valve_set_open_state
  *   held    names of parameters that keep the valve's values, separated by blanks or commas; "": none
@@ -117,8 +117,8 @@ typedef struct riis_warp_options {
   double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
                           misses the targets by about that much. Default 0: it meets the targets exactly */
   const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
-                          Otherwise they are in the mesh's: scale, rotation and translation of these options place them.
-                          Use the same options for the surface */
+                          Otherwise they are in the mesh's frame, and scale, rotation and translation of these options
+                          place them. Use the same options for the surface */
 } riis_warp_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);

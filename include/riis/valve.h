@@ -27,7 +27,7 @@ typedef struct riis_valve riis_valve;
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
-/* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
+/* Destroys the valve. Surfaces from this valve, and valves with it as their open state, do not change. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
@@ -63,7 +63,7 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  * Some parameters have a rule: they follow from other parameters until they are set. The order of calls does not matter.
  * riis_valve_get gives their present values. Copies and open states keep the difference between set and not set. */
 
-/* Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
+/* Gives a parameter the value that it has before it is set: its rule's value, or its default.
  *   name  as in riis_valve_set
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);

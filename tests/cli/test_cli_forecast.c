@@ -266,8 +266,8 @@ typedef struct {
 } fluid;
 
 /* The slow steady flow through a flat plate at z = 0 that fills a tube along z, by the solver's equations. The pressure is 1 at
- * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. The solver's elements number the
- * coordinates of a tetrahedron and of a wedge from their last node of the triangle, VTK's from the first. */
+ * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. A tetrahedron and a wedge have
+ * coordinates along a triangle. The solver's elements number them from the triangle's last node, and VTK from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];

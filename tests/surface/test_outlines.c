@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. Closed forms and
- * the same surfaces as valves give the wanted values. */
+ * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. The wanted values
+ * come from closed forms, and from valves with the same surfaces. */
 #include <riis/riis.h>
 
 #include "test_support.h"
