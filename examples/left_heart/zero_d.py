@@ -219,7 +219,7 @@ class Mesh:
 
 
 def amplitude_of(mesh, change):
-    """Returns the amplitudes at which the mesh's volume differs from that at rest by the changes, in m3."""
+    """Returns the amplitudes for these changes of the mesh's volume against the volume at rest, in m3."""
     amplitudes = np.linspace(-0.6, 1.3, 60)
     changes = np.array([mesh.volume(a) for a in amplitudes]) - mesh.volume(0)
     if changes[0] < change.max() or changes[-1] > change.min():

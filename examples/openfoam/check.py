@@ -238,8 +238,8 @@ def cases_of_factor(case):
 
 
 def layers(heights, eps):
-    """Returns the drop over (R / eps) u of a flat leaflet at 0 between layers of cells with their centres at these heights. On a
-    face, 1/K is the mean of 1/K in the two cells."""
+    """Returns the drop over (R / eps) u of a flat leaflet at the height 0. Layers of cells have their centres at the given
+    heights. On a face, 1/K is the mean of 1/K in the two cells."""
     k = numpy.where(abs(heights) < eps, (1 + numpy.cos(numpy.pi * heights / eps)) / (2 * eps), 0)
     k = numpy.maximum(k, 1e-30 / eps)
     return (2 / (1 / k[1:] + 1 / k[:-1])).sum(axis=0) * (heights[1] - heights[0])[()]

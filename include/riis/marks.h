@@ -142,8 +142,8 @@ typedef struct riis_mark_list {
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
                                  unit vector n points from the closest point to the node, on both sides. V is the rate
                                  of the closest point, on the triangle of triangle_id. 0 on the surface, where the
-                                 distance has a kink. If several places are equally near, the distance has a kink,
-                                 too */
+                                 distance has a kink. If several places are equally near, the distance also has a
+                                 kink */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
                                  where K is 0; NULL without a resistance */
 } riis_mark_list;

@@ -280,7 +280,8 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
  *            and displacement_10. Frames are in the order of the numbers, which may have gaps
  *   n_times  the number of these arrays, or 0
  *   times    (n_times); NULL, with n_times 0, takes the times from the field array TimeValue
- * Errors: RIIS_INVALID_ARGUMENT naming the entry of times, and if n_times is not the number of arrays. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad entry of times, which the message names, and if n_times is not the number of
+ * arrays. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);

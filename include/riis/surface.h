@@ -48,8 +48,8 @@ enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
   RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
                                     The distance is too large by at most e, too small by at most e / 10 */
-  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most
-                                    e / 10, but in a local minimum too large by any amount, unnoticed */
+  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most e / 10.
+                                    In a local minimum it is too large by any amount, and nothing shows this */
 };
 
 /* How the smooth valve is cut into triangles. */

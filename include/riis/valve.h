@@ -119,7 +119,8 @@ typedef struct riis_parameter {
   double maximum;          /* of every value, inclusive */
   const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
   const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
-  double other_factor;     /* factor from the parameter's value to that under other_name: 1 or 2; 0 without other_name */
+  double other_factor;     /* the value under other_name divided by the parameter's value: 1 or 2; 0 without
+                              other_name */
 } riis_parameter;
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);

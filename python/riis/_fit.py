@@ -322,9 +322,9 @@ def fit(
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
     n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
-               random values within the bounds and, if start has no rotation, any rotation. After at least four
-               starts, or eight for a part of a valve, they end when two reached the best fit. If this fit has doubts
-               that a wrong end explains, the other starts follow
+               random values within the bounds and, if start has no rotation, any rotation. The starts end when two of them have
+               reached the best fit, after at least four starts, or eight for a part of a valve. If this fit has doubts that a
+               wrong end explains, the other starts follow
     seed       the seed of the random starts
     noise      the standard deviation of the points from the surface, in the points' unit. Larger residuals are doubted, and
                smaller ones do not reduce the standard errors

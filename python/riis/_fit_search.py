@@ -135,8 +135,8 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
 
 
 def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
-    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from an end of
-    an orbit by a turn."""
+    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from turning
+    an end of an orbit."""
     seen = problem.at(x)
     if seen is None:
         return

@@ -52,7 +52,7 @@ static riis_passage expected_passage(const test_mesh *rows, const riis_surface *
     order[i] = (near_node){closest_to(surface, p[0], p[1], p[2]).distance, i};
   }
   qsort(order, n, sizeof *order, nearer);
-  /* Closing the nodes before `low` leaves the ends joined. Closing the nodes up to `high` separates them. */
+  /* If the nodes before `low` are closed, the ends stay joined. Closing the nodes up to `high` separates them. */
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
     memcpy(is_open, mask, n);

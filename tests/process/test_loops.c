@@ -120,7 +120,7 @@ static int takes_team_after_calm(double now, int n_calm) {
   return takes_team_at(now, 3 + n_calm, waits, ended);
 }
 
-/* On a quiet machine, too, a loop now and then waits long. */
+/* Also on a quiet machine, a loop sometimes waits long. */
 TEST(rare_waits_do_not_prolong_the_choice) {
   assert_true(takes_team_after_calm(1999, 31));
   assert_false(takes_team_after_calm(2001, 31));

@@ -228,7 +228,7 @@ TEST(memory_of_other_threads_runs_out) {
     for (; n_failed < 3 && n_tries < 2000; ++n_tries)
       n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0, 1);
     printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
-    /* The calling thread may end a short loop before the others come. A walk of the paper's search is short, too. */
+    /* The calling thread may end a short loop before the others come. A walk of the paper's search is also short. */
     const int is_short = (s->flags & IS_SHORT) || s->search == RIIS_SEARCH_PAPER;
     if (n_failed < 1 && !is_short) fail_msg("%s: no other thread allocated", s->name);
   }

@@ -68,8 +68,8 @@ struct Slope {
 };
 
 // Bounds the distance of a continuous function from the line between its ends, from bounds of its slope on successive ranges. At
-// x, slopes before x count with the share of the whole width that lies behind x, and slopes behind x with the share before x.
-// With one slope everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
+// x, a slope before x counts with the share of the whole width behind x. A slope behind x counts with the share before x. With
+// one slope everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
@@ -374,7 +374,7 @@ Sizes sizes_of_slide(const SideMaterial &material) {
   return sizes_of(nodes, slide);
 }
 
-// Bounds the distance from linear on a range of a function whose value and derivatives are bounded.
+// Bounds the distance of a function from a linear function on a range. The function's value and derivatives have bounds.
 double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }

@@ -854,8 +854,8 @@ TEST(skirts_of_warped_cusps_cross_nothing) {
   assert_true(n_judged > 0.9 * n_states);
 }
 
-/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would be as large in a
- * 64th of the step. */
+/* The ends of two cusps move past each other, and the line between them turns. If the skirt jumped, the jump would be as large in
+ * a 64th of the step. */
 TEST(skirts_move_continuously_with_a_warp) {
   const int n_trials = is_long_test() ? 60 : 4;
   int n_turned = 0; /* by more than 45 degrees */

@@ -45,8 +45,8 @@ TEST(closed_free_edges_are_straight) {
 
 static int64_t n_of_pairs, n_of_places;
 
-/* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such
- * pairs, and those on the axis. */
+/* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such pairs,
+ * and pairs on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
   const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));

@@ -41,7 +41,7 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // A failure must come before anything is written. Later, the queries may need the tree in place of memory.
+    // A failure must come before anything is written. Later, if memory runs out, queries may need the tree.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {

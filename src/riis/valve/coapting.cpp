@@ -31,7 +31,7 @@ constexpr double cosine_60 = 0.5;
 const double arc_reach = 4.0 / 3.0 * (2 - std::sqrt(3.0));  // 4/3 tan 15 degrees
 // The open free edge: how far the inner control point by the commissure hangs, as a share of the middle.
 constexpr double open_sag = 1.0 / 3;
-// The open free edge must be shorter than this share of the closed one when it does not hang.
+// An open free edge that does not hang must be shorter than this share of the closed free edge.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;

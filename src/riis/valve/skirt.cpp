@@ -286,7 +286,8 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
 }
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
-  // Seen along `rise`, the two sides leave their ends to different sides. The planes of the skirts' ends contain it.
+  // Seen along `rise`, one side leaves its end to the left, and the other leaves its end to the right. The planes of the skirts'
+  // ends contain it.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);
