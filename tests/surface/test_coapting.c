@@ -893,7 +893,7 @@ TEST(values_that_do_not_go_together_are_refused) {
   riis_valve *other = new_valve("coapting");
   CHECK_OK(riis_valve_set_scalar(other, "effective_height", 1.5));
   CHECK_OK(riis_valve_set_scalar(other, "commissure_expansion", 0.3));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "half an open free edge is at least|a closed one has|open_radius_ratio",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "half an open free edge is at least|half a closed one is|open_radius_ratio",
                 riis_surface_create(other, NULL, &surface));
   CHECK_OK(riis_valve_set_open_state(valve, other));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state: half an open free edge",

@@ -240,10 +240,10 @@ void riisModel::addSup(fvMatrix<scalar> &eqn) const {
 }
 
 void riisModel::refuse(const char *equation, const word &field) const {
-  FatalErrorInFunction
-      << "valve " << name() << " at time " << timeName(mesh()) << ": the equation of " << field << " is multiplied by "
-      << equation << ". riisValve is for equations divided by a constant density, such as those of incompressibleFluid"
-      << exit(FatalError);
+  FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh()) << ": the equation of " << field
+                       << " is multiplied by " << equation
+                       << ". riisValve is for equations divided by a constant density, such as the equations of "
+                       << "incompressibleFluid" << exit(FatalError);
 }
 
 void riisModel::addSup(const volScalarField &, const volVectorField &U, fvMatrix<vector> &) const {

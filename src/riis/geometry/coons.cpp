@@ -63,7 +63,7 @@ class ArcRefinement {
     if (depth == max_depth) {
       const Vec3 where = bulge_.on_base(from);
       fail(RIIS_INVALID_PARAMETER, "near (", where.x, ", ", where.y, ", ", where.z,
-           "), before the translation, the line from annulus to free edge runs along the annulus, where a "
+           "), before the translation, the line from annulus to free edge runs along the annulus, so a "
            "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there");
     }
     const double u = cut(from, to.middle);

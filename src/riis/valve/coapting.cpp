@@ -440,9 +440,9 @@ void check_values(const ParameterValues &values) {
   const CuspNumbers closed = closed_cusp(values), open = open_cusp(values);
   const double least_length = EdgeLength(open).at(0).length;
   if (!(least_length <= most_of_edge * open.edge_length))
-    fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length, " long, but a closed one has ",
-         open.edge_length,
-         ", which is too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
+    fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length,
+         " long, but half a closed one is ", open.edge_length,
+         " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   // The edge's middle is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
   const double away = sine_60 * values[commissure_radius][0];
