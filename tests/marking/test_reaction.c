@@ -546,9 +546,9 @@ TEST(sums_are_those_of_plain_loops) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* In a flow along the axis of a symmetric valve, a turn about the axis takes the force on one leaflet to the force on the next.
- * The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two closed
- * leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
+/* A symmetric valve stands in a flow along its axis. Turned about the axis, the force on one leaflet is the force on the next
+ * leaflet. The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two
+ * closed leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
 TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;

@@ -236,7 +236,7 @@ class SideInBoth {
     return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
   }
 
-  // Returns the part of a Bézier piece that is the range after share i.
+  // Returns the part of a Bézier piece over the range after share i.
   CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
     const std::size_t piece = points.piece(i);
     return {&curve.pieces()[piece],
