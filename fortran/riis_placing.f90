@@ -30,8 +30,8 @@ contains
     integer(int32), intent(in), contiguous, target :: role(:) !< (n_landmarks): RIIS_LANDMARK_*.
     real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 0.01 for metres.
     type(riis_placement), intent(inout) :: placement        !< Unchanged on an error. worst_landmark_id counts from 0.
-    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:, :) !< (2, n_landmarks): of a nadir or a point
-                                                            !! of the attachment, its cusp and -1; of a commissure, its two cusps.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:, :) !< (2, n_landmarks): for a nadir or a point of
+                                                            !! the attachment, its cusp and -1; for a commissure, its two cusps.
                                                             !! Default -1: not known.
     real(c_double), intent(in), optional :: flow(:)         !< (3), the direction of flow. Default: not known.
     real(c_double), intent(in), optional :: noise           !< Standard deviation of each coordinate. Default 0.03 * scale.

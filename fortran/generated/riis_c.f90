@@ -544,8 +544,8 @@ module riis_c
     integer(c_int64_t) :: n_triangles !< the number of its triangles that answer queries
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
-                                      !! Of a surface from arrays: the edges that only one of its triangles has, without
-                                      !! the outline of riis_orifice. 0 for a skirt
+                                      !! For a surface from arrays: the edges that only one of its triangles has,
+                                      !! without the outline of riis_orifice. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
@@ -568,7 +568,7 @@ module riis_c
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
                                      !! outlines
-    real(c_double) :: axis(3)        !< unit vector; of a warped disc its normal; 0 for arrays and keyframes without an
+    real(c_double) :: axis(3)        !< unit vector; for a warped disc its normal; 0 for arrays and keyframes without an
                                      !! outline
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0

@@ -3805,7 +3805,7 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
   real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
-                                                          !! patches has. Of a surface from arrays: the edges that only one of
+                                                          !! patches has. For a surface from arrays: the edges that only one of
                                                           !! its triangles has, without the outline of riis_orifice. 0 for a
                                                           !! skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4367,11 +4367,11 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): of a nadir or a point of the attachment, its
-                                                          !! cusp and -1; of a commissure, its two cusps, in any order. -1 and
-                                                          !! -1: not known. Enough of an aortic valve's must be known to name
-                                                          !! all. Without names, cusp 0 of three equal cusps is at the first
-                                                          !! nadir.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): for a nadir or a point of the attachment, its
+                                                          !! cusp and -1; for a commissure, its two cusps, in any order. -1 and
+                                                          !! -1: not known. For an aortic valve, enough cusps must be known to
+                                                          !! name all. Without names, cusp 0 of three equal cusps is at the
+                                                          !! first nadir.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
                                                           !! metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks, each coordinate's standard

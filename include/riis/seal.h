@@ -96,7 +96,7 @@ typedef struct riis_passage_ends {
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
- *   ends     farther from the surface than the passage is wide, because paths include their ends
+ *   ends     paths include their ends, so the ends must be farther from the surface than the passage is wide
  *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.

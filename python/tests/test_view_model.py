@@ -415,7 +415,8 @@ def test_a_valve_that_fits_is_good(kind, fine):
 
 
 def test_a_gap_to_the_wall_and_its_skirt(fine):
-    """A valve that is 0.25 too small leaks beside the wall, by the distance of the polygon; the skirt of the light seals it."""
+    """A valve that is 0.25 too small leaks beside the wall. The gap is the distance to the wall's polygon, and the skirt that the
+    light offers seals it."""
     model = view.Model(*fine, unit="cm")
     i = model.add("coapting")
     model.set(i, "half_thickness", 0.16)
