@@ -61,7 +61,7 @@ class FitResult:
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
     doubts: tuple[str, ...]  #: reasons to distrust the whole result, each a sentence; empty if there is none
     n_starts: int  #: number of starts
-    n_agreeing: int  #: number of starts that reached this fit, or a fit that turns by a cusp or half a turn led here from
+    n_agreeing: int  #: number of starts that reached this fit, directly or after a turn by a cusp or half a turn
     rivals: tuple[Rival, ...]  #: other fits of similar cost, the best first
     n_crossings: int  #: number of pairs of triangles of the fitted surface that go through each other
     singular_values: Reals  #: of the Jacobian (rows: points, columns: unknowns), descending, in units of the valve's size

@@ -31,7 +31,7 @@ RIVAL = 9.0
 UNDETERMINED = 0.1
 # To find correlated residuals, the valve is divided into this many parts.
 _N_PARTS = 40
-# The scatter of all parts counts for an unknown as much as the scatter of this number of parts that determine it.
+# For an unknown, the scatter of all parts has the weight of this number of parts that determine the unknown.
 _N_USUAL = 10.0
 # Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
@@ -344,8 +344,8 @@ class Judge:
         return found if evidence >= _LEAST_EVIDENCE else numpy.zeros(n)
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
-        """Holds each parameter two standard errors away, and minimizes over the others. Widens the standard error if the cost
-        rises less than this error implies."""
+        """Holds each parameter two standard errors away, and minimizes over the others. If the cost rises less than the standard
+        error predicts, the error is widened."""
         problem, loss = self.problem, self.mixture.loss(self.problem.whole)
         best = problem.cost(self.x, loss)
         errors, better, least = errors.copy(), None, -_LEAST_GAIN

@@ -275,7 +275,7 @@ Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
 }
 
 // Along the coaptation line K, the lower patch has the derivative T = K - c + (1 - u) Y + u A by v, with the chord c of K. Y and
-// A are the end tangents of the symmetry curve and of the attachment, as long as these curves are.
+// A are the end tangents of the symmetry curve and of the attachment, with the lengths of these curves.
 struct EndTangents {
   Vec3 of_symmetry, of_attachment;
 
