@@ -236,7 +236,7 @@ class SideInBoth {
     return along(part(at_now_, now_, i), part(at_before_, before_, i), width(i));
   }
 
-  // Returns the part of a Bézier piece over the range after share i.
+  // Returns the part of a Bézier piece that is the range after share i.
   CurvePart part(const CurvePoints &points, const Curve &curve, std::size_t i) const {
     const std::size_t piece = points.piece(i);
     return {&curve.pieces()[piece],
@@ -392,7 +392,7 @@ class AddedByMaterial {
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
     rest_ = sizes_of([&](double share) { return material.rest(share); });
-    // Between a joint and its slid place, the second derivatives belong to two pieces.
+    // Between a joint and its slid place, the second derivatives are those of two pieces.
     of_joints_ = static_cast<double>(before.pieces().size() - 1) * 0.25 * 2 * second * slide.size;
   }
 

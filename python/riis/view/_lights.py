@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The lights of the view name the faults of a valve in a mesh, their places and their cures.
 
-The program's warnings have the same limits of sizes (riis help warnings).
+The size limits are those of the program's warnings (riis help warnings).
 """
 
 from __future__ import annotations
