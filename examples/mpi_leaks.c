@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests whether a closed valve seals, in a mesh that is partitioned over the ranks of MPI. Each rank labels the open regions of
  * its part, and riis does not communicate. The ranks exchange the labels of the nodes that they share, until nothing changes.
- * Then rank 0 compares the labels with those of the whole mesh. Lengths are in cm.
+ * Then rank 0 compares the labels with the whole mesh's labels. Lengths are in cm.
  *   mpirun -n 4 ./mpi_leaks */
 #include <mpi.h>
 #include <riis/riis.h>

@@ -4,8 +4,8 @@
  *
  * The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A
  * leaflet consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies
- * between two curves from a commissure to the middle line: the attachment at v = 0, down the post to the ring, and half of the
- * free edge at v = 1. The patch's side at the commissure is a point, so the patch consists of straight lines from the
+ * between two curves from a commissure to the middle line. The attachment at v = 0 goes down the post to the ring. The curve at v
+ * = 1 is half of the free edge. The patch's side at the commissure is a point, so the patch consists of straight lines from the
  * attachment to the free edge. When the valve opens, only the free edges and the middle lines move.
  *
  * When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as
@@ -43,8 +43,8 @@ static const double open_moving[][3] = {
     {-0.60, 1.04, 0.00},  {-0.52, 0.91, 1.20},                                              /* middle 1 */
     {-0.60, -1.04, 0.00}, {-0.52, -0.91, 1.20},                                             /* middle 2 */
 };
-/* Control points that do not move: curves 9 to 14 are the attachments, and 15 to 17 the commissures, which are lines from a
- * point to itself. */
+/* These control points do not move. Curves 9 to 14 are the attachments. Curves 15 to 17 are the commissures: each is a line from
+ * a point to itself. */
 static const double fixed[][3] = {
     {0.60, -1.04, 1.20}, {1.00, -0.81, 0.40},  {1.20, -0.40, 0.00},  {1.20, 0.00, 0.00},   /* attachment 0a */
     {0.60, 1.04, 1.20},  {1.00, 0.81, 0.40},   {1.20, 0.40, 0.00},   {1.20, 0.00, 0.00},   /* attachment 0b */

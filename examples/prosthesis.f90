@@ -4,9 +4,9 @@
 !
 ! The ring of radius 1.2 lies at z = 0, and blood flows to +z. The tips of the posts, the commissures, are at z = 1.2. A leaflet
 ! consists of two patches. They meet in the leaflet's middle line, from the ring to the free edge. Each patch lies between two
-! curves from a commissure to the middle line: the attachment at v = 0, down the post to the ring, and half of the free edge at v
-! = 1. The patch's side at the commissure is a point, so the patch consists of straight lines from the attachment to the free
-! edge. When the valve opens, only the free edges and the middle lines move.
+! curves from a commissure to the middle line. The attachment at v = 0 goes down the post to the ring. The curve at v = 1 is half
+! of the free edge. The patch's side at the commissure is a point, so the patch consists of straight lines from the attachment to
+! the free edge. When the valve opens, only the free edges and the middle lines move.
 !
 ! When the valve is closed, each half of a free edge runs from its commissure to the axis. It has the same control points as the
 ! adjacent half of the neighbouring leaflet, so the leaflets meet without a hole. All control points of a leaflet lie in its third
@@ -37,8 +37,8 @@ program prosthesis
       1.20d0,  0.00d0,  0.00d0,  1.05d0,  0.00d0,  1.20d0, &
      -0.60d0,  1.04d0,  0.00d0, -0.52d0,  0.91d0,  1.20d0, &
      -0.60d0, -1.04d0,  0.00d0, -0.52d0, -0.91d0,  1.20d0]
-  ! Control points that do not move: curves 10 to 15 are the attachments, and 16 to 18 the commissures, which are lines from a
-  ! point to itself.
+  ! These control points do not move. Curves 10 to 15 are the attachments. Curves 16 to 18 are the commissures: each is a line
+  ! from a point to itself.
   double precision, parameter :: fixed(90) = [ &
       0.60d0, -1.04d0,  1.20d0,  1.00d0, -0.81d0,  0.40d0,  1.20d0, -0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &
       0.60d0,  1.04d0,  1.20d0,  1.00d0,  0.81d0,  0.40d0,  1.20d0,  0.40d0,  0.00d0,  1.20d0,  0.00d0,  0.00d0, &

@@ -64,7 +64,7 @@ contains
     integer(int64), intent(in) :: n_nodes                   !< The number of nodes of the marking.
     real(c_double), intent(in) :: velocity(3, *)            !< (3, n_nodes).
     real(c_double), intent(in) :: weight(*)                 !< (n_nodes).
-    type(riis_reaction), intent(in) :: reaction             !< From its init function; the call adds to its sums.
+    type(riis_reaction), intent(in) :: reaction             !< The init function fills it, and the call adds to its sums.
     integer(riis_status) :: code                            !< RIIS_OK or the error.
     type(riis_flow_arrays) :: flow
     integer :: i

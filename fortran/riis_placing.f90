@@ -11,18 +11,18 @@ module riis_placing
   private
   public :: riis_place
 
-  !> Sets a valve's sizes to those of a patient, and finds its placement.
+  !> Sets a valve's sizes to a patient's sizes, and finds its placement.
   interface riis_place
     module procedure place
   end interface riis_place
 
 contains
 
-  !> Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement. The valve's own values are the
-  !! template: lengths that no landmark bears on keep their proportions. The components of the placement are the arguments of
-  !! the surface with these names. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place, collinear,
-  !! mirrored or not those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do
-  !! not fit together.
+  !> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement. The valve's own values are the template:
+  !! lengths that no landmark bears on keep their proportions. The components of the placement are the arguments of the surface
+  !! with these names. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place, collinear, mirrored, or too
+  !! large or small for a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and for sizes that do not fit
+  !! together.
   subroutine place(valve, xyz, role, scale, placement, leaflet_id, flow, noise, held, residual, standard_error, &
       size_state, places, status)
     class(riis_valve), intent(inout) :: valve               !< Must be created; a kind of valve. Unchanged on an error.
@@ -30,8 +30,8 @@ contains
     integer(int32), intent(in), contiguous, target :: role(:) !< (n_landmarks): RIIS_LANDMARK_*.
     real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 0.01 for metres.
     type(riis_placement), intent(inout) :: placement        !< Unchanged on an error. worst_landmark_id counts from 0.
-    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:, :) !< (2, n_landmarks): of a nadir or a point
-                                                            !! of the attachment, its cusp and -1; of a commissure, its two cusps.
+    integer(int32), intent(in), contiguous, optional, target :: leaflet_id(:, :) !< (2, n_landmarks): for a nadir or a point of
+                                                            !! the attachment, its cusp and -1; for a commissure, its two cusps.
                                                             !! Default -1: not known.
     real(c_double), intent(in), optional :: flow(:)         !< (3), the direction of flow. Default: not known.
     real(c_double), intent(in), optional :: noise           !< Standard deviation of each coordinate. Default 0.03 * scale.

@@ -47,7 +47,7 @@ def expression_of(own, libraries):
 
 
 def texts_of_nanobind():
-    """Returns the licences of nanobind and of robin_map. That of robin_map is the comment at the top of its header."""
+    """Returns the licences of nanobind and of robin_map. The licence of robin_map is the comment at the top of its header."""
     files = {file.name: file for file in importlib.metadata.files("nanobind")}
     header = files["robin_map.h"].read_text(encoding="utf-8")
     comment = header[: header.index("*/") + 2]

@@ -6,7 +6,7 @@
 #   manylinux.sh repair WHEEL FOLDER   puts TBB, libgomp and all licences into the wheel, and the wheel into FOLDER
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
-# The version of nanobind must be that in pyproject.toml, because licences.py reads its licence.
+# The version of nanobind must be the version in pyproject.toml, because licences.py reads its licence.
 tools=("tbb-devel>=2021.8,<2023" "cmake>=3.25,<4" ninja auditwheel==6.8.2 wheel nanobind==2.15.0)
 
 prepare() {

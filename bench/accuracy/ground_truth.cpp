@@ -20,7 +20,7 @@ struct Place {
   double u, v;
 };
 
-// Draws points evenly by area. The areas are those of triangles, so the points are even up to the triangles' tolerance.
+// Draws points evenly by area. The areas of triangles count, so the points are even up to the triangles' tolerance.
 class Places {
  public:
   Places(const PatchSet &patches, const SmoothSurface &smooth)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First it compares
-// their marks with those of a loop over all triangles. Then it times the programs in turns. The bars
-// compare every distance with queries node by node, FCPW and CGAL. Fails if the library or CGAL does not mark the same nodes as
-// the loop, or if leaves give other bits than queries node by node.
+// their marks with the marks of a loop over all triangles. Then it times the programs in turns. The bars compare every distance
+// with queries node by node, FCPW and CGAL. Fails if the library or CGAL does not mark the same nodes as the loop. Also fails if
+// queries by leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py

@@ -162,7 +162,7 @@ def last_rows(path):
 
 
 def drop(folder, area, forecast):
-    """Prints the difference of the mean pressures at both ends, over (R/eps) u with u of the outlet's flow."""
+    """Prints the difference of the mean pressures at both ends, divided by (R/eps) u. The outlet's flow gives u."""
     folder = pathlib.Path(folder)
     case = (folder / "solver.xml").read_text(encoding="utf-8")
     resistance, half_thickness = (float(re.search(rf"<{name}>([^<]*)<", case)[1]) for name in ("Resistance", "Closed_thickness"))

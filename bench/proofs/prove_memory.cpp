@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench proof, its second part: 10,000 time steps of a valve that opens and closes, for both valves, with 100,000 nodes and
-// 2 threads. At the end, the memory of the process equals the memory at step 100 to within 1 MB. With one thread, a marking calls
-// malloc no more once the valve has been in all positions. The program prints a table and fails if this does not hold. argv[1]:
-// another number of steps, a multiple of 100.
+// 2 threads. At the end, the memory of the process equals the memory at step 100 to within 1 MB. With one thread, a marking no
+// longer calls malloc after the valve has been in all positions. The program prints a table and fails if this does not hold.
+// argv[1]: another number of steps, a multiple of 100.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>

@@ -4,7 +4,7 @@
 
 Times are divided by those of the calibration benchmarks of the same run. So runs of two machines, or of one machine on two
 days, can be compared. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so it
-counts as slower only if it is slower relative to both. If the machines' two calibrations differ much, a loss smaller than this
+counts as slower only if it is slower relative to both. If the calibrations of the two machines differ much, a loss below this
 difference is not noticed. --factor should not be below the difference, which the output gives.
 
 Exit status: 0, none is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""

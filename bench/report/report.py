@@ -52,7 +52,7 @@ class Data:
         return times
 
     def run(self, name):
-        """Returns when, by which command and under which load a part was measured, or None if this is unknown."""
+        """Returns the time, the command and the load of a part's measurement, or None if they are unknown."""
         return ((self.machine or {}).get("runs") or {}).get(name)
 
     def run_values(self, name):
@@ -707,7 +707,7 @@ def values_of_page(data, plots):
     }
 
 
-# The heading of the page's section, and the part of details.template.md, that ./run bench PART prints.
+# For each PART of ./run bench: the heading of the page's section, and the part of details.template.md to print.
 PRINTED = {
     "search": ("## The paper's tables", "searches"), "marking": ("## A time step", "marking"), "roofline": (None, "roofline"),
     "peers": ("## Others", None),

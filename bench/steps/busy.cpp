@@ -3,7 +3,7 @@
 // steps are also measured while the two processes are stopped, and after a loop of the caller's own OpenMP threads. It prints
 // times and bars.
 // Beside busy processes the mean counts, and a few waits of milliseconds decide about it. So blocks of calls with 1 and with 2
-// threads take turns for a long time, and the table gives the standard error of the ratio of the means.
+// threads take turns for a long time. The table gives the ratio of their mean times, with its standard error.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <riis/riis.h>
 #include <sched.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench ranks: measures the cost of a time step on each rank of a partitioned mesh, for the table of docs/solvers.md. METIS
 // cuts a mesh of a million nodes into 2 to 64 parts. The ranks' steps run here one after the other, on one thread, in turns with
-// an adapted and with a fixed triangulation. The marks of all parts together must equal those of the whole mesh, bit for bit.
+// an adapted and with a fixed triangulation. The marks of all parts together must equal the whole mesh's marks, bit for bit.
 // Otherwise the program ends with status 1.
 //   argv[1]  thousands of nodes instead of a million, for a quick look
 #include <metis.h>

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the tables, rows and pictures of body_fitted.sh. They compare the effective area of open leaflets that are walls of no
-thickness with that of the same leaflets as obstacles of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables,
-and leaves body_fitted.json and pictures in FOLDER."""
+"""Makes the tables, rows and pictures of body_fitted.sh. They compare the effective areas of open leaflets in two forms: as walls
+of no thickness, and as obstacles of riis. body_fitted.py FOLDER reads the cases in FOLDER, prints the tables, and leaves
+body_fitted.json and pictures in FOLDER."""
 import json
 import pathlib
 import re
@@ -208,7 +208,7 @@ def commit():
 
 
 def solid_row(what, three, solids):
-    """Returns the row that compares the effective areas of `three` with those of solid leaflets that are as thick as the band.
+    """Returns the row that compares the effective areas of `three` with the areas of solid leaflets as thick as the band.
     `solids` has the area in cm2 for each eps. Returns no row for fewer than two areas."""
     if len(three) < 2:
         return []

@@ -34,8 +34,8 @@ SIGN = {"hole": 1, "disc": -1}  # the sign of 1 - a_eff
 
 
 def extrapolate(h, values, least=0.3, most=5.0):
-    """Fits f + c h^p to the values of three grids, coarse to fine. Returns the order p and the limit f. Returns None and the
-    value of the finest grid if no p between least and most fits."""
+    """Fits f + c h^p to the values of three grids, coarse to fine. Returns the order p and the limit f. If no p from `least` to
+    `most` fits, returns None and the value of the finest grid."""
     a, b, c = values
     if not (a - b) * (b - c) > 0 or abs(b - c) < 1e-4 * abs(c):
         return None, c

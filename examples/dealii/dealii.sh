@@ -71,8 +71,8 @@ dealii_build() {
     cmake --build "$di_work/example"
 }
 
-# There may be more ranks than processors, and the user may be root. The settings in the second line are for Open MPI 4, and those
-# in the third for Open MPI 5. Each rank has one thread.
+# There may be more ranks than processors, and the user may be root. The settings in the second line are for Open MPI 4, and the
+# settings in the third line for Open MPI 5. Each rank has one thread.
 dealii_settings() {
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
   export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none

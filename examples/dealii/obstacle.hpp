@@ -101,7 +101,7 @@ class Obstacle {
     return result;
   }
 
-  // The area that resists: that of the surface, or of the plate's part in the duct.
+  // The area that resists: the area of the surface, or of the plate's part in the duct.
   double area() const {
     if (is_plate()) return 4 * half_width * half_width;
     return riis::get<riis_surface_info>(riis_surface_get_info, surface).area;

@@ -149,8 +149,8 @@ void Parameters::read(const std::vector<std::string> &files) {
 // a cell would look shut along the band if the band covers a part of it. Where viscosity and the grad-div term rule, S is close
 // to the pressure's mass matrix divided by their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
 //
-// MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and couples the components of the
-// velocity, so an incomplete LU or SOR does not converge there.
+// MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and it couples the components of the
+// velocity. So an incomplete LU or SOR does not converge there.
 class Preconditioner {
  public:
   Preconditioner(const PETSc::BlockSparseMatrix &system, const PETSc::Vector &diagonal, const PETSc::SparseMatrix &mass)
@@ -262,7 +262,7 @@ Flow::Flow(const Parameters &parameters)
 }
 
 // Makes the coarse mesh, which every rank has. Only its nodes lie on the round wall. The refinement at the valve keeps its faces
-// plane: new nodes on the round wall would leave gaps between small and large cells, through which blood would be lost.
+// plane. New nodes on the round wall would leave gaps between small and large cells, and blood would be lost there.
 void Flow::make_mesh() {
   Triangulation<3> coarse;
   const double r = parameters.radius, length = parameters.length;
@@ -404,7 +404,7 @@ void Flow::assemble(double time) {
     double volume = 0, mean_K = 0;
     for (unsigned int q = 0; q < n_q; ++q) volume += fe_values.JxW(q), mean_K += K[point + q] * fe_values.JxW(q);
     mean_K /= volume;
-    // In the band the pressure is steep. A grad-div term holds down what the pressure's error there does to the velocity.
+    // In the band the pressure is steep. A grad-div term limits the effect of the pressure's error there on the velocity.
     const double grad_div = parameters.grad_div * mean_K * std::pow(volume, 2. / 3);
 
     for (unsigned int q = 0; q < n_q; ++q, ++point) {
@@ -452,7 +452,7 @@ void Flow::assemble(double time) {
   right_hand_side.compress(VectorOperation::add);
 }
 
-// Adds the terms of a cell's faces at the inlet and the outlet: the given pressure, and a term that takes the energy from blood
+// Adds the terms of a cell's faces at the inlet and the outlet. One is the given pressure. Another takes the energy from blood
 // that flows in at an open end (Bazilevs et al. 2009).
 void Flow::assemble_open_boundary(const DoFHandler<3>::active_cell_iterator &cell, double inlet_pressure) {
   FEFaceValues<3> fe_face_values(fe, face_quadrature, update_values | update_normal_vectors | update_JxW_values);
@@ -598,8 +598,8 @@ void Flow::draw(unsigned int step) const {
   data_out.write_vtu_with_pvtu_record(parameters.folder + "/", "flow", step, comm, 5);
 }
 
-// Writes what each cell of the last step has, so that runs can be compared: its id, centre and edge, the integrals of velocity,
-// K and K u_valve, and the pressure in the middle.
+// Writes the data of each cell in the last step, so that runs can be compared: its id, centre and edge, the integrals of
+// velocity, K and K u_valve, and the pressure in the middle.
 void Flow::write_cells() const {
   std::ofstream file(parameters.folder + "/cells-" + std::to_string(rank) + ".csv");
   file << std::setprecision(17) << "id,x,y,z,edge,u,v,w,p,K,K_u,K_v,K_w\n";

@@ -105,7 +105,7 @@ demo_beat() {
     orifice_over_time "$1" >"out/$1_orifice.csv"
 }
 
-# The orifice is the third column from the end of a table of states, before its perimeter and the effective area.
+# In a table of states, the orifice is the third column from the end. Its perimeter and the effective area follow.
 # orifice_over_time VALVE: prints the orifice at the times of the valve's heartbeat, interpolated linearly between the states of
 # its table.
 orifice_over_time() {

@@ -114,7 +114,7 @@ def alone(xyz, fields, rows):
 
 
 def marks(folder, *ranks):
-    """The marks of runs on several numbers of ranks, compared with those of 1 rank."""
+    """The marks of runs on several numbers of ranks, compared with the run on 1 rank."""
     xyz, fields = read(folder, 1)
     print(f"{len(xyz):,} points of the velocity. Those of several ranks are paired with those of 1 rank by coordinates."
           "\nThe differences are the largest, over the largest value.")

@@ -36,7 +36,7 @@ def duct(comm, size):
 
 
 def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=MEAN_SPEED, **parameters):
-    """Yields the state after each time step. The law gives the opening at a time, and the parameters are those of the valve.
+    """Yields the state after each time step. The law gives the opening at a time, and the parameters belong to the valve.
 
     Blood flows in with the mean speed `speed`. If it is None, no stress acts at the inlet, so both pressures are equal."""
     mesh, tags = duct(comm, size)
@@ -59,7 +59,7 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=ME
     rho_dt, drag = RHO / fem.Constant(mesh, dt), max_value(K, 0)  # K falls below 0 at some places between its points
     a = (rho_dt * inner(u, v) + RHO * inner(dot(grad(u), u_old), v) + RHO / 2 * div(u_old) * inner(u, v)) * dx
     a += (2 * MU * inner(sym(grad(u)), sym(grad(v))) + drag * inner(u, v) - p * div(v) - q * div(u)) * dx
-    a += fem.Constant(mesh, GRAD_DIV) * div(u) * div(v) * dx  # holds down what the error of p in the band does to div u
+    a += fem.Constant(mesh, GRAD_DIV) * div(u) * div(v) * dx  # limits the effect of the error of p in the band on div u
     L = (rho_dt * inner(u_old, v) + inner(K_u, v)) * dx
 
     # A parabola flows in, blood rests at the wall, and no stress acts at the outlet.

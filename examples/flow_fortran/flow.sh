@@ -20,7 +20,7 @@ flow_compile_solver() {
 }
 
 # flow_restart FOLDER FIRST SECOND WORD...: restarts a run from its step FIRST, and goes on to the step SECOND. The state at
-# SECOND and the rows of the table in between must equal those of the first run.
+# SECOND and the rows of the table in between must equal the first run's.
 flow_restart() {
   local folder=$1 first=$2 second=$3 again=$1/again
   shift 3

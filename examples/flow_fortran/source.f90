@@ -13,8 +13,8 @@ module flow_source
 contains
 
   !> Computes the source S [1/s] of every cell. Faces that are neither held nor closed join cells to sets. A set with a cell at an
-  !! end of the vessel lies outside the band, and its source is 0. In every other set the source is uniform, and its integral is
-  !! the flow through the held faces out of the set.
+  !! end of the vessel lies outside the band, and its source is 0. In every other set the source is uniform. Its integral equals
+  !! the flow out of the set through the held faces.
   pure subroutine find_source(cell, ends, stride, h, closed, face, held, u, without_net, S)
     integer, intent(in) :: cell(:)                ! the numbers of all fluid cells
     integer, intent(in) :: ends(:)                ! the numbers of the cells at both ends
@@ -80,7 +80,7 @@ contains
         do side = 0, 1
           next = members(i) + (2 * side - 1) * stride(c)
           if (gathered(next)) cycle
-          if (.not. joins(max(members(i), next), c)) cycle ! the number of a face is that of its upper cell
+          if (.not. joins(max(members(i), next), c)) cycle ! a face has the number of its upper cell
           n = n + 1
           members(n) = next
           gathered(next) = .true.

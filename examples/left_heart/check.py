@@ -19,7 +19,7 @@ import zero_d
 from zero_d import ML, MMHG, PERIOD, RHO, foam
 
 # The valve first goes to these shares of the way from the least opening to 1, at these times, without a pressure. The flow tells
-# what the leaflets displace.
+# the volume that the leaflets displace.
 SWEPT, SWEEP = ((0.0, 0.0), (0.08, 0.4), (0.12, 1.0), (0.16, 0.0)), 0.17
 # The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds.
 HELD, HOLD = (0.0, 0.1, 0.125, *np.arange(0.15, 0.36, 0.0125), *np.arange(0.4, 0.91, 0.05), 1.0), 0.03

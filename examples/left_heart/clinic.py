@@ -79,7 +79,7 @@ def numbers(case, tables):
     open_ = {name: orifices[name].is_open(beat.openings[name][last]) for name in orifices}
     ejects = np.flatnonzero(open_["aortic"])
 
-    # The run begins at the end of the A wave, so the A wave is what enters after the time KICK_START of the run.
+    # The run begins at the end of the A wave, so the A wave enters after the time KICK_START of the run.
     filling = mitral * (time > time[ejects[-1]])
     kick = time > zero_d.KICK_START
     e_wave = filling[~kick].max()

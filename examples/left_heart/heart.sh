@@ -13,8 +13,8 @@ heart_least_opening=0.35                                     # of the regurgitan
 #   Beats a left heart in OpenFOAM: a ventricle whose wall moves, with a mitral and an aortic valve, which a heart without space
 #   drives. It measures leaks, and checks the balance of blood, the pressures, 1 and 2 ranks and a restart. It leaves tables,
 #   pictures and a movie in out/heart. --all adds a heart with a stenotic aortic valve, and one with a regurgitant mitral valve.
-#   --short has one beat in a coarse mesh. With --coupled the pressures of the flow open the valves, and the wall moves by its
-#   elastance. --resume goes on with a run that was cut off. It is left out like openfoam.
+#   --short has one beat in a coarse mesh. With --coupled, the pressures of the flow open the valves, and the wall moves by its
+#   elastance. --resume continues a run that was cut off. It is left out like openfoam.
 run_heart() {
   local python name of_keep=
   [[ ${1:-} != --resume ]] || { of_keep=yes && shift; }
@@ -118,8 +118,8 @@ heart_held() {
 }
 
 # heart_orifice VALVE [DISEASE]: the heart stands still, with the other valve open. The valve first opens without a pressure, and
-# the flow is what its leaflets displace. Then it takes one opening after the other between 12 and 0 mmHg. The flow and the
-# pressures give the area that each opening leaves, and the leak of the closed valve.
+# its leaflets displace the flow. Then it takes one opening after the other between 12 and 0 mmHg. The flow and the pressures
+# give the area that each opening leaves, and the leak of the closed valve.
 heart_orifice() {
   local name=orifice-$1${2:+-$2} folder=$of_out${2:+/$2} other=mitral least=0
   [[ $1 == aortic ]] || other=aortic

@@ -4,9 +4,9 @@
     python3 zero_d.py CASE MITRAL.csv AORTIC.csv [--beats N] [--out TABLE.csv]
 
 The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before it, and a windkessel lies
-behind it. The tables have the leak of each closed valve, the area that each opening leaves to the flow, and the volume that
-the leaflets displace on their way. check.py orifice measures them in the mesh, so the isovolumetric phases have the same lengths
-as in space. A few milliseconds more or less would cost hundreds of mmHg there, because blood is incompressible.
+behind it. The tables have the leak of each closed valve, the area that each opening leaves to the flow, and the volume that the
+moving leaflets displace. check.py orifice measures them in the mesh, so the isovolumetric phases have the same lengths as in
+space. A few milliseconds more or less would cost hundreds of mmHg there, because blood is incompressible.
 
 The model runs until its beats repeat. The case's tables begin after the A wave, when the blood in the closing mitral valve is
 at rest, as is the blood of the case.
@@ -56,9 +56,9 @@ def atrial_elastance(t):
 
 
 class Orifice(typing.NamedTuple):
-    """What a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never does.
+    """The area that a valve leaves to the flow at each opening, and the largest opening at which it seals: -1 if it never seals.
 
-    It seals while it leaks less than 1.1 of what it leaks at opening 0.
+    It seals while its leak is less than 1.1 times the leak at opening 0.
     """
 
     openings: np.ndarray
@@ -219,7 +219,7 @@ class Mesh:
 
 
 def amplitude_of(mesh, change):
-    """Returns the amplitudes at which the mesh's volume differs from that at rest by the changes, in m3."""
+    """Returns the amplitudes for these changes of the mesh's volume against the volume at rest, in m3."""
     amplitudes = np.linspace(-0.6, 1.3, 60)
     changes = np.array([mesh.volume(a) for a in amplitudes]) - mesh.volume(0)
     if changes[0] < change.max() or changes[-1] > change.min():
@@ -260,8 +260,8 @@ def write_tables(case, rows, n_beats):
     write_table(constant / "amplitude", "amplitude", times, amplitude_of(Mesh(case), change))
     for name, file in (("atrium", "inletPressure"), ("aorta", "outletPressure")):
         pressures = at(rows, name, start + times) * MMHG / RHO
-        # The blood begins with the pressure 0, also at both ends. decomposePar puts the first row there, which would push the
-        # blood in the first step on several ranks only. The solver itself takes the rows from the end of the first step on.
+        # The blood begins with the pressure 0, also at both ends. decomposePar puts the first row there. On several ranks this
+        # would push the blood in the first step. The solver itself takes the rows from the end of the first step on.
         pressures[0] = 0
         write_table(constant / file, "p0", times, pressures)
     for name in ("mitral", "aortic"):

@@ -174,8 +174,8 @@ def hexahedra(*ratios):
 
 
 def estimate(case):
-    """Returns what the plug-in's log says of the closed valve: its area in the mesh, its drop over (R / eps) u, and the factor
-    of K or 1."""
+    """Returns three numbers of the closed valve from the plug-in's log: its area in the mesh, its drop over (R / eps) u, and the
+    factor of K or 1."""
     log = foam.text(pathlib.Path(case) / "log.pimpleFoam")
     found = re.search(r"the closed valve has (\S+) m2 in the mesh, and is expected to drop (\S+) of \(R / eps\) u,"
                       r" u = flow / area(?:\. K is multiplied by (\S+))?", log)
@@ -184,7 +184,7 @@ def estimate(case):
 
 
 def expected(*cases):
-    """Compares the expected drops of closed flat leaflets in a duct with those of the solver, without calibration and with it."""
+    """Compares the expected drops of closed flat leaflets in a duct with the solver's drops, without calibration and with it."""
     print("A closed flat leaflet in a duct. Drops are over (R / eps) u. h is the cube root of the mean volume of a cell.")
     print(f"  {'cells':<10} {'leans':>5} {'eps / h':>8} {'dt, ms':>6} {'expected':>9} {'measured':>9} {'difference':>10}"
           f" {'factor':>7} {'calibrated':>10}")
@@ -238,8 +238,8 @@ def cases_of_factor(case):
 
 
 def layers(heights, eps):
-    """Returns the drop over (R / eps) u of a flat leaflet at 0 between layers of cells with their centres at these heights. On a
-    face, 1/K is the mean of 1/K in the two cells."""
+    """Returns the drop over (R / eps) u of a flat leaflet at the height 0. Layers of cells have their centres at the given
+    heights. On a face, 1/K is the mean of 1/K in the two cells."""
     k = numpy.where(abs(heights) < eps, (1 + numpy.cos(numpy.pi * heights / eps)) / (2 * eps), 0)
     k = numpy.maximum(k, 1e-30 / eps)
     return (2 / (1 / k[1:] + 1 / k[:-1])).sum(axis=0) * (heights[1] - heights[0])[()]
@@ -362,7 +362,7 @@ def restart(whole, again, none, none_again):
 
 
 def model(*cases):
-    """Compares flows of the plug-in for the Foundation's OpenFOAM with those of riisValve and riisSource."""
+    """Compares flows of the plug-in for the Foundation's OpenFOAM with flows of riisValve and riisSource."""
     print("The plug-in for the Foundation's OpenFOAM with a stand-in for its fvModel, against riisValve and riisSource:")
     for case in cases:
         time, again = foam.times(case)[-1], f"{case}-model"
@@ -382,7 +382,7 @@ def nan(pressure, owner):
 
 
 def forces(case):
-    """Returns the time and the force of the flow on the valves in each step, (n, 4). The force is that of the last pressure
+    """Returns the time and the force of the flow on the valves in each step, (n, 4). The force comes from the last pressure
     corrector. The forces of several valves are added."""
     logs = sorted(pathlib.Path(case).glob("log.p*Foam"))
     if not logs:

@@ -41,8 +41,8 @@ def fields(case, time):
 
 
 def follow(cases):
-    """Checks that a valve in a mesh that moves as a rigid body has the marks and K of the valve at rest, and that its velocity is
-    that of the valve at rest in the motion of the mesh."""
+    """Checks a valve in a mesh that moves as a rigid body. Its marks and K equal the marks and K of the valve at rest, and its
+    velocity is the rigid body's."""
     cases = pathlib.Path(cases)
     rest = cases / "follow-rest"
     times, dt = foam.times(rest), 1e-3
@@ -115,8 +115,8 @@ def follow(cases):
 
 
 def deform(case):
-    """Checks that the nadirs of the valve, which are landmarks and rest while it opens, move with the nearest points of the wall
-    while the mesh deforms."""
+    """Checks that the valve's nadirs move with the nearest points of the wall while the mesh deforms. The nadirs are landmarks,
+    and they rest while the valve opens."""
     case = pathlib.Path(case)
     sources = numpy.array(re.findall(r"\(([-.\de]+) ([-.\de]+) ([-.\de]+)\)", foam.text(case / "system/warp")), float)
     require(len(sources) == 6, f"{case}/system/warp has six landmarks, not {len(sources)}")

@@ -54,7 +54,7 @@ def physiological(case):
 
 
 def arteries(case, flows):
-    """Returns the pressure in the compliance in each step in Pa, by the table of the flow. It must end at that of OpenFOAM."""
+    """Returns the pressure in the compliance in each step in Pa, by the table of the flow. It must end at OpenFOAM's."""
     keys = ("distalResistance", "compliance", "pressure")
     first, last = ([float(re.search(rf"\b{key}\s+([0-9.e+-]+);", foam.text(pathlib.Path(case) / at / "p", "latin-1"))[1])
                     for key in keys] for at in ("0", foam.times(case)[-1]))

@@ -313,7 +313,7 @@ openfoam_drops() {
   done
 }
 
-# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm: cubes of 1 mm, tetrahedra, or the polyhedra that are dual to them.
+# openfoam_duct NAME: makes a mesh of a duct of 8 x 8 x 24 mm. It has cubes of 1 mm, tetrahedra, or the dual polyhedra.
 openfoam_duct() {
   local folder=$of_work/duct-$1
   [[ ! -e $folder/complete ]] || return 0

@@ -4,7 +4,7 @@
 # and check the plug-in. Debian's ParaView conflicts with the Python modules of libvtk9-dev, so it needs a system of its own. The
 # steps use variables and functions of ./run and of python/python.sh.
 
-# Packages that the plug-in and its check need, besides those that build the wheel.
+# Packages for the plug-in and its check, besides the packages that build the wheel.
 paraview_packages=(paraview python3-paraview python3-numpy python3-pil)
 
 # paraview_install: unpacks the wheel into a folder for pvpython, which takes numpy from Debian.

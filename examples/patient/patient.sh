@@ -9,8 +9,8 @@ patient_openings=(0 0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1)
 
 # ./run patient
 #   Follows docs/patient.md: from a patient's segmented root and six landmarks to a beating valve in a graded mesh. It checks that
-#   the valve seals when closed, that no edge leaks at 11 openings, and that the mesh has at most a quarter of a uniform mesh's
-#   nodes. It leaves meshes, pictures and a movie in out/patient, in two minutes.
+#   the closed valve seals, and that no edge leaks at 11 openings. The mesh must have at most a quarter of a uniform mesh's nodes.
+#   It leaves meshes, pictures and a movie in out/patient, in two minutes.
 # ./run patient N
 #   Takes N random patients, up to 99, from landmarks to marks, fifteen seconds each. It prints a table, and leaves pictures of
 #   the closed valves in out/patients.
@@ -89,8 +89,9 @@ patient_checks() {
 }
 
 # random_patients N: takes N random patients from landmarks to marks, prints a table, and puts pictures of the closed valves into
-# one. Returns 1 if a valve does not seal or does not open, if its leaflets go through each other, or if an edge leaks. Also
-# returns 1 if the attachment of any patient is too far from the patient's own: 0.4 mm with exact landmarks, 0.8 mm with noise.
+# one. Returns 1 for a valve with a fault: it does not seal, it does not open, its leaflets go through each other, or an edge
+# leaks. Also returns 1 if the attachment of any patient is too far from the patient's own: 0.4 mm with exact landmarks, 0.8 mm
+# with noise.
 random_patients() {
   local folder=out/patients seed row place inputs=() tiles='' layout='' n=0
   patient_failed=0

@@ -122,7 +122,7 @@ class Bindings:
         return line
 
     def kept(self, constants, file):
-        """Returns the constants without those that the table omits from the file."""
+        """Returns the constants that the file has. The table omits the others."""
         entry = self.entry("omit from " + file)
         kept = []
         for constant in constants:

@@ -521,10 +521,10 @@ module riis_c
 
   !> The widest passage from one set of nodes to another: the path whose least distance from the surface is largest.
   type, bind(c) :: riis_passage
-    integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. Of nodes at
-                                   !! equal distances, the one with the higher id counts as nearest
-    real(c_double) :: distance     !< the distance of node_id. A half thickness closes the passage, for these triangles,
-                                   !! if it is at least this distance; a smaller one leaves it open. 0 without a path
+    integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. If nodes have
+                                   !! equal distances, the higher id counts as nearest
+    real(c_double) :: distance     !< the distance of node_id. For these triangles, a half thickness of at least this
+                                   !! distance closes the passage, and a smaller one leaves it open. 0 without a path
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -544,8 +544,8 @@ module riis_c
     integer(c_int64_t) :: n_triangles !< the number of its triangles that answer queries
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
-                                      !! Of a surface from arrays: the edges that only one of its triangles has, without
-                                      !! the outline of riis_orifice. 0 for a skirt
+                                      !! For a surface from arrays: the edges that only one of its triangles has,
+                                      !! without the outline of riis_orifice. 0 for a skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
@@ -568,7 +568,7 @@ module riis_c
     real(c_double) :: half_thickness !< eps of the resistance
     real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
                                      !! outlines
-    real(c_double) :: axis(3)        !< unit vector; of a warped disc its normal; 0 for arrays and keyframes without an
+    real(c_double) :: axis(3)        !< unit vector; for a warped disc its normal; 0 for arrays and keyframes without an
                                      !! outline
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
@@ -635,7 +635,7 @@ module riis_c
     real(c_double) :: translation(3)        !< mesh units
     real(c_double) :: rms                   !< root mean square of the residuals, mesh units
     real(c_double) :: worst                 !< the largest residual, mesh units
-    real(c_double) :: noise                 !< noise behind standard errors: that of the landmarks, or more if the
+    real(c_double) :: noise                 !< the noise for the standard errors: the landmarks' noise, or more if the
                                             !! residuals show more
     real(c_double) :: rotation_error        !< standard error of the rotation, degrees
     real(c_double) :: position_error        !< standard error of the place of the valve's origin, mesh units

@@ -3805,7 +3805,7 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   integer(int32), intent(inout) :: leaflet_id             !< From 0.
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
   real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
-                                                          !! patches has. Of a surface from arrays: the edges that only one of
+                                                          !! patches has. For a surface from arrays: the edges that only one of
                                                           !! its triangles has, without the outline of riis_orifice. 0 for a
                                                           !! skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4351,10 +4351,10 @@ end subroutine riisf_opening_angle_advance
 ! Placing and warping by a patient's landmarks
 ! -----------------------------------------------------------------------------------------------------------------
 
-!> Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement, for riisf_surface_create. Lengths that
-!! no landmark bears on keep the valve's proportions. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one
-!! place, collinear, mirrored or not those of a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches and
-!! for sizes that do not fit together.
+!> Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement, for riisf_surface_create. Lengths that no
+!! landmark bears on keep the valve's proportions. Errors: RIIS_INVALID_ARGUMENT naming landmarks that are missing, in one place,
+!! collinear, mirrored, or too large or small for a heart valve at this scale; RIIS_INVALID_PARAMETER for a valve from patches
+!! and for sizes that do not fit together.
 subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, flow, held, rotation_axis, &
     rotation_angle, translation, residual, size_state, status)
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_sizeof
@@ -4367,11 +4367,11 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): of a nadir or a point of the attachment, its
-                                                          !! cusp and -1; of a commissure, its two cusps, in any order. -1 and
-                                                          !! -1: not known. Enough of an aortic valve's must be known to name
-                                                          !! all. Without names, cusp 0 of three equal cusps is at the first
-                                                          !! nadir.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): for a nadir or a point of the attachment, its
+                                                          !! cusp and -1; for a commissure, its two cusps, in any order. -1 and
+                                                          !! -1: not known. For an aortic valve, enough cusps must be known to
+                                                          !! name all. Without names, cusp 0 of three equal cusps is at the
+                                                          !! first nadir.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
                                                           !! metres. Must be set.
   real(c_double), intent(in) :: noise                     !< The scatter of the landmarks, each coordinate's standard

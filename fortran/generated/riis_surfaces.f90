@@ -39,7 +39,7 @@ module riis_surfaces
   !! once. One thread may write it while no other reads it.
   !!
   !! The placement, x -> scale * rotation * x + translation, is applied last, to valves and to arrays. Options that are passed to
-  !! an update replace those of the surface. Other options stay as they were.
+  !! an update replace the surface's options. Other options stay as they were.
   type :: riis_surface
     private
     type(c_ptr) :: handle = c_null_ptr
@@ -213,10 +213,11 @@ contains
     call finish(code, status)
   end subroutine surface_update_moving
 
-  !> Adds a direction in which the surface of a valve changes: with a parameter, with a landmark, or with the placement. Marking
-  !! with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K in all directions. The directions count from 1, in
-  !! the order of the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp out of
-  !! range; RIIS_INVALID_PARAMETER for a state of another kind or with other patches; RIIS_LIMIT_EXCEEDED for more than 1000.
+  !> Adds a direction in which the surface of a valve changes. It belongs to a parameter, a landmark or a number of the placement.
+  !! Marking with RIIS_FIELD_GRADIENT then gives the derivatives of distances and of K in all directions. The directions count
+  !! from 1, in the order of the calls. An update removes them. Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for dp
+  !! out of range; RIIS_INVALID_PARAMETER for a state of another kind or with other patches; RIIS_LIMIT_EXCEEDED for more than
+  !! 1000.
   subroutine surface_add_direction(this, valve_after, valve_before, dp, scale_after, rotation_axis_after, &
       rotation_angle_after, translation_after, scale_before, rotation_axis_before, rotation_angle_before, &
       translation_before, status)

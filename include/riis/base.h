@@ -54,7 +54,7 @@ RIIS_API const char *riis_version_string(void);
 typedef void (*riis_log_function)(void *user_data, int32_t level, const char *message);
 /* The levels of a message. */
 enum {
-  RIIS_LOG_INFO = 0,   /* what was built and how large */
+  RIIS_LOG_INFO = 0,   /* the shape that was built, and its size */
   RIIS_LOG_WARNING = 1 /* skipped triangles, sizes in different units, leaflets that cross */
 };
 /* Sets the log function of the process. Any thread may call riis_set_log.
@@ -63,8 +63,8 @@ enum {
  * A message that another thread is sending may still reach the previous function.
  * A log function also makes the library search surfaces for crossings (riis_find_crossings). It searches a shape whose
  * parameters, patches or open state the caller chose. The search takes longer than an update. Openings have five
- * ranges: 0, up to 0.05, up to 1/3, up to 2/3, and up to 1. It runs at the shape's first opening in each range. It ends
- * with the shape's first warning. */
+ * ranges: 0, up to 0.05, up to 1/3, up to 2/3, and up to 1. In each range the search runs once, at the shape's first
+ * opening there. It ends with the shape's first warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* Stands for the value of another quantity, which the field's comment names. */

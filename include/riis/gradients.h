@@ -19,8 +19,8 @@ extern "C" {
  *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than
  *                   in the surface. If only the placement changes, pass the same valve twice
  *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
- *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: those
- *                   of the surface
+ *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: the
+ *                   surface's options
  * The first call makes direction 0, the next call direction 1. An update removes all directions. A marking with
  * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md).
  * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. The error of the
@@ -43,7 +43,7 @@ typedef struct riis_direction {
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
  *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
  * With the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md).
- * They are those of the triangles with every RIIS_MEASURE_*.
+ * They belong to the triangles with every RIIS_MEASURE_*.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
                                                 riis_direction *direction, int64_t struct_size);

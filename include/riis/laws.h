@@ -46,7 +46,8 @@ RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, do
  * valve may begin to open at 0.45 s and to close at 0.95 s, every second, and take 0.05 s for both. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
-  double opening_start;   /* when the valve begins to open. Default NaN, which is refused, also in the next three */
+  double opening_start;   /* when the valve begins to open. Default NaN here and in the next three fields; NaN is
+                             refused */
   double opening_duration; /* how long opening takes, > 0 */
   double closing_start;   /* when the valve begins to close, at least opening_start + opening_duration */
   double closing_duration; /* how long closing takes, > 0 */
@@ -71,8 +72,8 @@ enum {
  * filter_time 0.002 and dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
-  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused. So is that of the next field */
-  double closing_duration; /* time from open to closed, > 0 */
+  double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused */
+  double closing_duration; /* time from open to closed, > 0. Default NaN, which is refused */
   double open_above;      /* pressure difference. Default 0 */
   double close_below;     /* flow. Default 0 */
   double filter_time;  /* time constant of a filter of pressure difference and flow, >= 0. Default 0: no filter */
@@ -112,7 +113,7 @@ RIIS_API riis_status riis_opening_switch_advance(const riis_opening_switch *law,
  * aortic and 3.5 for the mitral valve. */
 typedef struct riis_opening_angle {
   int64_t struct_size;  /* set by the init function */
-  double pressure_gain; /* K_p, >= 0. Default NaN, which is refused, also in the next three fields */
+  double pressure_gain; /* K_p, >= 0. Default NaN here and in the next three fields; NaN is refused */
   double flow_gain;     /* K_q, >= 0 */
   double friction;      /* K_f, >= 0 */
   double vortex_gain;   /* K_v, >= 0 */

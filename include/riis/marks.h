@@ -113,7 +113,7 @@ enum {
   RIIS_LIST_WITHIN_LIMIT = 1 /* the nodes within the distance limit, marked or not */
 };
 /* A list of nodes, ascending by node_id. Lengths are in mesh units. The arrays from `point` on are NULL unless
- * options.fields requested them. Values equal those of riis_closest_point to the last bit. */
+ * options.fields requested them. riis_closest_point gives the same values, to the last bit. */
 typedef struct riis_mark_list {
   int64_t n_nodes;            /* in the list */
   const int64_t *node_id;     /* (n_nodes) */
@@ -131,7 +131,7 @@ typedef struct riis_mark_list {
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches
                                  of one leaflet (within 1e-9). The velocity is then the mean of the velocities at their
-                                 closest points (docs/theory/marks.md). Other fields are those of one triangle */
+                                 closest points (docs/theory/marks.md). Other fields come from one triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
                                  has the sides that only one patch has, such as free edges and the annulus. Free edges
@@ -142,8 +142,8 @@ typedef struct riis_mark_list {
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
                                  unit vector n points from the closest point to the node, on both sides. V is the rate
                                  of the closest point, on the triangle of triangle_id. 0 on the surface, where the
-                                 distance has a kink. If several places are equally near, the distance has a kink,
-                                 too */
+                                 distance has a kink. If several places are equally near, the distance also has a
+                                 kink */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
                                  where K is 0; NULL without a resistance */
 } riis_mark_list;

@@ -18,7 +18,7 @@ extern "C" {
 typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles that answer queries */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. Of a surface
+  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. For a surface
                           from arrays: the edges that only one of its triangles has, without the outline of
                           riis_orifice. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
@@ -56,7 +56,7 @@ typedef struct riis_orifice {
                             to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
   double half_thickness; /* eps of the resistance */
   double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
-  double axis[3];        /* unit vector; of a warped disc its normal; 0 for arrays and keyframes without an outline */
+  double axis[3];        /* unit vector; for a warped disc its normal; 0 for arrays and keyframes without an outline */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
 } riis_orifice;
@@ -80,8 +80,9 @@ typedef struct riis_coaptation {
  *   reach       1e-50 to 1e50. RIIS_AUTO stands for the surface's half thickness
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
- * Areas are right to 1e-3 of the contact's outline times reach (docs/theory/measures.md). The extent of a surface is the
- * diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent are lost.
+ * The error of an area is at most 1e-3 times the contact's outline times reach (docs/theory/measures.md). The extent of
+ * a surface is the diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent
+ * are lost.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);

@@ -50,8 +50,8 @@ typedef struct riis_reaction {
                                Default 0 */
   double *force;            /* (3): force on the whole surface, in the unit of weight K velocity, N in SI units */
   double *moment;           /* (3): moment on the whole surface */
-  int64_t n_leaflets;       /* the number of columns in both sums of leaflets, which alone use it: more than
-                               riis_surface_info.largest_leaflet_id. Default 0 */
+  int64_t n_leaflets;       /* the number of columns in both sums of leaflets: more than
+                               riis_surface_info.largest_leaflet_id. Nothing else uses it. Default 0 */
   double *leaflet_force;    /* (3, n_leaflets): force on each leaflet. A node belongs to the leaflet in
                                riis_mark_list.leaflet_id, also if two leaflets are equally near */
   double *leaflet_moment;   /* (3, n_leaflets): moment on each leaflet */
@@ -60,8 +60,8 @@ typedef struct riis_reaction {
                                magnitude at most 1e60. An edge may have length 0 */
   const int32_t *edge_leaflet_id; /* (n_edges), >= 0: a node counts for the nearest edge of its leaflet, and each
                                leaflet needs an edge. NULL, the default: it counts for the nearest of all edges */
-  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. Distances are those of a
-                               node's closest point. If edges are equally near, the first one counts */
+  double *edge_force;       /* (3, n_edges): force of the nodes that count for the edge. A node's distances are measured
+                               to its closest point. If edges are equally near, the first one counts */
   double *edge_moment;      /* (3, n_edges): moment of the same nodes about the middle of the edge */
 } riis_reaction;
 /* Fills *reaction with the defaults. */

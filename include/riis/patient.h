@@ -39,10 +39,10 @@ typedef struct riis_landmarks {
   const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
-  const int32_t *leaflet_id; /* (2, n_landmarks): of a nadir or a point of the attachment, its cusp and -1; of a
-                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. Enough of
-                                an aortic valve's must be known to name all. Without names, cusp 0 of three equal cusps
-                                is at the first nadir */
+  const int32_t *leaflet_id; /* (2, n_landmarks): for a nadir or a point of the attachment, its cusp and -1; for a
+                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. For an
+                                aortic valve, enough cusps must be known to name all. Without names, cusp 0 of three
+                                equal cusps is at the first nadir */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
   double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */
@@ -69,7 +69,8 @@ typedef struct riis_placement {
   double translation[3];     /* mesh units */
   double rms;                /* root mean square of the residuals, mesh units */
   double worst;              /* the largest residual, mesh units */
-  double noise;              /* noise behind standard errors: that of the landmarks, or more if the residuals show more */
+  double noise;              /* the noise for the standard errors: the landmarks' noise, or more if the residuals show
+                                more */
   double rotation_error;     /* standard error of the rotation, degrees */
   double position_error;     /* standard error of the place of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
@@ -85,11 +86,11 @@ typedef struct riis_placement_arrays {
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
   double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a
                                 warp whose targets are the landmarks. A commissure's place is the mean of its cusps' ends.
-                                A point of the attachment has the place that this warp, smoothed by the noise, takes
-                                nearest to it */
+                                A point of the attachment has the place that this warp maps nearest to it, smoothed by
+                                the noise */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
-/* Sets a valve's sizes, in centimetres, to those of a patient, and finds its placement.
+/* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
  *   valve   the template, a kind with any parameters: lengths that no landmark bears on keep their proportions. Translation
  *           and opening stay, and so does the open state of riis_valve_set_open_state
  *   held    names of parameters that keep the valve's values, separated by blanks or commas; "": none
@@ -116,8 +117,8 @@ typedef struct riis_warp_options {
   double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
                           misses the targets by about that much. Default 0: it meets the targets exactly */
   const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
-                          Otherwise they are in the mesh's: scale, rotation and translation of these options place them.
-                          Use the same options for the surface */
+                          Otherwise they are in the mesh's frame, and scale, rotation and translation of these options
+                          place them. Use the same options for the surface */
 } riis_warp_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size);
@@ -201,8 +202,8 @@ RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const rii
  *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
  *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
  * At each point of the attachment of the closed valve, the length is the gap. If the gap is below 0.01 of the attachment's mean
- * distance from the axis, the length is that limit. These lengths stay while the valve opens. The parameter "skirt_length"
- * becomes the largest of them, before placement. Setting that parameter removes the lengths.
+ * distance from the axis, the length is that limit. These lengths stay while the valve opens. The parameter
+ * "skirt_length" becomes the largest length, before placement. Setting that parameter removes the lengths.
  * Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest, with the first such point;
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,

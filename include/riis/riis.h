@@ -6,8 +6,8 @@
  *   (named parameters)                    (triangles, Embree scene)           (nodes in the band)
  *
  * A flow solver gives the nodes of its mesh, and gets the nodes near the valve's leaflets, with their distances. At these
- * nodes the momentum equation has the term K (u - u_surface), which holds the blood back. The leaflets move, and so no
- * mesh has to follow them.
+ * nodes the momentum equation has the term K (u - u_surface), which holds the blood back. No mesh has to follow the
+ * moving leaflets.
  *
  * The shortest complete program:
  *

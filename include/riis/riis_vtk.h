@@ -7,8 +7,8 @@
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
  * - Messages that VTK would print while a function runs are caught and become the message of the error.
- * - A file is refused if it is cut short, is of another kind, or claims more points, cells, values or bytes
- *   than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So read files
+ * - A file is refused if it is cut short or of another kind. It is also refused if it claims more points, cells, values
+ *   or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So read files
  *   that you do not trust in a separate process.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - If a path cannot be read or written, the status is RIIS_FILE_ERROR, and the message names the file.
@@ -37,17 +37,17 @@ typedef struct riis_vtk_mesh riis_vtk_mesh;
  *   path  a file by its ending, or a folder of OpenFOAM:
  *         .vtu (VTK XML), .vtk (legacy VTK), .vtm (blocks, whose shared nodes are joined), .msh (gmsh),
  *         .xdmf or .xmf, .e, .exo, .ex2 or .exii (Exodus), .foam, a case, its time folder, or a polyMesh
- * HDF5 and VTK's reader of Exodus can crash on damaged files: read .xdmf and Exodus files that you do not
- * trust in a separate process, as the program riis does.
+ * HDF5 and VTK's reader of Exodus can crash on damaged files. If you do not trust an .xdmf or Exodus file, read it in a
+ * separate process, as the program riis does.
  * Errors: RIIS_FILE_ERROR naming the file, if it is missing, unreadable, of another kind, truncated, or has
  * no points. */
 RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
 /* Gives notes on the file in one line, such as "its points have single precision", or "". The text is valid
  * until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
-/* Makes the centres of the cells the nodes of the mesh, in the order of the cells, for solvers with their
- * unknowns there. They are OpenFOAM's centres. Two nodes are then neighbours if their cells share a face, and
- * the arrays that are set are arrays of cells. Centres have no parts (riis_vtk_mesh_extract).
+/* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. This is for solvers with
+ * unknowns at centres. They are OpenFOAM's centres. Two nodes are then neighbours if their cells share a face, and the
+ * arrays that are set are arrays of cells. Centres have no parts (riis_vtk_mesh_extract).
  * Errors: RIIS_INVALID_ARGUMENT naming the cell, if it is neither a linear volume cell nor a polyhedron. The
  * mesh then keeps its nodes. */
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
@@ -92,9 +92,9 @@ RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
  * edges that are longer than a given length, if their bounding box meets the surface's bounding box. It borrows
  * nothing. Use it only for riis_find_leaks: a search along so few edges would not get far from its start.
- *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface; use it if
- *                     the marking was by RIIS_SEARCH_PAPER, or if distances were not measured to the
- *                     triangles. Edges shorter by up to a billionth are also included
+ *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface. Use 0 after a
+ *                     marking by RIIS_SEARCH_PAPER, or if distances were not measured to the triangles. Edges shorter
+ *                     by up to a billionth are also included
  *   n_cells_left_out  as in riis_vtk_mesh_get_volume_cells
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
@@ -145,9 +145,9 @@ RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int6
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
  *   path  ends in .vtu, or in .xdmf. The numbers of NAME.xdmf are in NAME.h5 beside it, or in itself if riis was
- *         built without HDF5. Polyhedra and text have no place in an .xdmf. With nodes at centres, the path may
- *         also be a time folder of the case of OpenFOAM that was read, such as CASE/0. The arrays of cells
- *         become its fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
+ *         built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was read from a case of
+ *         OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0. The arrays
+ *         of cells become its fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
  *         Such a folder may be written in part if an error occurs */
 RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *path);
 
@@ -280,7 +280,8 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
  *            and displacement_10. Frames are in the order of the numbers, which may have gaps
  *   n_times  the number of these arrays, or 0
  *   times    (n_times); NULL, with n_times 0, takes the times from the field array TimeValue
- * Errors: RIIS_INVALID_ARGUMENT naming the entry of times, and if n_times is not the number of arrays. */
+ * Errors: RIIS_INVALID_ARGUMENT for a bad entry of times, which the message names, and if n_times is not the number of
+ * arrays. */
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
@@ -302,7 +303,7 @@ RIIS_API riis_status riis_vtk_motion_get_frames(const riis_vtk_motion *motion, r
 
 /* ---- Pictures ------------------------------------------------------------------------------------------ */
 
-/* The direction in which a picture looks, by the axes of the mesh or by those of the valve. */
+/* The direction in which a picture looks, by the mesh's axes or by the valve's axes. */
 enum {
   RIIS_VTK_VIEW_SIDE = 0,          /* along +y, z up */
   RIIS_VTK_VIEW_TOP = 1,           /* along -z, y up */
@@ -315,7 +316,7 @@ enum {
   RIIS_VTK_VIEW_VALVE_THREE = 7    /* as RIIS_VTK_VIEW_THREE, by the axes of the valve */
 };
 
-/* What a picture shows and how. Texts are in ASCII. Other characters are drawn as "?". */
+/* The contents and the view of a picture. Texts are in ASCII. Other characters are drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
   const char *title;      /* precedes the number of triangles. Default NULL: "Surface" */
@@ -333,7 +334,7 @@ typedef struct riis_vtk_picture_options {
   int32_t reserved;       /* 0 */
   double rotation_axis[3]; /* of the valve's placement, for RIIS_VTK_VIEW_VALVE_*; ranges as in
                               riis_surface_options. Default (0, 0, 1) */
-  double rotation_angle;  /* degrees. Default 0: the axes of the valve are those of the mesh */
+  double rotation_angle;  /* degrees. Default 0: the valve has the mesh's axes */
 } riis_vtk_picture_options;
 /* Fills *options with the defaults. */
 RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *options, int64_t struct_size);

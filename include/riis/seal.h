@@ -19,7 +19,8 @@ typedef struct riis_leaks riis_leaks;
 RIIS_API riis_status riis_leaks_create(riis_leaks **leaks); /* makes leaks without an edge */
 RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and their list */
 
-/* Finds every edge of the mesh's adjacency that joins two unmarked nodes and crosses or touches a triangle of the surface.
+/* Finds the leaking edges: edges of the mesh's adjacency between two unmarked nodes that cross or touch a triangle of
+ * the surface.
  *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
  *   marks          marks from riis_mark_nodes
  *   options        the options of the marking. An edge to a node that node_mask leaves out does not leak
@@ -75,10 +76,10 @@ enum {
 };
 /* The widest passage from one set of nodes to another: the path whose least distance from the surface is largest. */
 typedef struct riis_passage {
-  int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. Of nodes at equal
-                       distances, the one with the higher id counts as nearest */
-  double distance;  /* the distance of node_id. A half thickness closes the passage, for these triangles, if it
-                       is at least this distance; a smaller one leaves it open. 0 without a path */
+  int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. If nodes have equal distances,
+                       the higher id counts as nearest */
+  double distance;  /* the distance of node_id. For these triangles, a half thickness of at least this distance closes
+                       the passage, and a smaller one leaves it open. 0 without a path */
   double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */
@@ -95,7 +96,7 @@ typedef struct riis_passage_ends {
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
- *   ends     farther from the surface than the passage is wide, because paths include their ends
+ *   ends     paths include their ends, so the ends must be farther from the surface than the passage is wide
  *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.

@@ -48,8 +48,8 @@ enum {
   RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
   RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
                                     The distance is too large by at most e, too small by at most e / 10 */
-  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most
-                                    e / 10, but in a local minimum too large by any amount, unnoticed */
+  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most e / 10.
+                                    In a local minimum it is too large by any amount, and nothing shows this */
 };
 
 /* How the smooth valve is cut into triangles. */
@@ -206,8 +206,8 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
 
 /* ---- Motion: surfaces with velocities, from two states of a valve or from frames ----------------------- */
 
-/* Replaces the surface's content by that of a valve, and gives every vertex a velocity. The triangles are those of
- * riis_surface_update, to the last bit. If the valve is at rest, also pass it as valve_before.
+/* Replaces the surface's content by a valve, and gives every vertex a velocity. riis_surface_update makes the same
+ * triangles, to the last bit. If the valve is at rest, also pass it as valve_before.
  *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now

@@ -27,12 +27,12 @@ typedef struct riis_valve riis_valve;
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
-/* Destroys the valve. Surfaces made from it, and valves that open to it, stay as they are. */
+/* Destroys the valve. Surfaces from this valve, and valves with it as their open state, do not change. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
- *   name      such as "root_radius". A name such as "right.leaflet_angle" is that of one cusp ("right", "left",
- *             "non_coronary"), and "leaflet_angle" stands for all three
+ *   name      such as "root_radius". A name such as "right.leaflet_angle" means one cusp ("right", "left",
+ *             "non_coronary"), and "leaflet_angle" means all three
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range
  * Two parameters change the whole valve:
@@ -63,7 +63,7 @@ RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, i
  * Some parameters have a rule: they follow from other parameters until they are set. The order of calls does not matter.
  * riis_valve_get gives their present values. Copies and open states keep the difference between set and not set. */
 
-/* Returns a parameter to the value of a valve on which it was not set: its rule's value, or its default.
+/* Gives a parameter the value that it has before it is set: its rule's value, or its default.
  *   name  as in riis_valve_set
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
@@ -119,7 +119,8 @@ typedef struct riis_parameter {
   double maximum;          /* of every value, inclusive */
   const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
   const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
-  double other_factor;     /* factor from the parameter's value to that under other_name: 1 or 2; 0 without other_name */
+  double other_factor;     /* the value under other_name divided by the parameter's value: 1 or 2; 0 without
+                              other_name */
 } riis_parameter;
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
@@ -128,9 +129,9 @@ RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_
 RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t parameter_id,
                                               riis_parameter *parameter, int64_t struct_size);
 
-/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves, the
- * arrays are those of riis_patches, and make the same shape. Trileaflet and aortic valves and valves from patches have
- * as many pieces as curves. */
+/* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves,
+ * riis_patches has the same arrays, and they make the same shape. Trileaflet and aortic valves and valves from patches
+ * have as many pieces as curves. */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */

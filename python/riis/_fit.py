@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fits a valve to points, such as those of a segmented image. It maximizes a likelihood of the distances to closest points."""
+"""Fits a valve to points, for example from a segmented image. It maximizes a likelihood of the distances to closest points."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _MOST_SCATTER = 0.05  # as a share of the valve's size, if no noise is stated
 
 
 class Rival(NamedTuple):
-    """Another fit, whose cost is similar but whose surface is not that of the best fit."""
+    """Another fit with a similar cost, but with another surface than the best fit."""
 
     parameters: dict[str, float]
     placement: dict[str, Any]
@@ -60,13 +60,14 @@ class FitResult:
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
     doubts: tuple[str, ...]  #: reasons to distrust the whole result, each a sentence; empty if there is none
     n_starts: int  #: number of starts
-    n_agreeing: int  #: number of starts that reached this fit, or a fit that turns by a cusp or half a turn led here from
+    n_agreeing: int  #: number of starts that reached this fit, directly or after a turn by a cusp or half a turn
     rivals: tuple[Rival, ...]  #: other fits of similar cost, the best first
     n_crossings: int  #: number of pairs of triangles of the fitted surface that go through each other
     singular_values: Reals  #: of the Jacobian (rows: points, columns: unknowns), descending, in units of the valve's size
     rms: float  #: root mean square of the residuals, with the weights below
     noise: float  #: standard deviation of the residuals of the points that are no outliers
-    misfit: float  #: the residuals' variance in parts of the valve, by that of independent points; large if the model is wrong
+    misfit: float  #: the residuals' variance in parts of the valve, divided by the variance of independent points; large if the
+                   #: model is wrong
     outliers: float  #: share of the points that are outliers
     covered: float  #: share of the fitted surface with points nearby
     percentile95: float  #: 95 % of all points have at most this distance
@@ -320,9 +321,9 @@ def fit(
     whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
                False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
     n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
-               random values within the bounds and, if start has no rotation, any rotation. After at least four
-               starts, or eight for a part of a valve, they end when two reached the best fit. If this fit has doubts
-               that a wrong end explains, the other starts follow
+               random values within the bounds and, if start has no rotation, any rotation. The starts end when two of them have
+               reached the best fit, after at least four starts, or eight for a part of a valve. If this fit has doubts that a
+               wrong end explains, the other starts follow
     seed       the seed of the random starts
     noise      the standard deviation of the points from the surface, in the points' unit. Larger residuals are doubted, and
                smaller ones do not reduce the standard errors

@@ -341,7 +341,8 @@ class Problem:
         jacobian, area = self.jacobian(x)
         weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
         n_area = loss.area * float(self.weights.sum())
-        # The Gauss-Newton matrix of the area's term. It makes edges as uncertain as a quarter of that term implies.
+        # The Gauss-Newton matrix of the area's term. It is the matrix of a quarter of that term, because this fits the
+        # uncertainty of edges.
         return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
     def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:

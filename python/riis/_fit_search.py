@@ -16,8 +16,8 @@ from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_r
 _N_ROTATIONS = 150
 # A start for a whole valve chooses a good one of this many valves with random sizes.
 _N_VALVES = 3
-# Ends are the same surface if nine tenths of one lie within this fraction of the valve's size from the other, and the areas
-# differ by at most this fraction.
+# Two ends are the same surface if their areas differ by at most this fraction, and if nine tenths of one surface lie near the
+# other. Near means within this fraction of the valve's size.
 _SAME = 0.02
 # A rough end whose cost for each point exceeds the least by this is not refined.
 _HOPELESS = 0.15
@@ -31,7 +31,7 @@ RIVAL = 9.0
 UNDETERMINED = 0.1
 # To find correlated residuals, the valve is divided into this many parts.
 _N_PARTS = 40
-# The scatter of all parts counts for an unknown as much as the scatter of this number of parts that determine it.
+# For an unknown, the scatter of all parts has the weight of this number of parts that determine the unknown.
 _N_USUAL = 10.0
 # Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
@@ -135,8 +135,8 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
 
 
 def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
-    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from an end of
-    an orbit by a turn."""
+    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from turning
+    an end of an orbit."""
     seen = problem.at(x)
     if seen is None:
         return
@@ -192,8 +192,8 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
     def begin() -> tuple[Pose, Reals] | None:
-        """Returns a random start. For a whole valve it is the one with the closest points among a few, because a start with
-        sizes far from the valve's ends at a wrong fit."""
+        """Returns a random start. For a whole valve the closest of a few valves is chosen, because a start with sizes far from
+        the true sizes leads to a wrong fit."""
         best = None
         for _ in range(_N_VALVES if problem.whole else 1):
             x, rotations = given.copy(), numpy.eye(3)[None]
@@ -271,7 +271,8 @@ class Judge:
         scatter = max(mixture.noise, self.noise, pose.scale * surface.info.error_bound)
         n_spare = n_points - problem.n
         factor = n_points / (n_spare - 2.0) if n_spare > 3.0 else n_points  # the variance of Student's distribution
-        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # each unknown is known to within its range
+        precision = rows.T @ rows * share / scatter**2 + numpy.eye(problem.n)  # the data determine each unknown to within its
+                                                                               # range
         covariance = numpy.linalg.inv(precision)
         # If residuals are alike within parts of the valve, the points are not independent and count as fewer.
         n_parts = int(min(_N_PARTS, n_points / 8.0))
@@ -294,7 +295,7 @@ class Judge:
             variances = numpy.maximum(variances, (_N_USUAL * usual + n_pieces * robust) / (_N_USUAL + n_pieces))
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
-        # The profile comes before the share of the fixed sizes. Where that share leads, most points would count as outliers.
+        # The profile comes before the share of the fixed sizes. With that share, most points would count as outliers.
         errors, better = self._profile(errors, covariance, ratio)
         errors = numpy.sqrt(errors**2 + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2, errors**2))
         influence = numpy.sqrt((rows**2).sum(axis=0) / inlier.sum())
@@ -343,8 +344,8 @@ class Judge:
         return found if evidence >= _LEAST_EVIDENCE else numpy.zeros(n)
 
     def _profile(self, errors: Reals, covariance: Reals, ratio: Reals) -> tuple[Reals, Reals | None]:
-        """Holds each parameter two standard errors away, and minimizes over the others. Widens the standard error if the cost
-        rises less than this error implies."""
+        """Holds each parameter two standard errors away, and minimizes over the others. If the cost rises less than the standard
+        error predicts, the error is widened."""
         problem, loss = self.problem, self.mixture.loss(self.problem.whole)
         best = problem.cost(self.x, loss)
         errors, better, least = errors.copy(), None, -_LEAST_GAIN

@@ -35,7 +35,7 @@ class PlaceResult:
     rms: float  #: root mean square of the residuals
     worst: float  #: the largest residual
     worst_landmark: str  #: its landmark
-    noise: float  #: on which standard errors rest: that of the landmarks, or more if the residuals show it
+    noise: float  #: for the standard errors: the landmarks' noise, or more if the residuals show it
     rotation_error: float  #: standard error of the rotation, degrees
     position_error: float  #: standard error of the place of the valve's origin
     standard_errors: dict[str, float]  #: of the parameters that the landmarks bear on
@@ -86,8 +86,8 @@ def place(
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
     of the size of a heart valve in this unit. If landmarks are not at the nodes, the message says whether they would be with the
-    axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not go together, for a warp that
-    folds, and for a warp of a bileaflet valve, which is rigid.
+    axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not go together, for a folding
+    warp, and for any warp of a bileaflet valve, which is rigid.
     """
     if warp not in ("none", "exact", "smoothed"):
         raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * c_marks COORDINATES OUTPUT: marks nodes in C, for comparison in the tests of the Python package.
- * Reads xyz as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks
- * as raw arrays: the number of marked nodes, ids, distances, triangles, leaflets, normals and velocities, then K and K u of
- * all nodes. */
+ * Reads xyz as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as
+ * raw arrays. First come the number of marked nodes, ids, distances, triangles, leaflets, normals and velocities. K and K u of
+ * all nodes follow. */
 #include <riis/riis.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -99,8 +99,7 @@ class Browser:
         raise AssertionError(f"waited {seconds} s in vain: {what}")
 
     def rest(self):
-        """Waits until the server has answered, the lights are those of the last change, and no new picture has come for a
-        while."""
+        """Waits until the server has answered, the lights belong to the last change, and no new picture has come for a while."""
         end, still, last, has_answered = time.monotonic() + 240, 0, -1, False
         while still < 6:
             time.sleep(0.25)

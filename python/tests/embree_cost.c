@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { n_points = 60, n_rounds = 300 }; /* so few points are queried one by one, also those of a coarse surface */
+enum { n_points = 60, n_rounds = 300 }; /* so few points are queried one by one, also if the surface is coarse */
 
 /* The functions of a library that this program calls. */
 #define FUNCTIONS(X)      \

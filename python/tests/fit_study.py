@@ -111,7 +111,7 @@ def patient(seed):
         true = {name: valve[name] * random.uniform(1.0 - spread, 1.0 + spread) for name, spread in spreads.items()}
         true["opening"] = random.uniform(0.0, most_open)
         others = {}
-        if case == "other shape":  # the sizes that are not free differ from those of the valve with which the fit starts
+        if case == "other shape":  # the fit starts from a valve with other fixed sizes
             others = {name: valve[name] * random.uniform(0.95, 1.05) for name, parameter in valve.parameters.items()
                       if parameter.unit == "length" and parameter.n_values == 1 and name not in true}
         try:

@@ -264,7 +264,8 @@ def test_refused_placed_valves(tmp_path):
 
 def test_warps_that_fold_are_refused():
     named = dict(zip(NAMES, 10 * trileaflet(1.1, 1.05, 1.4), strict=True))
-    # Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there.
+    # Two points of one cusp's attachment are far apart, across the attachment. No smooth map without folds moves the valve to
+    # them.
     torn = named | {"attachment_right_1": (21, 2, 1), "attachment_right_2": (1, -2, 1)}
     with pytest.raises(riis.InvalidParameterError, match='the warp folds near "commissure_.*its determinant is -'):
         riis.place(torn, "coapting", unit="mm", warp="exact")

@@ -87,7 +87,7 @@ def test_velocities_are_differences_over_the_step():
     surface = riis.Surface(before, triangulation="fixed")
     earlier = surface.vertices.copy()
     surface.update_moving(valve, before, 0.1)
-    # A vertex of fixed triangles keeps its fraction of the arc length, whereas the velocity is that of a fixed (u, v). So the two
+    # A vertex of fixed triangles keeps its fraction of the arc length, whereas the velocity belongs to a fixed (u, v). So the two
     # motions are close, but not equal.
     assert numpy.allclose(surface.velocities, (surface.vertices - earlier) / 0.1, atol=0.05)
     assert numpy.abs(surface.velocities).max() > 1.0

@@ -116,7 +116,7 @@ def faces_alone(cells, faces):
 
 
 def test_the_wall_is_the_boundary(small, random):
-    """The wall of tetrahedra with a hole inside, and of hexahedra, with normals outwards: its volume is that of the cells."""
+    """The wall of tetrahedra with a hole inside, and of hexahedra, has normals outwards. It encloses the volume of the cells."""
     points, tetrahedra = small
     n = 5
     axis = numpy.linspace(-1.0, 1.0, n)
@@ -293,7 +293,7 @@ def test_clicks_place_the_annulus(kind, unit, random):
 
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_clicks_anywhere_on_a_circle(kind, random):
-    """The circle through any three clicks becomes that of the annulus, on the side to which the axis points."""
+    """The circle through any three clicks becomes the annulus, and the axis points to its given side."""
     model = view.Model(numpy.zeros((1, 3)), unit="mm")
     i = model.add(kind)
     for _ in range(5):
@@ -415,7 +415,8 @@ def test_a_valve_that_fits_is_good(kind, fine):
 
 
 def test_a_gap_to_the_wall_and_its_skirt(fine):
-    """A valve that is 0.25 too small leaks beside the wall, by the distance of the polygon; the skirt of the light seals it."""
+    """A valve that is 0.25 too small leaks beside the wall. The gap is the distance to the wall's polygon, and the skirt that the
+    light offers seals it."""
     model = view.Model(*fine, unit="cm")
     i = model.add("coapting")
     model.set(i, "half_thickness", 0.16)

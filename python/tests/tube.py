@@ -3,7 +3,7 @@
 
 import numpy
 
-# A cube in six tetrahedra around its diagonal, which fit to those of its neighbours.
+# A cube in six tetrahedra around its diagonal. They fit to the tetrahedra of neighbouring cubes.
 _SIX = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
 
 

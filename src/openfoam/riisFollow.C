@@ -173,7 +173,7 @@ pointField pointsAtRest(const fvMesh &mesh) {
 
 }  // namespace
 
-// Takes points of faces. Their order is that of their coordinates at rest, and points with the same coordinates are one point.
+// Takes points of faces. They are in the order of their coordinates at rest, and points with the same coordinates are one point.
 void riisFollow::readFaces(const labelList &points, const string &place) {
   local_ = points;
   const pointField all(gathered(pointsAtRest(mesh_)));
@@ -194,7 +194,7 @@ void riisFollow::readFaces(const labelList &points, const string &place) {
   name_ = Foam::name(atRest_.size()) + " points" + place;
 }
 
-// Takes points by their labels in the whole mesh. Their order is that of the list.
+// Takes points by their labels in the whole mesh. They are in the order of the list.
 void riisFollow::readLabels(const dictionary &dict) {
   const labelList wanted(dict.get<labelList>("points"));
   name_ = Foam::name(wanted.size()) + " points";

@@ -410,8 +410,8 @@ void riisValve::addSup(fvMatrix<vector> &eqn, const label) {
 void riisValve::addSup(const volScalarField &, fvMatrix<vector> &eqn, const label) {
   FatalErrorInFunction
       << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of " << eqn.psi().name()
-      << " is multiplied by a density. riisValve is for equations divided by a constant density, such as those of "
-      << "pimpleFoam" << exit(FatalError);
+      << " is multiplied by a density. riisValve is for equations divided by a constant density, such as the "
+      << "equations of pimpleFoam" << exit(FatalError);
 }
 
 void riisValve::correct(volVectorField &U) {

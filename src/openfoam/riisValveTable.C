@@ -95,7 +95,7 @@ bool riisValveTable::read(const dictionary &dict) {
   return true;
 }
 
-// Finds the valve. Without sensors of its own, the table takes those of the valve's law.
+// Finds the valve. Without sensors of its own, the table takes the sensors of the valve's law.
 void riisValveTable::find() {
   if (!mesh_.foundObject<fv::options>(fv::options::typeName)) return;
   const fv::optionList &options = mesh_.lookupObject<fv::options>(fv::options::typeName);

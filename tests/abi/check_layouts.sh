@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts.sh compare DUMP DESCRIBED [LIBRARY]
-#   DESCRIBED is the library built with debug information. It must fit callers that were compiled with the dump's release: every
-#   difference that abidiff finds is an error, except new functions and fields appended to structs. LIBRARY is the library without
-#   debug information. If it is given, DESCRIBED must export the same functions.
+#   DESCRIBED is the library built with debug information. It must fit callers that were compiled with the dump's release. So
+#   every difference from abidiff is an error, except new functions, and fields at the end of structs. LIBRARY is the library
+#   without debug information. If it is given, DESCRIBED must export the same functions.
 # check_layouts.sh write DUMP DESCRIBED
 #   Writes the dump: the exported functions and the public types, without paths of this machine.
 set -euo pipefail

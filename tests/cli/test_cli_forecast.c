@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * `riis export FOLDER MESH`: the forecast of what svMultiPhysics will do. The test reads the exported files as the solver does,
- * and repeats each number of the forecast: distances by a loop over all triangles, shape functions by VTK, volumes of nodes in
- * closed form, and the drop by a dense matrix and elimination. */
+ * and repeats each number of the forecast. Distances come from a loop over all triangles, and shape functions from VTK. Volumes
+ * of nodes have a closed form, and the drop comes from a dense matrix and elimination. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
@@ -268,8 +268,8 @@ typedef struct {
 } fluid;
 
 /* The slow steady flow through a flat plate at z = 0 that fills a tube along z, by the solver's equations. The pressure is 1 at
- * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. The solver's elements number the
- * coordinates of a tetrahedron and of a wedge from their last node of the triangle, VTK's from the first. */
+ * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. A tetrahedron and a wedge have
+ * coordinates along a triangle. The solver's elements number them from the triangle's last node, and VTK from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];

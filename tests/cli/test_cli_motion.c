@@ -30,8 +30,8 @@ static int make_frames(void **state) {
   return 0;
 }
 
-/* Compares the vertices and velocities in a file with those of the moving sheet at a time. The sheet's size is multiplied by
- * `scale`, and its velocity also by `speed`. */
+/* Compares the vertices and velocities in a file with the moving sheet at a time. The sheet's size is multiplied by `scale`, and
+ * its velocity also by `speed`. */
 static void expect_sheet(const char *path, double time, double speed, double scale) {
   double xyz[3 * sheet_n_vertices], velocity[3 * sheet_n_vertices];
   int64_t n = 0;

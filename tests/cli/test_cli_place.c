@@ -371,7 +371,7 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
   return scratch_path("points.json");
 }
 
-/* What a person gets wrong at the first try. */
+/* These are a person's usual faults at the first try. */
 TEST(wrong_landmarks_are_refused) {
   double points[6][3];
 #define CHANGED(words, ...)                                                                               \
@@ -434,7 +434,7 @@ TEST(folds_are_refused) {
   RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
 }
 
-/* The sizes that landmarks do not tell may not go together with those that they tell. */
+/* The sizes from landmarks may not go together with the other sizes. */
 TEST(sizes_that_do_not_go_together_are_named) {
   const char *path = json_of("a.json", "mm", 10, "LPS", 1, "");
   RUN_REFUSED(1,

@@ -143,7 +143,7 @@ TEST(test_cells) {
   }
 }
 
-/* Compares a step's fields with those of the C interface. The velocity is the mean since the previous time. At the first time,
+/* Compares a step's fields with the C interface's fields. The velocity is the mean since the previous time. At the first time,
  * the velocity is the mean since one step earlier. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];

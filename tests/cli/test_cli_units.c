@@ -219,7 +219,7 @@ TEST(test_half_thickness) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* If a mesh is coarse and no power of ten suits it, the advice is its edge length, unless this length is also too large. */
+  /* If no power of ten suits a coarse mesh, the advice is its edge length, unless this length is also too large. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),

@@ -25,7 +25,8 @@ if ((EUID != 0)); then
   as_root=(sudo)
 fi
 # in_namespace COMMAND...: runs the command in a namespace, where nobody else sees its mounts. All processes in the namespace end
-# with the command, or with this script, however the script ends: their first process waits for a lock that this script holds.
+# with the command or with this script. Their first process waits for a lock that this script holds, so it does not matter how the
+# script ends.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '

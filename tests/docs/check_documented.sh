@@ -107,6 +107,6 @@ without marks.h '\n' '\nenum \{\n  RIIS_SEARCH_AUTO' 'the enum of RIIS_SEARCH_AU
 without queries.h '\n' '\n#define RIIS_FAR_DISTANCE' RIIS_FAR_DISTANCE
 without base.h '\n' '\ntypedef void \(\*riis_log_function' riis_log_function
 without mesh.h '\n' '\ntypedef struct riis_mesh riis_mesh' riis_mesh
-# The last header is read, too.
+# The last header is also read.
 without laws.h '\n' '\nRIIS_API riis_status riis_opening_angle_advance\(' riis_opening_angle_advance
 echo "$n names"

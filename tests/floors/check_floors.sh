@@ -54,7 +54,7 @@ for product in */; do
   done < <(includes_of "$product")
 done
 
-# check_floors PRODUCT: the includes of its floors. Those of riis begin with the floor, those of riis_vtk with the product.
+# check_floors PRODUCT: the includes of its floors. Paths of riis begin with the floor, and paths of riis_vtk with the product.
 check_floors() {
   local folder own other file line first second included
   for folder in "$1"/*/; do

@@ -3,7 +3,7 @@
 declarations of its types and functions (-fc-prototypes). The C compiler compares the fields of the structs, their types and
 places, and the constants. This script compares the names, order and types of the arguments. Planted faults must be refused.
 
-Other Fortran compilers do not write C declarations: the test is then skipped (77). What is compared does not depend on the
+Other Fortran compilers do not write C declarations: the test is then skipped (77). The comparison does not depend on the
 compiler, because the types and functions are BIND(C)."""
 
 import os

@@ -414,7 +414,7 @@ contains
     call check(.not. surface%is_created(), 'a refused surface is empty')
   end subroutine test_bad_velocities
 
-  ! Only the points of a mask or a list get answers, equal to those that a query of all points gives.
+  ! Only the points of a mask or a list get answers. A query of all points gives the same answers.
   subroutine test_masks()
     real(c_double), allocatable :: all_distances(:), distance(:), point(:, :), expected_distance(:)
     integer(int8), allocatable :: bytes(:)

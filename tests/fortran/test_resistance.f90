@@ -211,7 +211,7 @@ contains
     call moving%destroy()
   end subroutine test_motion_errors
 
-  ! The derivatives in two directions of the placement are those of closest points on a rigid body.
+  ! The derivatives in two directions of the placement follow from closest points on a rigid body.
   subroutine test_directions()
     type(riis_surface) :: moving
     type(riis_valve) :: mitral, none

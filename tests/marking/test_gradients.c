@@ -32,7 +32,7 @@ static placed_valve copy_of(const placed_valve *from) {
   return made;
 }
 
-/* What a direction changes: a value of a parameter, a number of the placement, or a landmark of a warp. */
+/* A direction changes one of these: a value of a parameter, a number of the placement, or a landmark of a warp. */
 typedef enum { of_parameter, of_translation, of_angle, of_scale, of_landmark } sort_of_change;
 typedef struct change {
   sort_of_change sort;
@@ -215,8 +215,8 @@ static double area_rate_of(const riis_surface *surface, int64_t direction_id) {
   return direction.area_rate;
 }
 
-/* Computes the derivative of the area of a surface whose vertices move at these rates, as the sum over corners of the rate by the
- * derivative of the area. */
+/* Computes the derivative of a surface's area if its vertices move at these rates. It is a sum over corners: the rate times the
+ * derivative of the area by the corner. */
 static double rate_of_area(const riis_surface *surface, const double *rate) {
   const riis_triangles c = triangles_of(surface);
   double sum = 0;
@@ -351,7 +351,7 @@ TEST(derivatives_are_central_differences) {
           if (skirt == 0 || !apply(c, shifts, half, &after) || !apply(c, shifts, -half, &before)) continue;
           const riis_status status =
               riis_surface_add_direction(surface, after.valve, before.valve, 2 * half, &after.options, &before.options);
-          if (status == RIIS_INVALID_PARAMETER) continue; /* values at the edge of those that fit together */
+          if (status == RIIS_INVALID_PARAMETER) continue; /* values that barely fit together */
           CHECK_OK(status);
           directions[n++] = *c;
         }
@@ -554,8 +554,8 @@ TEST(rims_and_the_surface_itself) {
   }
 }
 
-/* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the derivative is that of the triangle in
- * triangle_id, the lower one. The distance has a kink there: its derivatives on both sides are 0 and -1. */
+/* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the triangle in triangle_id, the lower one,
+ * gives the derivative. The distance has a kink there: its derivatives on both sides are 0 and -1. */
 TEST(ties_take_the_first_triangle) {
   shape two = unit_square();
   add_line(&two, 0, 0, 1, 1, 0, 1);
@@ -639,7 +639,7 @@ TEST(bits_and_updates) {
   assert_null(within_list(marks).distance_gradient);
 }
 
-/* A derivative of a distance is that of the rates at the closest point, and rates do not depend on the number of threads. Later
+/* A derivative of a distance follows from the rates at the closest point, and rates do not depend on the number of threads. Later
  * directions leave the arrays of earlier ones in place. */
 TEST(rates_give_the_derivatives) {
   static double xyz[3 * n_points];

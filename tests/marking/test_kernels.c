@@ -630,7 +630,7 @@ TEST(triangles_without_area_are_noticed) {
   }
 }
 
-/* Sums of cubes are those of a plain loop, and have the same bits with every instruction set. */
+/* Sums of cubes equal a plain loop's, and have the same bits with every instruction set. */
 TEST(cubes_are_summed) {
   enum { most = 40 };
   for (int trial = 0; trial < 200; ++trial) {

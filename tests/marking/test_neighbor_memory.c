@@ -14,8 +14,8 @@
 #include "searches.h"
 
 /* All allocations of the process call these functions, because an executable's symbols take precedence over those of
- * libraries. They count the allocations of the object that contains riis_mark_nodes, including those that the C++ library
- * makes for it. Sanitizers are left out, because their allocator must be the only one. */
+ * libraries. They count the allocations of the object that contains riis_mark_nodes, including the C++ library's allocations for
+ * it. Sanitizers are left out, because their allocator must be the only one. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);

@@ -52,7 +52,7 @@ static riis_passage expected_passage(const test_mesh *rows, const riis_surface *
     order[i] = (near_node){closest_to(surface, p[0], p[1], p[2]).distance, i};
   }
   qsort(order, n, sizeof *order, nearer);
-  /* Closing the nodes before `low` leaves the ends joined. Closing the nodes up to `high` separates them. */
+  /* If the nodes before `low` are closed, the ends stay joined. Closing the nodes up to `high` separates them. */
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
     memcpy(is_open, mask, n);
@@ -274,7 +274,7 @@ TEST(the_papers_aortic_valve_leaks_along_its_axis) {
     assert_true(open.distance > 0.3 && open.distance < 0.33 && hypot(open.point[0], open.point[1]) < 0.2);
     const riis_passage closed = passage_of(new_surface(aortic_with_free_edges_at(0.02), &options), mesh, NULL, &e);
     assert_int_equal(closed.state, RIIS_PASSAGE_CLOSED);
-    /* The expected distance is that of a node on the axis from the corners of three free edges. */
+    /* The expected distance lies between a node on the axis and the corners of three free edges. */
     CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3);
     assert_true(hypot(closed.point[0], closed.point[1]) < 0.01);
   }

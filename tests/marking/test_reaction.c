@@ -93,8 +93,8 @@ static riis_reaction reaction_to(sums *to, const double *about, int64_t n_leafle
 /* --- Plates ---------------------------------------------------------------------------------------------------------- */
 
 /* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame. It has the leaflet 0 for a < 1 and the leaflet 3 for a > 1. Nodes are the centres
- * of cells with the side h. On each side of the plate lie n_layers layers of nodes. The sum of h K over the layers is therefore
- * exactly R / eps, and the sum over the cells of a layer integrates a linear function exactly. */
+ * of cells with the side h. On each side of the plate lie n_layers layers of nodes. So the sum of h K over the layers is exactly
+ * R / eps. The sum over the cells of a layer integrates a linear function exactly. */
 enum { n_layers = 5, n_long = 32, n_wide = 16 };
 static const double plate_length = 2, plate_width = 1, plate_h = 1.0 / 16, plate_eps = 5.0 / 16;
 
@@ -546,9 +546,9 @@ TEST(sums_are_those_of_plain_loops) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* In a flow along the axis of a symmetric valve, a turn about the axis takes the force on one leaflet to the force on the next.
- * The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two closed
- * leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
+/* A symmetric valve stands in a flow along its axis. Turned about the axis, the force on one leaflet is the force on the next
+ * leaflet. The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two
+ * closed leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
 TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;

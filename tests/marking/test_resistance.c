@@ -246,7 +246,7 @@ TEST(sums_are_those_of_plain_loops) {
   }
 }
 
-/* K and K u in the result's lists equal those in the arrays, to the last bit. Arrays by component and with gaps get the same
+/* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and with gaps get the same
  * bits. Both lists have K and K u, and the marking does not need the field of velocities for them. */
 TEST(lists_and_layouts_have_the_same_bits) {
   for (int trial = 0; trial < 12; ++trial) {

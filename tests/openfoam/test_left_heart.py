@@ -85,7 +85,7 @@ class Tables(unittest.TestCase):
     def test_displaced_volume(self):
         """Without a pressure difference and inertia, leaflets that open push the blood that they displace in the steps in space.
 
-        In each step they move at the place of the step's end, and half a step later than in the heart without space.
+        In each step they are at their place at the step's end. So they move half a step later than in the heart without space.
         """
         orifice = self.read(WELL)
         valve = zero_d.Valve("aortic", orifice)

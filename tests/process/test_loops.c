@@ -112,7 +112,7 @@ TEST(the_choice_lasts_for_a_while) {
   assert_false(takes_team_at(12401, 8, waits, ends));
 }
 
-/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait, and a loop that waits ends at 1000. */
+/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait. A loop with a wait ends the row at 1000. */
 static int takes_team_after_calm(double now, int n_calm) {
   double waits[40] = {10, 5}, ended[40] = {100, 400};
   for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;
@@ -120,7 +120,7 @@ static int takes_team_after_calm(double now, int n_calm) {
   return takes_team_at(now, 3 + n_calm, waits, ended);
 }
 
-/* On a quiet machine, too, a loop now and then waits long. */
+/* Also on a quiet machine, a loop sometimes waits long. */
 TEST(rare_waits_do_not_prolong_the_choice) {
   assert_true(takes_team_after_calm(1999, 31));
   assert_false(takes_team_after_calm(2001, 31));

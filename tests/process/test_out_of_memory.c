@@ -93,7 +93,7 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
 
 static random_source rng;
 
-static int64_t n_injected[4], n_calls_failed[4]; /* indexed by whose memory fails */
+static int64_t n_injected[4], n_calls_failed[4]; /* one for each owner whose memory can fail */
 
 /* The state of all objects before and after the call. */
 typedef struct reference {
@@ -228,13 +228,13 @@ TEST(memory_of_other_threads_runs_out) {
     for (; n_failed < 3 && n_tries < 2000; ++n_tries)
       n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0, 1);
     printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
-    /* The calling thread may end a short loop before the others come. A walk of the paper's search is short, too. */
+    /* The calling thread may end a short loop before the others come. A walk of the paper's search is also short. */
     const int is_short = (s->flags & IS_SHORT) || s->search == RIIS_SEARCH_PAPER;
     if (n_failed < 1 && !is_short) fail_msg("%s: no other thread allocated", s->name);
   }
 }
 
-/* All allocations fail, even those for the C++ library's exceptions and for the message. */
+/* All allocations fail, even for the C++ library's exceptions and for the message. */
 TEST(all_memory_runs_out) {
   if (!memory_of_all_can_fail()) skip();
   for (int i = 0; i < n_scenarios; ++i) {

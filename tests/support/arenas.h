@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* A keeper like that in each handle of the library. TBB's arenas exist as long as any keeper exists. */
+/* A keeper, as each handle of the library has one. TBB's arenas exist as long as any keeper exists. */
 typedef struct arenas_keeper arenas_keeper;
 arenas_keeper *arenas_keep(void);
 void arenas_let_go(arenas_keeper **keeper);

@@ -155,7 +155,8 @@ void kernels_measure_triangles(int set, const double *vertices, const int64_t *v
  * scaled before the second offset is added. */
 void kernels_place_points(int set, const double *first, const double *second, double scale, int64_t n,
                           const double *points, double *placed);
-/* Returns 0 if one of up to 8 triangles may have no area, either now or after its corners move by up to an eighth of `shift`. */
+/* Returns 0 if one of up to 8 triangles may have no area now, or may lose it when its corners move by up to an eighth of
+ * `shift`. */
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
 /* Sums weight |at - source|^3 and its derivatives over n sources, n a multiple of 8. sources(n, 3) and weights(n, 3) are stored

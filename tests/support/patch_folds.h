@@ -50,7 +50,7 @@ static inline void fold_point_at_share(const fold_side *side, double share, doub
   fold_point(side, (low + (step > 0 ? (wanted - side->behind[low]) / step : 0)) / fold_chords, point);
 }
 
-/* The sides are those at v = 0, v = 1, u = 0 and u = 1. */
+/* The sides lie at v = 0, v = 1, u = 0 and u = 1. */
 static inline void fold_point_of_patch(const fold_side *sides, double u, double v, double *point) {
   double at[4][3], corner[4][3];
   for (int side = 0; side < 4; ++side) fold_point_at_share(&sides[side], side < 2 ? u : v, at[side]);

@@ -68,8 +68,8 @@ struct Slope {
 };
 
 // Bounds the distance of a continuous function from the line between its ends, from bounds of its slope on successive ranges. At
-// x, slopes before x count with the share of the whole width that lies behind x, and slopes behind x with the share before x.
-// With one slope everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
+// x, a slope before x counts with the share of the whole width behind x. A slope behind x counts with the share before x. With
+// one slope everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
@@ -372,7 +372,7 @@ Sizes sizes_of_slide(const SideMaterial &material) {
   return sizes_of(nodes, slide);
 }
 
-// Bounds the distance from linear on a range of a function whose value and derivatives are bounded.
+// Bounds the distance of a function from a linear function on a range. The function's value and derivatives have bounds.
 double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
@@ -479,7 +479,7 @@ ArcRangeInBoth offset_on(const SideInBoth &base, const SideInBoth &edge, std::si
       larger(larger_of(now[0], now[1]), larger_of(before[0], before[1])) + width * (edge.longer() + base.longer());
   const double w_largest = w0.size <= w_far ? w0.size : w_far;
   const double w_least = std::min(least_on_segment(now[0], now[1]), least_on_segment(before[0], before[1])) - bend;
-  // W' is the sum of its value at the start of the range, where both states have a direction, and of its change along the range.
+  // W' is its value at the start of the range plus its change along the range. At the start both states have a direction.
   const Both w1{larger_of(slope(i, true), slope(i, false)) + width * w2.size,
                 distance(slope(i, true), slope(i, false)) + width * w2.change};
   const Both m1 = w1 * b.value + w0 * b.first, m2 = w2 * b.value + 2 * w1 * b.first + w0 * b.second;
@@ -598,7 +598,7 @@ Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoC
 }
 
 // Bounds the distance from linear, on a range of u or of v, of the part that a map adds inside a warped Coons patch. On [0, 1],
-// the sum of the sizes of the second derivatives of its polynomials is at most 81, and that of their values at most 1.3.
+// the sizes of its polynomials' second derivatives add up to at most 81, and the sizes of their values to at most 1.3.
 double off_linear(const RestInside &rest, double width) {
   double size = 0;
   for (const double u : {1. / 3, 2. / 3})

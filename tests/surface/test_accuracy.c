@@ -99,8 +99,8 @@ TEST(distances_to_a_parabola_are_true) {
   truth_free(&truth);
 }
 
-/* Two unit squares lie at z = 0 and z = 0.15. A point one half thickness from one square, towards the other, is nearer to the
- * other. */
+/* Two unit squares lie at z = 0 and z = 0.15. A point may lie one half thickness from one square, towards the other square. It is
+ * then nearer to the other square. */
 TEST(points_nearer_to_another_sheet_are_left_out) {
   static const double gap = 0.15;
   int32_t degree[8], curve_id[8];

@@ -146,7 +146,7 @@ TEST(opening_0_is_the_papers_state) {
   assert_false(have_same_shape(valve, other));
 }
 
-/* Root radius and heights shape both states. */
+/* The root radius and the heights act on both states. */
 TEST(parameters_change_both_states) {
   static const char *const names[3] = {"root_radius", "leaflet_height", "bending_height"};
   for (int i = 0; i < 3; ++i)

@@ -184,7 +184,7 @@ static void check_equal(const results *a, int64_t i, const riis_closest *one) {
 }
 
 /* Masks, lists, limits and single precision give the results of single queries. No other entry is written. In order, the points
- * advance along x as those of many meshes do. */
+ * advance along x, as in many meshes. */
 static void check_many_points(int64_t n, bool are_in_order) {
   const int64_t stride = is_long_test() ? 1 : 5;
   riis_surface_options options = surface_options();
@@ -219,7 +219,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
     mask[i] = random_bits(&rng) % 3 > 0;
     if (mask[i]) ids[n_ids++] = i;
   }
-  /* all points; those of a mask; those of a list; a limit, and fewer arrays; too few for clusters */
+  /* all points; a mask; a list; a limit, and fewer arrays; too few for clusters */
   enum { all, masked, listed, limited, few, n_ways };
   for (int way = all; way < n_ways; ++way) {
     const int owned_before = n_owned();
@@ -300,8 +300,8 @@ TEST(crowded_points_equal_single_queries) {
   }
 }
 
-/* The results of a single query are consistent: the point is on the triangle and at the distance, the normal is the
- * triangle's, and the side is the sign of the height. */
+/* The results of a single query are consistent. The point is on the triangle and at the distance, the normal is the triangle's,
+ * and the side is the sign of the height. */
 TEST(closest_is_consistent) {
   riis_surface *surface = aortic_surface(NULL);
   const double *xyz = triangles_of(surface).xyz;

@@ -31,7 +31,7 @@ static sizes sizes_of(const riis_valve *valve) {
   return made;
 }
 
-/* Sets random sizes. Proportions are those of patients, and beyond. */
+/* Sets random sizes. Proportions are as in patients, and beyond. */
 static void set_random_sizes(random_source *random, riis_valve *valve) {
   const double r = random_between(random, 0.9, 1.5), rc = r * random_between(random, 0.8, 1.2);
   const double h = rc * random_between(random, 1.1, 1.7);
@@ -408,7 +408,7 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
   for (int i = 0; i < n; ++i) {
     const point p = on_patch(&closed, 1, random_between(random, 0, 0.9), random_between(random, 0.05, 0.9));
     const double normal[2] = {sqrt(3) / 2, -0.5};
-    /* Points in the gap lie on the side of the ventricle, points behind the zone on that of the aorta. */
+    /* Points in the gap lie on the ventricle's side, and points behind the zone on the aorta's side. */
     const double away = p.x[0] * normal[0] + p.x[1] * normal[1];
     for (int k = 0; k < 2; ++k) {
       const double off = k ? random_between(random, 0.05, 0.5) * 0.1 : -random_between(random, 0.1, 0.9) * away;
@@ -437,7 +437,7 @@ static int64_t true_crossings(const riis_surface *surface, const riis_valve *val
   return remain;
 }
 
-/* Returns how far the control points of a side of a patch are from those of a cubic. */
+/* Returns the distance of the control points of a patch's side from a cubic's control points. */
 static double off_side(const riis_valve_patches *patches, int32_t patch_id, int side, const cubic *expected) {
   int64_t patch = 0;
   while (patches->patch_id[patch] != patch_id) assert_true(++patch < patches->n_patches);
@@ -721,7 +721,7 @@ TEST(opens_to_another_valves_open_state) {
   CHECK_OK(riis_valve_set_scalar(other, "opening", 1));
   assert_true(is_same_content(new_surface(valve, NULL), new_surface(other, NULL)));
   CHECK_OK(riis_valve_set_scalar(other, "opening", 0));
-  /* The length of the free edge is blended between those of the two closed valves. */
+  /* The length of the free edge is blended between the lengths of the two closed valves. */
   double from[3], to[3], half_way[3];
   free_edge_lengths(new_surface(plain, NULL), from);
   free_edge_lengths(new_surface(other, NULL), to);
@@ -745,8 +745,7 @@ static double middle_crease(const half *of) {
   return largest;
 }
 
-/* The measures that follow from the default sizes are those of the literature. The table is printed for
- * docs/theory/coapting.md. */
+/* The measures that follow from the default sizes agree with the literature. The table is printed for docs/theory/coapting.md. */
 TEST(measures_are_those_of_the_literature) {
   riis_valve *valve = new_valve("coapting");
   const sizes v = sizes_of(valve);
@@ -894,7 +893,7 @@ TEST(values_that_do_not_go_together_are_refused) {
   riis_valve *other = new_valve("coapting");
   CHECK_OK(riis_valve_set_scalar(other, "effective_height", 1.5));
   CHECK_OK(riis_valve_set_scalar(other, "commissure_expansion", 0.3));
-  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "half an open free edge is at least|a closed one has|open_radius_ratio",
+  CHECK_REFUSED(RIIS_INVALID_PARAMETER, "half an open free edge is at least|half a closed one is|open_radius_ratio",
                 riis_surface_create(other, NULL, &surface));
   CHECK_OK(riis_valve_set_open_state(valve, other));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "in the open state: half an open free edge",

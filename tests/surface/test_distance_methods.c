@@ -74,7 +74,7 @@ static double distance_to_profile(const double *p, double t) {
 }
 
 /* Follows every local minimum of a fine net of samples. Near the middle between two minima, the net's least sample may lead to
- * the wrong one. */
+ * the wrong minimum. */
 static double distance_to_cylinder(const double *p) {
   enum { n = 400 };
   double at[n + 1], nearest = INFINITY;

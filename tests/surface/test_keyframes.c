@@ -93,7 +93,7 @@ TEST(linear_frames_have_right_hand_and_mean_velocities) {
   assert_null(keyframes);
 }
 
-/* At a key the velocity is that of the interval after the key, in every period. The sum of the key's time and the periods is
+/* At a key the velocity belongs to the interval after the key, in every period. The sum of the key's time and the periods is
  * rounded. */
 TEST(frames_have_the_velocity_after_them_in_every_period) {
   const double time[] = {-0.08, 0.15, 0.24, 0.42, 0.65}, height[] = {0, 2, 1, 3, 0.5};

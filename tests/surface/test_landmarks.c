@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests riis_place. Landmarks are made from known sizes by closed forms, or by the oracle of the mitral valve, then placed and
- * disturbed at random. The sizes must come back, and the errors must be those that the noise explains. The same landmarks lie
- * on the surface of the placed valve. Prints the table that docs/theory/landmarks.md sums up. */
+ * disturbed at random. The sizes must come back, and the noise must explain the errors. The same landmarks lie on the surface of
+ * the placed valve. Prints the table that docs/theory/landmarks.md sums up. */
 #include <riis/riis.h>
 
 #include <stdbool.h>

@@ -209,7 +209,7 @@ static compared compare(const states *now, const states *before, double seconds,
   return made;
 }
 
-/* Some quads of the mitral valve are split. A vertex from a split has a velocity between those of the quad's corners. */
+/* Some quads of the mitral valve are split. A vertex from a split has a velocity between the velocities of the quad's corners. */
 TEST(vertices_move_as_the_oracles) {
   double share = 0;
   for (int trial = 0; trial < trials_of(40); ++trial) {

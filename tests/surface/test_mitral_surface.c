@@ -56,7 +56,7 @@ TEST(parameters_are_the_papers) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* The 18 parameters of the paper are those of its table, its t and the translation. The last one is the skirt's length. */
+  /* The paper has 18 parameters: its table, its t and the translation. The last one is the skirt's length. */
   assert_int_equal(n, n_scalars + 2);
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
@@ -187,8 +187,8 @@ TEST(leaflets_and_patches) {
   }
 }
 
-/* An edge of only one triangle lies on the annulus or on the free edge of an open valve, or else, up to rounding, inside
- * another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
+/* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Otherwise it lies, up to rounding,
+ * inside another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
 TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();

@@ -410,7 +410,7 @@ TEST(vertices_come_from_their_place_before) {
   CHECK_AT_MOST(worst_uv, 0.1);
 }
 
-/* Speeds in steps of a thousandth equal those in steps of a fiftieth, where rounding and jumps hardly matter. */
+/* Steps of a thousandth give the same speeds as steps of a fiftieth, in which rounding and jumps hardly matter. */
 TEST(no_vertex_of_the_aortic_valve_is_an_outlier) {
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
   riis_surface *surface = new_surface(valve, NULL);

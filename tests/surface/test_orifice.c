@@ -119,8 +119,8 @@ static double meets(double ax, double ay, double bx, double by) {
   return (ay >= 0) == (by >= 0) ? NAN : ax + (bx - ax) * ay / (ay - by);
 }
 
-/* Returns the area of the orifice by lines that are turned against the axes: the length on which no triangle covers the inside of
- * the outline. A radius of 0 stands for the attachment as the outline. */
+/* Returns the area of the orifice by lines at an angle to the axes. The lengths count that lie inside the outline and under no
+ * triangle. A radius of 0 stands for the attachment as the outline. */
 static double area_by_turned_lines(const riis_surface *surface, double radius) {
   enum { n_lines = 1500 };
   const double c = cos(0.37), s = sin(0.37), reach = radius > 0 ? radius : 3, spacing = 2 * reach / n_lines;
@@ -180,8 +180,8 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
   return area;
 }
 
-/* Orifices are compared with those of turned lines. They must also stay within 0.1 % of the numbers that the program measured
- * before the library did. */
+/* Orifices are compared with the results of turned lines. They must also stay within 0.1 % of the numbers that the program
+ * measured before the library did. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double before[n_kinds][5] = {{0.885854, 1.550407, 2.278302, 3.061292, 3.887267},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. Closed forms and
- * the same surfaces as valves give the wanted values. */
+ * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. The wanted values
+ * come from closed forms, and from valves with the same surfaces. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -119,7 +119,7 @@ TEST(arrays_have_the_edges_of_their_valve) {
     double opening;
     CHECK_OK(riis_valve_get(valve, "opening", 1, &opening));
     if (kind == 2 && opening == 1) {
-      /* The annulus of the open mitral valve is flat, so the axis is that of the valve. Normals point down into the ventricle. */
+      /* The annulus of the open mitral valve is flat, so the axis is the valve's axis. Normals point down into the ventricle. */
       CHECK_NEAR(found.outline_area, s * s * of_valve.outline_area, 1e-3 * s * s * of_valve.outline_area);
       CHECK_NEAR(found.area, s * s * of_valve.area, 1e-3 * s * s * of_valve.outline_area);
       const riis_orifice there = orifice_of(new_surface(valve, &placed));
@@ -249,7 +249,8 @@ TEST(contacts_have_known_areas) {
     const riis_surface *nearby = plates(w, 0, shift, 2e-6, &options);
     CHECK_NEAR(coaptation_of(nearby, s * 1e-6, RIIS_ALL_LEAFLETS).area, 0, 0);
     CHECK_NEAR(coaptation_of(nearby, s * 4e-6, 0).area, s * s * (w - shift), 5e-3 * s * s);
-    /* Two plates that share an edge touch over a strip along the edge. Its width is the reach over the sine of their angle. */
+    /* Two plates that share an edge touch over a strip along the edge. The strip's width is the reach over the sine of their
+     * angle. */
     const double angle = between(0.3, 1.2);
     const riis_surface *hinge = plates(w, angle, 0, 0, &options);
     const riis_coaptation found = coaptation_of(hinge, s * reach, 0);

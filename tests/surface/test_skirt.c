@@ -200,8 +200,8 @@ TEST(leaflets_stay_as_they_are) {
   }
 }
 
-/* Along the attachment, the edges of the leaflets and those of the skirt run in opposite directions. So normals point the same
- * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
+/* Along the attachment, the leaflets' edges and the skirt's edges run in opposite directions. So normals point the same way on
+ * both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
 TEST(the_skirt_continues_the_leaflets) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
@@ -287,7 +287,7 @@ TEST(sides_are_right_beside_the_skirt) {
   }
 }
 
-/* A wall around the z axis through (x, y). At each angle its distance from this axis is that of the attachment plus a gap. */
+/* A wall around the z axis through (x, y). At each angle its distance from this axis is the attachment's distance plus a gap. */
 enum { n_angles = 720 };
 typedef struct wall_shape {
   const riis_attachment *held;
@@ -384,7 +384,7 @@ static double longer_side(const riis_triangles *t, const double *xyz, int32_t pa
 }
 
 /* With a fixed triangulation, a vertex is displaced by its velocity times the step, and by its slide. It slides because its label
- * changes: the lines of mitral patches move with the joints of the annulus. The velocity is that of a label. */
+ * changes: the lines of mitral patches move with the joints of the annulus. The velocity follows a label. */
 TEST(skirts_move_with_the_attachment) {
   const double seconds = 0.1;
   for (int trial = 0; trial <= n_skirted; ++trial) {
@@ -853,8 +853,8 @@ TEST(skirts_of_warped_cusps_cross_nothing) {
   assert_true(n_judged > 0.9 * n_states);
 }
 
-/* The ends of two cusps move past each other, and the line between them turns. A jump of the skirt would be as large in a
- * 64th of the step. */
+/* The ends of two cusps move past each other, and the line between them turns. If the skirt jumped, the jump would be as large in
+ * a 64th of the step. */
 TEST(skirts_move_continuously_with_a_warp) {
   const int n_trials = is_long_test() ? 60 : 4;
   int n_turned = 0; /* by more than 45 degrees */

@@ -28,7 +28,7 @@ static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "
 
 /* What moves. The middle of a step has these values plus half of the rates. */
 typedef struct state_of_skirt {
-  double opening, size[3]; /* the sizes are factors; the last is that of the skirt's length */
+  double opening, size[3]; /* the sizes are factors; the last one scales the skirt's length */
   riis_surface_options placed;
 } state_of_skirt;
 
@@ -221,8 +221,8 @@ static double fastest_of_skirt(const riis_triangles *t) {
   return fastest;
 }
 
-/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length of the
- * attachment, and of the length of the line that lies outwards from it. Inside triangles the bound of velocities holds. */
+/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length of two
+ * lines: the attachment, and the line outwards from it. Inside triangles the bound of velocities holds. */
 TEST(skirts_have_the_velocity_of_their_points) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
@@ -443,8 +443,7 @@ TEST(skirts_move_with_warped_attachments) {
       const riis_surface_options in_place = surface_options();
       then.placed = in_place;
       then.placed.triangulation = fixed ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-      then.placed.tolerance =
-          0.002; /* so that velocities between vertices are hardly less exact than those at vertices */
+      then.placed.tolerance = 0.002; /* so velocities between vertices are hardly less exact than at vertices */
       now = then;
       if (between(0, 1) < 0.5) move(&now, opens, seconds);
       riis_valve *valve = valve_at(kind, &now), *before = valve_at(kind, &then);

@@ -26,8 +26,8 @@ enum { n_attachment = 18, n_landmarks = 6 + n_attachment, n_round = 132, n_high 
 
 static double radians(double degrees) { return degrees * acos(-1) / 180; }
 
-/* From this state, the random numbers give an aortic patient in whom one cusp's attachment leans over the plane along the axis
- * through the ends of two cusps. Skirts on both sides of that plane would cross. */
+/* From this state, the random numbers give an aortic patient. The plane along the axis through the ends of two cusps is special
+ * here: one cusp's attachment leans over it. Skirts on both sides of that plane would cross. */
 static const uint64_t state_of_leaning_patient = 3451592321834770229u;
 
 static root random_root(int is_wide) {

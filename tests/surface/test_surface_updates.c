@@ -114,7 +114,7 @@ static void *query_all(void *argument) {
 }
 
 /* Checks that closest points have the same bits. Some query points are at vertices, where pseudonormals decide the sides. Several
- * threads begin at once, so that each of them may be the one that builds the tree. */
+ * threads begin at once, so any of them may build the tree. */
 static void check_closest(const riis_surface *updated, const riis_surface *fresh) {
   const riis_triangles all = triangles_of(fresh);
   double points[3 * n_points];

@@ -45,8 +45,8 @@ TEST(closed_free_edges_are_straight) {
 
 static int64_t n_of_pairs, n_of_places;
 
-/* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such
- * pairs, and those on the axis. */
+/* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such pairs,
+ * and pairs on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
   const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));
@@ -125,7 +125,7 @@ TEST(cusps_are_equal) {
   }
 }
 
-/* The only triangles without area are those at the three root points. */
+/* Only the triangles at the three root points have no area. */
 TEST(triangles_have_an_area) {
   for (int i = 0; i <= 10; ++i) {
     riis_surface *surface = new_surface(valve_at("trileaflet", i / 10.0), NULL);

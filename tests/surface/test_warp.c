@@ -362,7 +362,7 @@ TEST(a_rigid_warp_equals_a_placement) {
 }
 
 /* Curves of warped valves against the map: ends, directions of end tangents, and how far the curve is from the mapped curve. A
- * curve that is not warped must be that of the plain valve. */
+ * curve that is not warped must equal the plain valve's curve. */
 static void evaluate(const double *control, int degree, double t, double *point) {
   double q[4][3];
   memcpy(q, control, (size_t)(degree + 1) * sizeof *q);
@@ -598,9 +598,9 @@ static warped_step new_step(const char *kind, double opening, double opening_bef
   return step;
 }
 
-/* Returns the largest difference between the velocities of a surface and those of its material, and writes the largest speed. The
- * material point x of a vertex y is the point that the map takes there. Before, x was where the valve without its warp had the
- * same label, and the map of that time took it to another place. */
+/* Returns the largest difference between the velocities of a surface and of its material, and writes the largest speed. The
+ * material point x of a vertex y is the point that the map takes there. Before, the valve without its warp had the same label at
+ * x, and the earlier map took x to another place. */
 static double material_error(const riis_surface *surface, const warped_step *step, const riis_surface_options *options,
                              double *largest, double *rms) {
   const riis_triangles t = triangles_of(surface);
@@ -712,7 +712,7 @@ TEST(a_moving_annulus_has_its_velocities) {
   }
 }
 
-/* With a fixed triangulation, the triangles' motion across the leaflet is that of the velocities. Along the leaflet, vertices
+/* With a fixed triangulation, the triangles' motion across the leaflet agrees with the velocities. Along the leaflet, vertices
  * follow shares of lengths. */
 TEST(fixed_vertices_move_with_their_velocities) {
   for (int trial = 0; trial < 3; ++trial) {
@@ -902,8 +902,8 @@ TEST(folds_at_patches_are_named) {
   assert_int_equal(n_refused, 1);
 }
 
-/* The attachment of a random patient, from a point of the coapting valve's own attachment. Its sectors, heights and ellipse are
- * those of examples/patient/make_patient.py. */
+/* The attachment of a random patient, from a point of the coapting valve's own attachment. Its sectors, heights and ellipse agree
+ * with examples/patient/make_patient.py. */
 typedef struct {
   double commissure_height, sectors[3], commissure_rise[3], nadir_rise[3], ratio, direction;
 } random_root;

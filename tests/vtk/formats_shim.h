@@ -13,12 +13,13 @@ extern "C" {
 /* How meshes are compared. SHIM_BITS compares the bits of coordinates, and the order of the corners of each cell.
  * SHIM_SETS ignores the order of corners. SHIM_FLOATS does as SHIM_BITS, after rounding to single precision. */
 enum { SHIM_BITS, SHIM_SETS, SHIM_FLOATS };
-/* Compares two meshes whose nodes and cells may have different orders. counts gets the numbers of points and cells of `a`,
- * then the numbers of points and cells that are only in one of the meshes. Returns 0 if a file cannot be read. */
+/* Compares two meshes whose nodes and cells may have different orders. counts gets the numbers of points and cells of `a`, and
+ * then the numbers of points and cells in only one of the meshes. Returns 0 if a file cannot be read. */
 int shim_compare_meshes(const char *a, const char *b, int how, int64_t counts[4]);
 
-/* Counts the cells of each of VTK's types. Returns the largest distance of a node within a side, face or cell of second order
- * from the place that VTK's parametric coordinates give it between the corners. Returns -1 if the file cannot be read. */
+/* Counts the cells of each of VTK's types. For each node within a side, face or cell of second order, VTK's parametric
+ * coordinates give a place between the corners. Returns the largest distance of a node from its place. Returns -1 if the file
+ * cannot be read. */
 double shim_bend(const char *path, int64_t n_of_type[100]);
 
 /* Writes the mesh in two blocks, with the even and the odd cells, each with its own points: as Exodus by VTK, or as a .vtm.

@@ -83,7 +83,7 @@ TEST(test_pieces) {
   assert_true(most_pieces > 5);
 }
 
-/* The quads share vertices by their ids. Leaflets from pieces replace those of the array. */
+/* The quads share vertices by their ids. Leaflets from pieces replace the array's leaflets. */
 static const char *const quads =
     "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
     "<Piece NumberOfPoints=\"10\" NumberOfCells=\"3\"><CellData>\n"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the adjacency of meshes from files with the edges of VTK's own cells, and with the edges of other cells that have
- * the same nodes. */
+ * Compares the adjacency of meshes from files with the edges of VTK's own cells, and with the edges of other cells on the same
+ * nodes. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -131,7 +131,7 @@ static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   return surface;
 }
 
-/* Expects all pairs that VTK joins, that are long enough, and whose bounding box meets the given box. */
+/* Expects every pair that VTK joins, if it is long enough and its bounding box meets the given box. */
 static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
                               double longer_than, int64_t n_left_out) {
   uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
@@ -317,7 +317,7 @@ TEST(test_triquadratic_pyramid) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* The nodes whose numbers of neighbours are tested are: a corner of the base, the apex, and the middles of a side of the
+  /* The numbers of neighbours are tested at two corners, one of the base and the apex, and at five middles: of a side of the
    * base, of a side to the apex, of the base, of a triangle, and of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");

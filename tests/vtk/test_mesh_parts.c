@@ -71,7 +71,7 @@ TEST(test_box) {
   const int64_t wanted[] = {100, 3, 3, 700};
   const char *whole = scratch_path("box.vtu"), *part = part_of("box.vtu", 4, wanted);
   expect_cells(whole, part, 4);
-  /* The part's nodes are those of all cells with a wanted node. */
+  /* The part has the nodes of all cells with a wanted node. */
   memset(is_wanted, 0, sizeof is_wanted);
   const int64_t n_corners = shim_read_corners(whole, corners);
   int64_t n_cells = 0, n_expected = 0, n_found = 0;

@@ -237,7 +237,7 @@ TEST(test_block_mesh) {
   expect_same("text.vtu", "parts.vtu", SHIM_SETS, 200);
   expect_same_order("text", "parts");
   rewrite("parts/processor1", "part.vtu");
-  /* Points that moved are those of the latest time that is not later. */
+  /* Points that moved come from the latest time that is not later. */
   run("mkdir -p text/0.5/polyMesh text/2 && sed 's/^(\\(.*\\) \\(.*\\) \\(.*\\))$/(\\1 \\2 9)/' "
       "text/constant/polyMesh/points > text/0.5/polyMesh/points");
   rewrite("text/0.5", "moved.vtu");
@@ -270,7 +270,7 @@ static double *field(const char *name, int64_t n) {
   return values;
 }
 
-/* The centres are those that OpenFOAM writes, and OpenFOAM reads the fields that riis writes. */
+/* The centres equal the centres that OpenFOAM writes, and OpenFOAM reads the fields that riis writes. */
 static void test_centers(const char *name) {
   char path[128];
   riis_vtk_mesh *mesh = NULL;
@@ -322,7 +322,7 @@ static void test_centers(const char *name) {
 TEST(test_block_centers) { test_centers("text"); }
 
 #ifdef RIIS_GMSH
-/* gmsh's tetrahedra, and those with a layer of prisms and hexahedra, as cases of OpenFOAM, and their dual polyhedra. */
+/* The cases of OpenFOAM have gmsh's tetrahedra, the same with a layer of prisms and hexahedra, and their dual polyhedra. */
 TEST(test_other_cells) {
   scratch_write_text("mix.geo",
                      "SetFactory(\"OpenCASCADE\");\nBox(1) = {-1, -1.1, -1.2, 2, 2.2, 2.4};\nMesh.MeshSizeMax = 0.9;\n"

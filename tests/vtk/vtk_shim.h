@@ -55,8 +55,8 @@ int shim_write_zoo(const char *path);
  * NULL. */
 int64_t shim_read_edges(const char *path, int cell_type, int64_t *edges);
 
-/* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives: those in the first
- * coordinate for all nodes, then those in the second and in the third. Returns the number of nodes. */
+/* Gives VTK's shape functions of a type of cells at a point of its unit cell, and their derivatives. The derivatives in the first
+ * coordinate come first, for all nodes. The second and the third coordinate follow. Returns the number of nodes. */
 int shim_shape_functions(int cell_type, const double point[3], double *values, double *derivatives);
 
 /* Writes a .vtu of random cells of all types of higher order, among n_nodes nodes, 64 or more. Returns 1 on success. */

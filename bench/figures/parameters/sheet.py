@@ -2,7 +2,7 @@
 """Technical drawings with the names of parameters: dimension lines, angles, leaders, labels.
 
 Every named length or angle is measured between the drawn points, and compared with the parameter's value. A drawing is refused
-if its length or angle differs from the parameter, if it leaves a parameter out, or if labels overlap."""
+if a length or angle in it differs from the parameter. It is also refused if a parameter is missing or if labels overlap."""
 
 import io
 import math

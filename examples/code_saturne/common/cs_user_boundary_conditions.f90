@@ -18,7 +18,7 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
       real(c_double) :: value
     end function setting
   end interface
-  ! The pressure of the ventricle minus that of the aorta, in Pa, at times of a beat, in s.
+  ! The pressure of the ventricle minus the pressure of the aorta, in Pa, at times of a beat, in s.
   double precision, parameter :: key_time(6) = [0d0, 0.02d0, 0.04d0, 0.1d0, 0.14d0, 0.3d0]
   double precision, parameter :: key_difference(6) = [-4d2, -4d2, 4d2, 4d2, -4d2, -4d2]
   integer, allocatable :: faces(:)
@@ -60,7 +60,7 @@ subroutine cs_f_user_boundary_conditions(nvar, nscal, icodcl, itrifb, itypfb, iz
 contains
 
   ! A face with a given pressure, through which the flow may go in either direction. code_saturne takes the momentum of inflow as
-  ! 0, so the given pressure is that of fluid at rest.
+  ! 0, so the fluid outside is at rest at the given pressure.
   subroutine open_face(face, pressure)
     integer, intent(in) :: face
     double precision, intent(in) :: pressure

@@ -6,9 +6,9 @@
 // takes the pressure after each pressure equation. By the residual `elastance` in residualControl it tells PIMPLE
 // when the step is solved. elastanceTable is a function object that writes a row for each step.
 //
-// p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the
-// face f sweeps if the amplitude grows, as the base sees it. So the work of the blood on the wall is exactly the integral of
-// p dV, without the work that the whole heart's descent takes.
+// p is the pressure that does the wall's work: the sum of p_f dV_f over the sum of dV_f. dV_f is the volume that the face f
+// sweeps if the amplitude grows, relative to the base. So the work of the blood on the wall is exactly the integral of p dV,
+// without the work that the whole heart's descent takes.
 #include "Function1.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"

@@ -21,7 +21,7 @@ from riis.view._valves import ValveState, plain, refuse, rotation_of, values_tha
 
 Reals = NDArray[numpy.float64]
 
-_LEAST, _MOST = 0.3, 3.5  # factors of a valve's lengths; beyond them the mesh has another unit
+_LEAST, _MOST = 0.3, 3.5  # factors of a valve's lengths; a larger or smaller factor means that the mesh has another unit
 
 
 class Annulus(NamedTuple):

@@ -258,7 +258,7 @@ class Region:
         return self._incidence
 
     def cells_of(self, marked: AnyIds) -> tuple[Ids, Ids]:
-        """Returns the cells all of whose nodes are marked, and those with some marked nodes, both ascending."""
+        """Returns the cells with only marked nodes, and the cells with some marked nodes, both ascending."""
         whole, partly = [numpy.empty(0, numpy.int64)], [numpy.empty(0, numpy.int64)]
         for block, incidence in zip(self.blocks, self.prepare(), strict=True):
             rows = incidence.rows_at(marked)

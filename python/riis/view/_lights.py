@@ -35,7 +35,7 @@ _NO_EDGES = numpy.empty((0, 2, 3))
 
 @dataclass(frozen=True)
 class Light:
-    """A light: whether one thing about the valves is right, with numbers, and what to do if it is not."""
+    """A light says whether one thing about the valves is right, with numbers. If it is wrong, the light says what to do."""
 
     name: str  #: one of "unit", "inside", "half_thickness", "crossing", "wall" and "sealed"
     level: str  #: "good", "warn", "bad", or "off" if the light does not apply

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the view writes: a case of the program riis, a command, a script, OpenFOAM's dictionary, and the session.
+"""The view's files: a case of the program riis, a command, a script, OpenFOAM's dictionary, and the session.
 
 Numbers are written with all their digits, so that each file gives the same marks, to the last bit.
 """

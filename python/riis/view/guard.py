@@ -5,7 +5,7 @@ The server listens on 127.0.0.1 only, so other machines never reach it. Other us
 these rules keep them out:
 
 - A random key of 256 bits opens the WebSocket, over which all data of the mesh pass. The key is in a file and a folder that only
-  this user can read, in the printed address, and in no command line: not even in the browser's, which gets the file's path.
+  this user can read, and in the printed address. It is in no command line: the browser's command line has only the file's path.
 - In the address the key stands behind '#', which browsers send to no server. The first page keeps it in the tab's session
   storage, which no other origin, and so no other port, can read.
 - The WebSocket opens only for a request with the key. The first message must have it again, as trame requires.
@@ -43,7 +43,8 @@ _HEADERS = {
 }
 
 # The first page takes the key from the address, and hands it to trame's page. A page that was reloaded has it in the storage.
-# The server answers a wrong key by the first page again, which then forgets this key: it may be that of an earlier server.
+# The server answers a wrong key by the first page again. The page then forgets this key, because it may belong to an earlier
+# server.
 _FIRST_PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>riis view</title></head>
 <body><p id="text">riis view needs the whole address that it printed in its terminal, with the part behind #.</p>

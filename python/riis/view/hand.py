@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a hand changes on the page of riis view: sliders and numbers, the placement, and the view of the picture."""
+"""The parts of the page of riis view that a hand changes: sliders and numbers, the placement, and the view of the
+picture."""
 
 from __future__ import annotations
 

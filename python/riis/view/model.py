@@ -107,7 +107,7 @@ class Model(Valves):
     def near(cls, points: Any, cells: Any = None, **options: Any) -> Model:
         """Makes a model of a large mesh. It keeps the whole mesh, and works with the cells near the valves.
 
-        The marks are those of the whole mesh. When a valve leaves the cells near it, the next update finds new ones, which takes
+        The marks equal the whole mesh's marks. When a valve leaves the cells near it, the next update finds new ones, which takes
         about a second for 5 million nodes.
         """
         return cls(points, cells, _near=True, **options)
@@ -302,10 +302,10 @@ class Model(Valves):
     def place_by_clicks(self, i: int, points3: Any) -> None:
         """Places a valve and sizes it by three points of the annulus, so that its annulus goes through them.
 
-        The first point tells how the valve is turned. With cusps the points are the nadirs, the lowest points of the attachment,
-        and the first is that of cusp 0, the right one of an aortic valve. For a mitral valve the first is the middle of the
-        anterior leaflet, and the others are anywhere on the annulus. For a bileaflet valve the first is at an end of its hinges.
-        The valve's axis stays on the side to which it points; ``flip`` turns it over. Lengths of the valve grow in proportion.
+        The first point tells how the valve is turned. For cusps the points are the nadirs, the lowest points of the attachment.
+        The first belongs to cusp 0, the right one of an aortic valve. For a mitral valve the first is the middle of the anterior
+        leaflet, and the others are anywhere on the annulus. For a bileaflet valve the first is at an end of its hinges. The
+        valve's axis stays on the side to which it points; ``flip`` turns it over. Lengths of the valve grow in proportion.
         """
         state = self._at(i).state
         if state.surface is not None:

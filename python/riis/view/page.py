@@ -408,7 +408,7 @@ class Page(Hand, Heartbeat, saving.Files):
         self._orifice_at = time.monotonic()
 
     def _settle(self) -> None:
-        """Renews what takes longer than a move: the lights, the cut through the mesh, the handle, a sharper picture."""
+        """Renews the parts that take longer than a move: the lights, the cut through the mesh, the handle, a sharper picture."""
         self._unsettled = False
         if not self._held:
             self._end_drag()

@@ -21,7 +21,7 @@ class Refusal(Exception):
 def read_mesh(path: str, progress: dict[str, float]) -> Any:
     """Returns a mesh of volume cells as pyvista.UnstructuredGrid. progress["part"] grows from 0 to 1.
 
-    Nodes and cells keep the file's order, and the points its precision, so that marks are those of the program riis.
+    Nodes and cells keep the file's order, and points keep its precision. So the program riis finds the same marks.
     """
     import pyvista
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the page of riis view shows of a model, as plain values: sliders, rows, lights, curves; and placements after drags."""
+"""The contents of the page of riis view, as plain values: sliders, rows, lights, curves; and placements after drags."""
 
 from __future__ import annotations
 

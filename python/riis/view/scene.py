@@ -268,7 +268,7 @@ class Scene:
             return self._pv.PolyData()
         return boundary_of(self.grid.extract_cells(cells))
 
-    # what the lights speak of, and handles
+    # the things that the lights name, and handles
 
     def show_lights(self, lights: Any) -> None:
         """Draws the points and edges of the lights: passages in red, crossings in magenta."""

@@ -3,7 +3,7 @@
 // source to the equation of p.
 //
 // It moves the valve by a law in time, and marks the cells once in a step. It adds K (U - U_valve) / rho to the equation of a
-// solver with kinematic pressure, such as the module incompressibleFluid. The source is that of ../riisNetSource.H. The solver
+// solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H. The solver
 // takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md says which entries it takes.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
@@ -240,10 +240,10 @@ void riisModel::addSup(fvMatrix<scalar> &eqn) const {
 }
 
 void riisModel::refuse(const char *equation, const word &field) const {
-  FatalErrorInFunction
-      << "valve " << name() << " at time " << timeName(mesh()) << ": the equation of " << field << " is multiplied by "
-      << equation << ". riisValve is for equations divided by a constant density, such as those of incompressibleFluid"
-      << exit(FatalError);
+  FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh()) << ": the equation of " << field
+                       << " is multiplied by " << equation
+                       << ". riisValve is for equations divided by a constant density, such as the equations of "
+                       << "incompressibleFluid" << exit(FatalError);
 }
 
 void riisModel::addSup(const volScalarField &, const volVectorField &U, fvMatrix<vector> &) const {

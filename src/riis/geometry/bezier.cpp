@@ -229,7 +229,7 @@ static double rough_curvature(const Vec3 (&first)[n], const Vec3 (&second)[m], V
   return std::sqrt(largest_sq) / (least_speed * least_speed * least_speed);
 }
 
-// Differences of a curve's control points give those of its derivatives.
+// Differences of a curve's control points give the control points of its derivative.
 static double rough_curvature(const Bezier &curve) {
   const auto &q = curve.control;
   const Vec3 chord = curve.last() - curve.first();

@@ -55,8 +55,8 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
 // the time of separate calls.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
-// Writes to t the parameters that divide the part between two parameters, which has this length, into eight parts of equal
-// length. Returns false if one pass over the part does not find them.
+// Divides the part of the curve between two parameters into eight parts of equal length, and writes their ends to t. The whole
+// part has this length. Returns false if one pass over the part does not find them.
 bool divide_part(const Bezier &curve, double curve_length, double from, double to, double length,
                  std::array<double, 7> &t);
 

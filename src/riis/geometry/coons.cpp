@@ -63,7 +63,7 @@ class ArcRefinement {
     if (depth == max_depth) {
       const Vec3 where = bulge_.on_base(from);
       fail(RIIS_INVALID_PARAMETER, "near (", where.x, ", ", where.y, ", ", where.z,
-           "), before the translation, the line from annulus to free edge runs along the annulus, where a "
+           "), before the translation, the line from annulus to free edge runs along the annulus, so a "
            "surface_angle has no meaning: look at the leaflets' lengths and at the annulus there");
     }
     const double u = cut(from, to.middle);
@@ -178,7 +178,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
     sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
-  // The error of a point of the patch combines the errors of four side points. The weights are those of the points' positions.
+  // The error of a point of the patch combines the errors of four side points. The points' positions give the weights.
   const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);

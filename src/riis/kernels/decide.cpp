@@ -330,7 +330,7 @@ void frame_group(const PlainFrame &frame, const double *corners, const int32_t *
 
 typedef float HalfRegister __attribute__((vector_size(register_bytes / 2)));
 
-// Widens to double precision. GCC's own conversion does that in two halves, and puts them together.
+// Widens to double precision. GCC's own conversion takes two halves, and puts them together.
 RIIS_INLINE DoubleRegister widened(HalfRegister x) {
 #if defined(__AVX512F__)
   return (DoubleRegister)_mm512_cvtps_pd((__m256)x);

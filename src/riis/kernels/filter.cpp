@@ -402,7 +402,7 @@ void rank(const int32_t *key, int32_t n, int32_t *n_less) {
   const auto *const keys = reinterpret_cast<const InMemory *>(key);
   auto *const to = reinterpret_cast<InMemory *>(n_less);
   constexpr int n_registers = keys_at_once * static_cast<int>(sizeof *key) / register_bytes;
-  constexpr int together = 4;  // registers that each loaded key is compared with at once
+  constexpr int together = 4;  // each loaded key is compared with this number of registers at once
   for (int first = 0; first < n_registers; first += together) {
     IntRegister of[together], less[together] = {};
     for (int k = 0; k < together; ++k) of[k] = keys[first + k];

@@ -316,7 +316,7 @@ RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R
   RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
 }
 
-// Returns one bit for each lane. The lowest bit is that of the first lane.
+// Returns one bit for each lane. The lowest bit belongs to the first lane.
 RIIS_INLINE uint32_t bits(Floats::Mask mask) {
 #if defined(__AVX512DQ__)
   return _mm512_movepi32_mask((__m512i)mask.part[0]);

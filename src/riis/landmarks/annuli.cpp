@@ -259,10 +259,9 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
       constexpr double sure = 3;
       if (height > sure * error) return;
       fail(RIIS_INVALID_ARGUMENT,
-           "landmarks.flow is needed: without it the annulus shows the atrium's side only by its horns, and "
-           "they are ",
-           rounded(given.scale * height, 3), " nearer to the atrium than its sides, with a standard error of ",
-           rounded(given.scale * error, 3), "; it must be ", sure, " errors or more");
+           "landmarks.flow is needed: without it only the horns of the annulus show the atrium's side, and they are ",
+           rounded(given.scale * height, 3), " nearer to the atrium than the sides, with a standard error of ",
+           rounded(given.scale * error, 3), "; this must be ", sure, " errors or more");
     };
   }
   return made;

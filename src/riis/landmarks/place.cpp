@@ -55,7 +55,7 @@ std::vector<bool> held_parameters(const Valve &valve, std::string_view held) {
     const auto found = std::find_if(specs.begin(), specs.end(), named);
     if (found == specs.end()) {
       double unused[3];
-      valve.get(name, 1, unused);  // the message is that of an unknown or ambiguous name
+      valve.get(name, 1, unused);  // the message says that the name is unknown or ambiguous
       fail(RIIS_INVALID_PARAMETER, "held names '", name, "', which is not a parameter of the ", valve.kind().name,
            " valve");
     }

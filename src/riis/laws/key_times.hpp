@@ -30,7 +30,7 @@ class KeyTimes {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
     std::array<double, 3> width;      // from each of these keys to the next; infinite if one of the two is missing
     double since;                     // time since the interval's first end
-    bool is_at_rest;                  // before the first or after the last key, where the value is that of key[1]
+    bool is_at_rest;                  // before the first or after the last key; key[1] gives the value there
   };
   // A time counts as a key if it is within 8 units of rounding of that key, after subtracting whole periods. The key is then the
   // first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for

@@ -203,8 +203,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
   if (!(law.angle_max > law.angle_min))
     fail(RIIS_INVALID_ARGUMENT, "law.angle_max is ", law.angle_max, "; it must be above law.angle_min, ",
          law.angle_min);
-  // An initial state lacks a pressure difference and a flow, so those at the end of the step are used. The angle 0 of an initial
-  // state stands for angle_min, where the valve is closed.
+  // An initial state lacks a pressure difference and a flow, so the values at the end of the step are used. The angle 0 of an
+  // initial state stands for angle_min, where the valve is closed.
   const bool has_drive = !std::isnan(before.pressure_difference) && !std::isnan(before.flow);
   const double angle = has_drive || before.angle != 0 ? before.angle : law.angle_min;
   check_range("before", "angle", angle, law.angle_min, law.angle_max);

@@ -102,7 +102,7 @@ SeenOutline outline_of_boundary(const TriangleSet &set) {
   return {seen, closed_outline({line}, seen.rounding())};
 }
 
-// Returns the vertices of all triangles except those of one leaflet.
+// Returns the vertices of all triangles outside one leaflet.
 std::vector<std::int64_t> without_leaflet(const TriangleSet &set, std::int32_t leaflet_id) {
   std::vector<std::int64_t> kept;
   kept.reserve(set.vertex_id.size());

@@ -177,7 +177,7 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
     // The mapped middle lies beside the middle of the warped arc. The displacement there follows from the slope of the
-    // displacement. On the arcs that are sides, steps of u are left out, because neighbouring patches have these arcs, too.
+    // displacement. On the arcs that are sides, steps of u are left out, because neighbouring patches also have these arcs.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =

@@ -88,9 +88,9 @@ struct PatchMaterial {
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
 // The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
-// with u and v of 1/3 or 2/3, the displacement is that of the material point which the map moves there. It follows from the
-// mapped points beside them (MappedInside). What it has beyond the Coons combination of the sides is a polynomial of degree 3 in
-// u and in v.
+// with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. It follows from the mapped
+// points beside them (MappedInside). The excess over the Coons combination of the sides is a polynomial of degree 3 in u and in
+// v.
 class RestInside {
  public:
   RestInside() = default;

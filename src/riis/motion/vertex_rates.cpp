@@ -150,7 +150,7 @@ Vector<Vec3> grid_points(const PatchStates &states, const PatchSet &state, const
   return made;
 }
 
-// Returns the points of a grid in a state, and then those of its subdivided quads (vertices_of in triangulate/tiles.cpp).
+// Returns the points of a grid in a state, and then the points of its subdivided quads (vertices_of in triangulate/tiles.cpp).
 Vector<Vec3> points_in(const PatchStates &states, const PatchSet &state, const LevelledGrid &levelled) {
   const QuadGrid &grid = levelled.grid;
   const QuadGrid moved{grid.u, grid.v, grid_points(states, state, grid), {}};

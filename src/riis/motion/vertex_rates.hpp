@@ -20,10 +20,10 @@ struct Direction {
   double step;  // not 0
 };
 
-// Computes (after - before) / step for every vertex, in the order of the vertices of a TriangleSet. `at` and `grids` are those of
+// Computes (after - before) / step for every vertex, in the order of the vertices of a TriangleSet. `at` and `grids` belong to
 // the surface. Both states are put on the same grids. A vertex on a curve keeps its share of the curve's length. A vertex on a
 // chord keeps its place on the chord, and a vertex inside a patch keeps its u and v. So these are the rates of the triangles'
-// corners, not those of the smooth valve. Inside a triangle the rate is exactly linear.
+// corners, not of the smooth valve. Inside a triangle the rate is exactly linear.
 void make_vertex_rates(const PatchSet &at, const Vector<LevelledGrid> &grids, const Direction &direction, int n_threads,
                        std::vector<double> &rates);
 

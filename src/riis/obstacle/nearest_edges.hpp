@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges; the result is the same as that of a
-// loop over all edges.
+// Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges. A loop over all edges would give the
+// same result.
 // In: edges, points. Out: an edge for each point. If several edges are equally near, the first of them is found.
 #pragma once
 

@@ -21,7 +21,7 @@
 namespace riis {
 
 // Returns the number of processors in the affinity mask of the calling thread. n_threads = 0 never stands for more threads. If
-// OpenMP binds threads to places, the mask is that of the process at its start.
+// OpenMP binds threads to places, the mask is the process's mask at its start.
 inline int default_thread_count() noexcept {
   const int n = omp_get_num_procs();
   return n < 1 ? 1 : n;

@@ -55,8 +55,8 @@ bool wait_awake(const Condition &holds) {
   }
 }
 
-// Threads sleep on semaphores. A condition variable would need a mutex. A thread that the system holds up while it has the mutex
-// would then hold up the calling thread too.
+// Threads sleep on semaphores. A condition variable would need a mutex. If the system interrupts a thread that has the mutex, the
+// calling thread would then also wait.
 class Semaphore {
  public:
   Semaphore() { sem_init(&semaphore_, 0, 0); }
@@ -143,7 +143,7 @@ class Team {
     }
   }
 
-  // Takes up to n workers off the number of those that sleep, and returns how many.
+  // Subtracts up to n workers from the number of sleeping workers, and returns how many.
   int take_asleep(int n) {
     int n_asleep = n_asleep_.load(), n_taken = 0;
     do n_taken = std::clamp(n, 0, n_asleep);
@@ -155,7 +155,7 @@ class Team {
     const auto has_place = [&] { return State{state_.load()}.has_place_after(last_loop); };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(has_place)) return;
     // The loop may have begun before the calling thread could know that this worker sleeps. If the calling thread has taken all
-    // that sleep, it has posted for this worker too.
+    // sleeping workers, it has also posted for this worker.
     n_asleep_.fetch_add(1);
     if (has_place() && take_asleep(1) == 1) return;
     may_start_.wait();
@@ -164,7 +164,7 @@ class Team {
   void wait_for_workers() {
     const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
-    // A worker that left an earlier loop may post late, so each post is followed by a look.
+    // A worker that left an earlier loop may post late, so the thread checks the loop after each post.
     while (!is_empty()) {
       caller_sleeps_.store(true);
       if (is_empty() && caller_sleeps_.exchange(false)) return;

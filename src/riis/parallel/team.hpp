@@ -74,7 +74,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// The choice of this process. The loops of several threads of the caller may record at once; any of their values serves.
+// This process's choice between OpenMP and a team. The loops of several threads of the caller may record at once; any of their
+// values serves.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

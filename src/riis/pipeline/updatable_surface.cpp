@@ -115,7 +115,7 @@ double depth_of_contacts(const Valve &valve, const Surface &surface) {
   return 2 * surface.triangles().error_bound;
 }
 
-// Logs a warning if leaflets cross deeper than leaflets that touch. Returns whether it did.
+// Logs a warning if leaflets cross deeper than touching leaflets may. Returns whether it did.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =

@@ -44,7 +44,7 @@ std::vector<SideLine> free_edges(const TriangleSet &set);
 // belong to it.
 std::vector<SideLine> attached_sides(const TriangleSet &set);
 
-// The edges of all attached sides. Their order is that of the patches. The edges of one side follow each other along the side.
+// The edges of all attached sides. They are in the order of the patches. The edges of one side follow each other along the side.
 // Edges of length 0 are left out.
 struct Attachment {
   std::vector<double> edges;     // (3, 2, n_edges)

@@ -67,7 +67,7 @@ struct TriangleGroups {
   }
 
  private:
-  // What the threads find about a pack.
+  // The results of the threads for a pack.
   struct OfPack {
     double size;    // the sum of the extents of its groups' boxes
     bool are_same;  // whether each group has the same triangles as before

@@ -35,8 +35,8 @@ class TriangleScene {
   void build_tree() const;
 
   // Returns the closest triangle to p, or a triangle -1 if none is within the limit (>= 0, may be infinite). p must be finite,
-  // with coordinates up to max_coordinate. Several threads may call this function at once. If `ties` is not null, its candidates
-  // are replaced by those of p.
+  // with coordinates up to max_coordinate. Several threads may call this function at once. If `ties` is not null, the candidates
+  // of p replace its candidates.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 

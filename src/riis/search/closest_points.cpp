@@ -41,7 +41,7 @@ class ClosestPoints {
         to_(to) {}
 
   void write() {
-    // A failure must come before anything is written. Later, the queries may need the tree in place of memory.
+    // A failure must come before anything is written. Later, if memory runs out, queries may need the tree.
     scene_.build_tree();
     const int n_threads = request_.n_threads;
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
@@ -76,9 +76,9 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether points that follow each other are near each other: along some axis, a small batch from the middle has at most
-  // half the extent of all points. The middle counts, because many meshes begin with the nodes of their boundary. There must be
-  // enough points for a small batch.
+  // Returns whether consecutive points are near each other. Along some axis, a small batch from the middle then has at most half
+  // the extent of all points. The middle counts, because many meshes begin with the nodes of their boundary. There must be enough
+  // points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;
@@ -195,7 +195,7 @@ class ClosestPoints {
     std::array<Block, points_per_batch / points_per_block> blocks;
     blocks.fill({0, false, {}});
     parallel_for_ranges(all.end - all.begin, points_per_block, n_threads, [&](const Range &range, int) {
-      // Copies, which stay in registers whatever `visit` writes.
+      // These copies stay in registers, even if `visit` writes to memory.
       const WantedPoints wanted = wanted_;
       const StridedReals<Real> points = points_;
       const bool is_checked = is_limited_ || is_spread_;

@@ -14,7 +14,7 @@
 
 namespace riis {
 
-// The points that the caller wants: all points, those of a mask, or those of a list.
+// The points that the caller wants: all points, the points of a mask, or the points of a list.
 struct WantedPoints {
   std::int64_t n;  // of the list, or of all points
   const std::uint8_t *mask = nullptr;

@@ -133,7 +133,7 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. Replaces the candidates of `ties`, which may be null, by those of p.
+  // Returns the triangle closest to p. Replaces the candidates of `ties`, which may be null, by the candidates of p.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }

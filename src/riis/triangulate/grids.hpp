@@ -22,7 +22,8 @@ inline constexpr double planned_curve_share = 0.39;
 // error of the arcs' chords. At least 1 - (arc_curve_share + merge_share + offset_share / 2 + row_share) remains.
 inline constexpr double arc_curve_share = 0.4, offset_share = 0.2, row_share = 0.45;
 
-// Between two vertices of a curve, the velocity's estimated distance from linear is at most this share of the largest speed.
+// Between two vertices of a curve, the velocity is nearly linear. Its estimated deviation is at most this share of the largest
+// speed.
 inline constexpr double bend_share = 0.008;
 
 // Returns the number of rows that keeps chords within their share of max_error, for arcs with offsets up to `offset`.

@@ -43,7 +43,7 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Bounds the distance between a corner of an image and the same corner if the image were exactly congruent to the others.
+// Bounds the distance of an image's corner from its place in an image that is exactly congruent to the others.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});

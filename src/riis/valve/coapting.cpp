@@ -31,7 +31,7 @@ constexpr double cosine_60 = 0.5;
 const double arc_reach = 4.0 / 3.0 * (2 - std::sqrt(3.0));  // 4/3 tan 15 degrees
 // The open free edge: how far the inner control point by the commissure hangs, as a share of the middle.
 constexpr double open_sag = 1.0 / 3;
-// The open free edge must be shorter than this share of the closed one when it does not hang.
+// An open free edge that does not hang must be shorter than this share of the closed free edge.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;
@@ -275,7 +275,7 @@ Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
 }
 
 // Along the coaptation line K, the lower patch has the derivative T = K - c + (1 - u) Y + u A by v, with the chord c of K. Y and
-// A are the end tangents of the symmetry curve and of the attachment, as long as these curves are.
+// A are the end tangents of the symmetry curve and of the attachment, with the lengths of these curves.
 struct EndTangents {
   Vec3 of_symmetry, of_attachment;
 
@@ -440,9 +440,9 @@ void check_values(const ParameterValues &values) {
   const CuspNumbers closed = closed_cusp(values), open = open_cusp(values);
   const double least_length = EdgeLength(open).at(0).length;
   if (!(least_length <= most_of_edge * open.edge_length))
-    fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length, " long, but a closed one has ",
-         open.edge_length,
-         ", which is too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
+    fail(RIIS_INVALID_PARAMETER, "half an open free edge is at least ", least_length,
+         " long, but half a closed one is ", open.edge_length,
+         " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
   // The edge's middle is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
   const double away = sine_60 * values[commissure_radius][0];

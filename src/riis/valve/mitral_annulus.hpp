@@ -8,7 +8,7 @@
 
 namespace riis {
 
-// The sizes of the annulus: lengths, and the position of the widest point as a share. The names are those of the parameters.
+// The sizes of the annulus: lengths, and the position of the widest point as a share. The names are the parameters' names.
 struct MitralAnnulus {
   double AP_diameter, ALPM_diameter, ALPM_position_ratio, IT_distance, indent_depth, anterior_horn_height,
       posterior_horn_height;

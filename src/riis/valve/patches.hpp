@@ -119,7 +119,7 @@ struct MaterialPoints {
 };
 
 // Where the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that begin at the even
-// shares. In another patch, they are the four points whose u and v are 1/3 or 2/3, first those with v = 1/3.
+// shares. In another patch, they are the four points with u and v of 1/3 or 2/3. The points with v = 1/3 come first.
 struct MappedInside {
   bool of_arcs;
   std::array<Vec3, n_material> points;

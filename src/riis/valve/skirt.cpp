@@ -191,7 +191,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. They lie outwards from those of the inner side.
+  // Returns the material points of the outer side. They lie outwards from the inner side's points.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
@@ -286,7 +286,8 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
 }
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
-  // Seen along `rise`, the two sides leave their ends to different sides. The planes of the skirts' ends contain it.
+  // Seen along `rise`, one side leaves its end to the left, and the other leaves its end to the right. The planes of the skirts'
+  // ends contain it.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);

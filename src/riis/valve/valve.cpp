@@ -50,7 +50,7 @@ std::string_view without_leaflet(std::string_view name) {
 
 bool is_of_a_leaflet(const ParameterSpec &spec) { return spec.name.find('.') != std::string::npos; }
 
-// Says whether a name is that of a parameter, and how.
+// Says whether a name means a parameter, and how.
 struct Naming {
   bool names_it = false;
   bool is_whole = false;  // it names no other parameter
@@ -279,8 +279,9 @@ void Valve::check_same_but_for_opening(const Valve &other) const {
   check_same_state(*kind_, state_, other.state_, "");
   if (skirt_lengths_ != other.skirt_lengths_)
     fail(RIIS_INVALID_PARAMETER,
-         "the skirt's lengths to the wall differ from those that the surface's triangulation is ",
-         "fixed for: only opening and placement may move");
+         "the skirt's lengths to the wall differ from the lengths in the surface's fixed triangulation: only opening "
+         "and "
+         "placement may move");
   if (open_.has_value() != other.open_.has_value())
     fail(RIIS_INVALID_PARAMETER, "the valve has ", other.open_ ? "an" : "no", " open state", fixed_for,
          other.open_ ? "none" : "one");

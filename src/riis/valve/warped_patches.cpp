@@ -136,7 +136,7 @@ class Unfolding {
     const Patch &patch = set_.patches[number];
     const PatchImage &image = patch.images[which];
     const auto side = [&](const Side &given) { return Side{copy_of(given.curve, image), given.reversed}; };
-    // Along a seam, the curve is that of the twin.
+    // Along a seam, the curve is the twin's curve.
     const PatchImage *of_v1 = &image;
     for (const Seam &seam : set_.seams)
       if (seam.patch == number && seam.image == which && seam.place == SeamPlace::side_v1)

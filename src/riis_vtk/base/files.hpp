@@ -45,7 +45,7 @@ vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, 
 // Returns a text such as "; there are: a, b" for a message about a missing array.
 std::string list_of_arrays(vtkFieldData *data);
 
-// Lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII in any locale.
+// Lines and words of files that are scanned before VTK reads them. Blanks and capitals are ASCII's in any locale.
 bool is_blank(char c);
 
 std::string lower_case(std::string_view text);

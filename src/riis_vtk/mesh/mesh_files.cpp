@@ -75,7 +75,7 @@ riis_adjacency *adjacency_of(vtkUnstructuredGrid *grid, std::int32_t n_threads) 
   const VolumeCounts counts = count_volumes(grid);
   if (counts.n_linear == 0 || counts.n_linear < counts.n_volumes)
     return adjacency_of_edges(grid->GetNumberOfPoints(), volume_edges_of(grid).node_ids, n_threads);
-  // If all volume cells are linear, passes the cells, because their list is a third as long as that of their edges.
+  // If all volume cells are linear, passes the cells, because their list is a third as long as the list of their edges.
   const VolumeCells volumes = volume_cells_of(grid);
   riis_mesh_cells cells;
   check_core(riis_mesh_cells_init(&cells, sizeof cells));

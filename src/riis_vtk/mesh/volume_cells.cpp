@@ -335,8 +335,8 @@ VolumeCells volume_cells_of(vtkUnstructuredGrid *grid) {
     const vtkIdType *ids = nullptr;
     grid->GetCells()->GetCellAtId(cell_id, n, ids);
     if (type == VTK_VOXEL) {
-      // The nodes of a voxel are ordered along x, then y, then z. Those of a hexahedron run round its base and then round its
-      // top.
+      // The nodes of a voxel are ordered along x, then y, then z. The corners of a hexahedron run round its base and then round
+      // its top.
       cells.node_ids.insert(cells.node_ids.end(), {ids[0], ids[1], ids[3], ids[2], ids[4], ids[5], ids[7], ids[6]});
     } else {
       cells.node_ids.insert(cells.node_ids.end(), ids, ids + n);

@@ -130,8 +130,8 @@ class MarksPanel {
  public:
   // `pixels` is the width of a line.
   MarksPanel(vtkUnstructuredGrid *grid, double pixels);
-  // Replaces the marks that were shown before by those in the grid's point arrays. leaking_edges(2, n_leaking_edges) must hold
-  // valid node ids.
+  // Shows the marks in the grid's point arrays instead of earlier marks. leaking_edges(2, n_leaking_edges) must hold valid node
+  // ids.
   void show(vtkUnstructuredGrid *grid, std::int64_t n_leaking_edges, const std::int64_t *leaking_edges);
   vtkRenderer *renderer() const { return renderer_; }
   const MarkCounts &counts() const { return counts_; }

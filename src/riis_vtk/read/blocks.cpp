@@ -110,7 +110,7 @@ bool is_single(vtkUnstructuredGrid *grid) { return grid->GetPoints()->GetDataTyp
 
 // ---- .vtm ----
 
-// Returns the global ids of a block's nodes, or NULL. The names are those of VTK's attribute, of ParaView and of Exodus.
+// Returns the global ids of a block's nodes, or NULL. VTK's attribute, ParaView and Exodus have these names.
 vtkDataArray *global_ids_of(vtkUnstructuredGrid *grid) {
   vtkPointData *const data = grid->GetPointData();
   if (vtkDataArray *ids = data->GetGlobalIds()) return ids;

@@ -31,7 +31,7 @@ const ElementType *find_type(std::int64_t gmsh_type) {
       {3, 4, VTK_QUAD, {}},
       {4, 4, VTK_TETRA, {}},
       {5, 8, VTK_HEXAHEDRON, {}},
-      // The base of VTK's wedges is seen from outside, and that of gmsh's prisms from inside.
+      // The base of VTK's wedges is seen from outside, and the base of gmsh's prisms from inside.
       {6, 6, VTK_WEDGE, {0, 2, 1, 3, 5, 4}},
       {7, 5, VTK_PYRAMID, {}},
       {8, 3, VTK_QUADRATIC_EDGE, {}},

@@ -128,8 +128,8 @@ std::string plain_text(std::string_view text);
 // Whether this build has HDF5.
 extern const bool has_hdf5;
 
-// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails unless the dataset has exactly n and the file holds them.
-// is_single tells whether they are real numbers of 32 bits in the file.
+// Reads n numbers of a dataset as doubles or as 64-bit integers. Fails unless the dataset has exactly n numbers and the file
+// holds them all. is_single tells whether they are real numbers of 32 bits in the file.
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 

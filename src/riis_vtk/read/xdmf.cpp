@@ -449,7 +449,8 @@ class XdmfWriter {
                       "\" Center=\"", center, "\">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      while (!datasets_.insert(dataset).second) dataset += '_';  // the names a/b and a_b would meet otherwise
+      // The names a/b and a_b would become one name otherwise.
+      while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {
         std::vector<double> values(static_cast<std::size_t>(n * n_columns));
