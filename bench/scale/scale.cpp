@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "program/marking_run.hpp"
-#include "program/ranks.hpp"
-#include "program/report.hpp"
+#include "program/base/ranks.hpp"
+#include "program/mark/marking_run.hpp"
+#include "program/output/report.hpp"
 
 namespace {
 

@@ -10,13 +10,13 @@
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "module.hpp"
-#include "program/parameters.hpp"
-#include "program/placed_valve.hpp"
-#include "program/placing.hpp"
-#include "program/refusal.hpp"
-#include "program/sizes.hpp"
-#include "program/text.hpp"
-#include "program/warp_source.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/sizes.hpp"
+#include "program/base/text.hpp"
+#include "program/input/parameters.hpp"
+#include "program/input/placed_valve.hpp"
+#include "program/input/placing.hpp"
+#include "program/input/warp_source.hpp"
 
 namespace riis_python {
 namespace {

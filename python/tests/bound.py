@@ -159,7 +159,7 @@ def check(root: pathlib.Path) -> list[str]:
     """Returns the faults, one per line."""
     header = header_of(root)
     sources = "".join(path.read_text(encoding="utf-8") for path in sorted((root / "python/src").glob("*.[ch]pp")))
-    sources += (root / "src/program/placing.cpp").read_text(encoding="utf-8")  # which the module contains
+    sources += (root / "src/program/input/placing.cpp").read_text(encoding="utf-8")  # which the module contains
     functions = set(re.findall(r"^RIIS_API [^(]*?\b(riis_\w+)\(", header, re.MULTILINE))
     wrong = [] if len(functions) > 70 else ["riis.h was not read"]
     wrong += [f"{name} is not in python/tests/bound.py" for name in sorted(functions - set(BOUND) - set(LEFT_OUT))]

@@ -42,7 +42,7 @@ copy
 echo '#include "../riis/mesh/mesh.hpp"' >>"$scratch/program/report.hpp"
 refuses 'includes "..", but src/program has only common program'
 copy
-echo '#include "program/report.hpp"' >>"$scratch/riis_vtk/files.hpp"
+echo '#include "program/output/report.hpp"' >>"$scratch/riis_vtk/files.hpp"
 refuses 'includes "program", but src/riis_vtk has only common riis_vtk and the public headers'
 copy
 echo '#include "riis_vtk/base/files.hpp"' >>"$scratch/riis/api/handles.hpp"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "input.hpp"
-#include "program/command_line.hpp"
-#include "program/handles.hpp"
-#include "program/parameters.hpp"
-#include "program/refusal.hpp"
+#include "program/base/handles.hpp"
+#include "program/base/refusal.hpp"
+#include "program/cli/command_line.hpp"
+#include "program/input/parameters.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "input.hpp"
-#include "program/opening_law.hpp"
-#include "program/refusal.hpp"
+#include "program/base/refusal.hpp"
+#include "program/input/opening_law.hpp"
 
 namespace {
 

@@ -7,11 +7,11 @@
 #include <functional>
 
 #include "input.hpp"
-#include "program/case_file.hpp"
-#include "program/json.hpp"
-#include "program/parameters.hpp"
-#include "program/refusal.hpp"
-#include "program/valve_file.hpp"
+#include "program/base/refusal.hpp"
+#include "program/input/case_file.hpp"
+#include "program/input/json.hpp"
+#include "program/input/parameters.hpp"
+#include "program/input/valve_file.hpp"
 
 namespace {
 

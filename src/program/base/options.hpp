@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of each command as the user gave them. Only their form is checked here. The library checks the values.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/base/refusal.hpp"
+#include "program/base/units.hpp"
+
+namespace riis::program {
+
+// The options for the surface and its placement. Every command has some or all of them.
+struct ValveOptions {
+  ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
+
+  std::string valve = "aortic";  // a kind, or a .json file; unused if there is a surface
+  std::string placed;            // the file of a placed valve, whose kind is then `valve`; "": none
+  std::string surface;           // a file, or "" for the valve
+  std::string leaflets;          // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
+  std::optional<double> time;    // the time of a surface that moves
+  double period = 0;             // period of the surface's motion or of the cycle; 0 if there is none
+  std::string params, params_open;    // JSON files; "": none
+  std::vector<std::string> settings;  // NAME=VALUE, in the order of typing
+  std::optional<double> opening;      // from 0 to 1
+  std::optional<double> skirt;        // length of a skirt in the mesh's unit; with a wall, the longest to accept
+  std::string wall;                   // a file with the wall that the skirt reaches; "": none
+  std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
+  riis_surface_options surface_options;
+  std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
+  // These members tell whether the user gave the values as numbers.
+  bool has_scale = false, has_half_thickness = false, has_tolerance = false;
+  std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
+  bool quiet = false;
+  bool strict = false;  // a warning changes the exit status
+};
+
+// The names of the views that pictures and movies accept. A name's position is the value of its RIIS_VTK_VIEW_*.
+inline const std::vector<std::string> view_names = {"side",       "top",       "oblique",       "three",
+                                                    "valve-side", "valve-top", "valve-oblique", "valve-three"};
+
+struct Picture {
+  std::string path;
+  std::int32_t view;
+};
+
+// The options of a series in time, and of a case of several valves.
+struct SeriesOptions {
+  std::string case_file;      // "" if the command line describes the only valve
+  std::vector<double> times;  // ascending; empty if there is no series
+  std::string cycle;          // a file
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+  std::string movie, table;  // "" if not wanted
+  double frame_rate = 10;    // frames per second
+  std::int32_t movie_view = RIIS_VTK_VIEW_OBLIQUE;
+  bool all_cells = false;
+};
+
+// Two points that the valve should separate, and their texts for messages.
+struct LeakCheck {
+  double from[3], to[3];
+  std::string subject;
+  ExitCode exit_code = exit_wrong_usage;
+};
+
+// The options of riis mark. riis surface and riis check use some of them. riis surface has no mesh.
+struct MarkOptions : ValveOptions {
+  MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
+
+  std::string mesh;  // "" if there is none
+  std::vector<std::string>
+      pieces;              // the files of a mesh in pieces; empty before its list is read, and for other meshes
+  bool needs_mesh = true;  // whether a case must name a mesh
+  bool at_cells = false;   // whether the centres of cells are marked
+  riis_mark_options mark_options;
+  double far_distance = RIIS_FAR_DISTANCE;
+  std::optional<double> resistance;           // R, for an array of K
+  std::string output, surface_output, stats;  // "" if not wanted
+  std::string surface_output_option = "--surface-output";
+  std::vector<Picture> pictures;
+  std::int32_t n_steps = 0;     // number of steps to be timed
+  std::string prefix = "riis";  // the prefix of the arrays in the output
+  bool replace = false;         // whether to replace existing arrays with these names
+  bool allow_none = false;
+  bool check_crossing = false;
+  std::optional<LeakCheck> check_leaks;
+  bool first_passage = false;  // looks for the opening at which the points are first joined
+  std::optional<double> drop;  // pressure drop, for the ideal leak
+  bool measures = false;       // measures what the valve means for the flow, also without --stats
+  SeriesOptions series;
+};
+
+// The options of riis size-field. Lengths have the mesh's unit.
+struct SizeFieldOptions : MarkOptions {
+  SizeFieldOptions() { needs_mesh = false; }
+
+  std::string field;                   // the file of the grid; "-" is stdout
+  double band_edge = 0.95;             // edge length in the band, in half thicknesses
+  double growth = 0.3;                 // how much longer an edge is at a point that is one length farther away
+  std::optional<double> largest_edge;  // default 4 half thicknesses
+  std::optional<double> spacing;       // spacing of the grid; default half a half thickness
+  std::int32_t n_openings = 41;        // number of openings of a valve
+};
+
+// The options of riis states.
+struct StatesOptions : ValveOptions {
+  std::string output;           // the file of the table; "-" is stdout
+  std::int32_t n_states = 101;  // number of openings in the table
+  bool has_contacts = false;    // whether the table has the coaptation
+};
+
+struct TimeSpan {
+  double start, stop;
+};
+
+// The options of riis export.
+struct ExportOptions : ValveOptions {
+  std::string folder;
+  std::string mesh;  // the mesh of the solver's run, for a forecast; "": none
+  double time_step = 0, resistance = 0;
+  double density = 0, viscosity = 0;  // of the fluid, for the forecast; 0: those of blood, in the unit of the mesh
+  std::optional<double> opening_duration, closing_duration;  // used without a cycle
+  std::string cycle;                                         // a file
+  std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
+  std::optional<TimeSpan> opening_span, closing_span;  // spans of the cycle's time
+  double largest_edge = 0;                             // 0: the library's own triangles
+};
+
+// Whether riis place writes a warp to the landmarks, which may be smoothed by their noise.
+enum LandmarkWarp : std::int32_t { no_warp, exact_warp, smoothed_warp };
+
+// The options of riis place.
+struct PlaceOptions : ValveOptions {
+  std::string landmarks, mesh;                                // files; the mesh may be ""
+  bool has_valve = false;                                     // whether the user named the kind
+  std::string axes;                                           // of the mesh, or "" for those of the landmarks
+  std::int32_t warp_choice = 0;                               // a LandmarkWarp
+  std::optional<double> noise;                                // noise in the unit of --unit or of the landmarks
+  std::optional<std::vector<double>> flow;                    // in the mesh's axes
+  std::string output, foam_output, c_output, fortran_output;  // "" if not wanted, "-" for stdout
+};
+
+// The options of riis params.
+struct ParamsOptions : ValveOptions {
+  bool describe = false;  // print a table instead of JSON
+};
+
+// Returns the names of RIIS_TRIANGULATION_*. The position of each name is the value that it stands for.
+const std::vector<std::string> &triangulation_names();
+
+// Derives the scale from the units. Also derives the half thickness, unless the user gave one.
+void apply_units(ValveOptions &options);
+
+// Returns whether the user gave the valve's opening by --opening or --set.
+bool sets_opening(const ValveOptions &options);
+
+// Returns whether the name can begin the names of arrays.
+bool is_prefix(const std::string &name);
+
+}  // namespace riis::program

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/base/progress.hpp"
+
+#include <unistd.h>
+
+#include <iostream>
+
+namespace riis::program {
+
+Stage::Stage(const std::string &what, bool quiet) : begin_(std::chrono::steady_clock::now()) {
+  if (quiet || !isatty(STDERR_FILENO)) return;
+  watcher_ = std::thread([this, what] {
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (!ended_.wait_for(lock, std::chrono::seconds(1), [this] { return has_ended_; })) {
+      std::cerr << "riis: " << what << " ..." << std::endl;
+    }
+  });
+}
+
+Stage::~Stage() {
+  if (!watcher_.joinable()) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_one();
+  watcher_.join();
+}
+
+double Stage::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+StepProgress::StepProgress(const std::string &what, std::size_t n_steps, bool quiet)
+    : what_(what),
+      n_steps_(n_steps),
+      is_shown_(!quiet && isatty(STDERR_FILENO)),
+      begin_(std::chrono::steady_clock::now()),
+      last_(begin_) {}
+
+StepProgress::~StepProgress() {
+  if (has_line_) std::cerr << std::endl;
+}
+
+void StepProgress::begin(std::size_t step) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!is_shown_ || now - begin_ < std::chrono::seconds(1)) return;
+  if (has_line_ && now - last_ < std::chrono::milliseconds(200) && step + 1 < n_steps_) return;
+  last_ = now;
+  has_line_ = true;
+  const double left = seconds() / static_cast<double>(step) * static_cast<double>(n_steps_ - step);
+  // The blanks at the end overwrite the rest of a longer previous line.
+  std::cerr << "\rriis: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
+            << static_cast<long long>(left + 0.5) << " s left   " << std::flush;
+}
+
+double StepProgress::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+}  // namespace riis::program

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The processes of a run. There is one, unless the program was built with MPI and started by mpirun. Then every process, a rank,
+// takes its share of a mesh's pieces. Only ranks.cpp calls MPI.
+
+// The ranks call the same exchanges in the same order. Each exchange begins with an agreement that no rank has failed. A rank
+// that fails outside an exchange makes one more agreement, at the end of the program. So it meets the next agreement of the
+// others. All ranks end with the message of the lowest failed rank, and none waits forever.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "program/base/refusal.hpp"
+
+namespace riis::program::ranks {
+
+// Starts and ends MPI.
+class Session {
+ public:
+  Session(int *argc, char ***argv);
+  ~Session();
+  Session(const Session &) = delete;
+  Session &operator=(const Session &) = delete;
+};
+
+int rank();
+int n_ranks();
+// Only the first rank prints, and writes the files that all ranks share.
+inline bool is_first() { return rank() == 0; }
+
+// While an object of this type lives, the first rank works alone: its exchanges and agreements are with itself. The other ranks
+// meanwhile wait in the agreement at the end of the program.
+class Alone {
+ public:
+  Alone();
+  ~Alone();
+  Alone(const Alone &) = delete;
+  Alone &operator=(const Alone &) = delete;
+
+ private:
+  int n_ranks_;
+};
+
+// A failure that all ranks know.
+struct AgreedRefusal {
+  Refusal refusal;
+};
+
+// Throws an AgreedRefusal on all ranks if one of them passes a failure.
+void agree(const Refusal *failure = nullptr);
+
+// Bytes of all ranks in the order of ranks.
+std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t element_size);
+// Sends element i of the outer list to rank i. Returns what all ranks sent here.
+std::vector<std::byte> exchange_bytes(const void *sent, const std::vector<std::size_t> &n_for_rank,
+                                      std::size_t element_size);
+
+// Returns the elements of all ranks, in the order of ranks, on each rank.
+template <class T>
+std::vector<T> gather(const std::vector<T> &own) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (n_ranks() == 1) return own;
+  const std::vector<std::byte> bytes = gather_bytes(own.data(), own.size() * sizeof(T), sizeof(T));
+  const auto *const begin = reinterpret_cast<const T *>(bytes.data());
+  return {begin, begin + bytes.size() / sizeof(T)};
+}
+
+// Moves each element to a rank. rank_of(element) names the rank. Returns the elements that came to this rank.
+template <class T, class RankOf>
+std::vector<T> exchange(std::vector<T> own, const RankOf &rank_of) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (n_ranks() == 1) return own;
+  std::vector<std::size_t> n_for(static_cast<std::size_t>(n_ranks())), next(n_for.size());
+  for (const T &element : own) ++n_for[rank_of(element)];
+  for (std::size_t i = 1; i < next.size(); ++i) next[i] = next[i - 1] + n_for[i - 1];
+  std::vector<T> sorted(own.size());
+  for (const T &element : own) sorted[next[rank_of(element)]++] = element;
+  own = {};
+  const std::vector<std::byte> bytes = exchange_bytes(sorted.data(), n_for, sizeof(T));
+  sorted = {};
+  const auto *const begin = reinterpret_cast<const T *>(bytes.data());
+  return {begin, begin + bytes.size() / sizeof(T)};
+}
+
+}  // namespace riis::program::ranks

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks that the options of a command fit together. See command_options.hpp.
+#include "program/cli/command_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+
+#include "program/input/placed_valve.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
+
+namespace riis::program {
+namespace {
+
+bool has_set_opening(const ValveOptions &options) {
+  return std::any_of(options.settings.begin(), options.settings.end(),
+                     [](const std::string &setting) { return setting.rfind("opening=", 0) == 0; });
+}
+
+void check_set_opening(const ValveOptions &options, const std::string &reason) {
+  if (has_set_opening(options)) refuse_usage("--set opening " + reason);
+}
+
+void check_opening(const ValveOptions &options) {
+  if (options.opening && has_set_opening(options)) refuse_usage("--opening and --set opening exclude each other");
+}
+
+// Derives the scale and the default half thickness from the units.
+void finish_units(ValveOptions &options) {
+  const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
+  if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
+    refuse_usage("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
+                 words_of(*options.surface_unit));
+  if (!options.unit && options.surface_unit) refuse_usage("--surface-unit needs --unit, the unit of the mesh");
+  if (!options.unit) return;
+  if (is_file && !options.surface_unit)
+    refuse_usage("--unit needs --surface-unit, the unit of " +
+                 (options.surface.empty() ? options.valve : options.surface));
+  apply_units(options);
+}
+
+// Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
+void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
+  const bool is_motion = is_motion_file(options.surface);
+  if (is_motion && !options.time && !has_times)
+    refuse_usage("--surface " + options.surface + " is a motion: it needs --time T");
+  if (!is_motion && options.time)
+    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+  if (command.has("--period") && !is_motion && !has_cycle)
+    refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
+}
+
+void check_open_state(const ValveOptions &options) {
+  if (!options.params_open.empty() && is_valve_file(options.valve))
+    refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
+}
+
+// Refuses an open state without an opening. Most valves are closed by default, so it would have no effect, and the user would not
+// notice.
+void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
+  if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
+    refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
+}
+
+void finish_valve(const Command &command, ValveOptions &options) {
+  use_placed_valve(options);
+  check_opening(options);
+  check_open_state(options);
+  check_motion(command, options, false, false);
+  finish_units(options);
+}
+
+void check_series(const Command &command, const MarkOptions &options) {
+  const SeriesOptions &series = options.series;
+  if (!series.case_file.empty()) return;
+  if (series.times.empty()) {
+    for (const char *name : {"--cycle", "--movie", "--series-table", "--all-cells"})
+      if (command.knows(name) && command.has(name)) refuse_usage(std::string(name) + " needs --times");
+    return;
+  }
+  if (!options.surface.empty()) {
+    if (!series.cycle.empty()) refuse_usage("--cycle has no effect with --surface");
+    if (!is_motion_file(options.surface))
+      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+    return;
+  }
+  if (series.cycle.empty()) refuse_usage("--times needs --cycle, the valve's opening in time");
+  check_set_opening(options, "has no effect with --times: see --cycle");
+}
+
+void check_distance(const Command &command, const MarkOptions &options) {
+  if (command.has("--distance-tolerance") && options.surface_options.measure == RIIS_MEASURE_TRIANGLES)
+    refuse_usage("--distance-tolerance has no effect with --distance triangles: see --tolerance");
+}
+
+bool has_output(const MarkOptions &options) {
+  return !options.output.empty() || !options.surface_output.empty() || !options.pictures.empty() ||
+         !options.stats.empty() || !options.series.movie.empty() || !options.series.table.empty();
+}
+
+// Paths with blanks are refused, because svMultiPhysics removes every blank from a path.
+void check_folder_name(const std::string &folder) {
+  const auto is_blank = [](unsigned char c) { return c <= ' ' || c == 127; };
+  if (std::any_of(folder.begin(), folder.end(), is_blank))
+    refuse_usage("FOLDER: '" + folder + "' has a blank, and svMultiPhysics cannot read such a path");
+}
+
+}  // namespace
+
+MarkOptions finish_mark(const Command &command, MarkOptions options) {
+  const bool has_case = !options.series.case_file.empty(), has_cycle = !options.series.cycle.empty();
+  use_placed_valve(options);
+  check_opening(options);
+  check_open_state(options);
+  check_series(command, options);
+  check_motion(command, options, !options.series.times.empty(), has_cycle);
+  check_open_state_is_met(options, has_cycle);
+  finish_units(options);
+  check_distance(command, options);
+  if (!is_prefix(options.prefix))
+    refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
+  if (options.at_cells) {
+    if (!options.pictures.empty()) refuse_usage("--cells: --picture shows marks of nodes");
+    if (!options.series.movie.empty()) refuse_usage("--cells: --movie shows marks of nodes");
+    if (options.n_steps > 0) refuse_usage("--cells: --steps times marks of nodes");
+    options.series.all_cells = true;  // centres have no parts
+  }
+  if (options.n_steps > 0 && (has_case || !options.series.times.empty()))
+    refuse_usage("--steps has no effect with --times and --case: it moves one valve by itself, step by step");
+  if (has_case) return options;
+  if (options.mesh.empty()) refuse_usage("nothing to do: a MESH is needed");
+  if (options.quiet && !has_output(options)) refuse_usage("nothing to do: --quiet is given and no output is named");
+  return options;
+}
+
+MarkOptions finish_surface(const Command &command, MarkOptions options) {
+  finish_valve(command, options);
+  check_open_state_is_met(options, false);
+  if (!has_output(options)) refuse_usage("nothing to do: --output or --picture is needed");
+  return options;
+}
+
+MarkOptions finish_crossings(const Command &command, MarkOptions options) {
+  finish_valve(command, options);
+  return options;
+}
+
+MarkOptions finish_leaks(const Command &command, MarkOptions options) {
+  if (options.mesh.empty() && options.series.case_file.empty()) refuse_usage("MESH is required");
+  finish_valve(command, options);
+  check_open_state_is_met(options, false);
+  return options;
+}
+
+SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options) {
+  const bool has_cycle = !options.series.cycle.empty();
+  use_placed_valve(options);
+  check_opening(options);
+  check_open_state(options);
+  if (options.series.case_file.empty()) {
+    check_series(command, options);
+    check_motion(command, options, !options.series.times.empty(), has_cycle);
+  }
+  if (command.has("--count") && (sets_opening(options) || !options.surface.empty()))
+    refuse_usage("--count has no effect: there is only one opening");
+  finish_units(options);
+  return options;
+}
+
+StatesOptions finish_states(const Command &, StatesOptions options) {
+  use_placed_valve(options);
+  check_set_opening(options, "has no effect: the table has all openings");
+  check_open_state(options);
+  finish_units(options);
+  return options;
+}
+
+ExportOptions finish_export(const Command &, ExportOptions options) {
+  use_placed_valve(options);
+  check_folder_name(options.folder);
+  check_set_opening(options, "has no effect: the valve opens and closes in an export");
+  check_open_state(options);
+  finish_units(options);
+  if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
+    refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
+  // Blood has 1060 kg/m3 and 0.004 Pa s. The solver's units are those of the mesh, with grams beside cm and mm.
+  const Unit unit = options.unit.value_or(Unit::centimetre);
+  if (options.density == 0) options.density = unit == Unit::metre ? 1060 : unit == Unit::centimetre ? 1.06 : 1.06e-3;
+  if (options.viscosity == 0) options.viscosity = unit == Unit::centimetre ? 0.04 : 0.004;
+  return options;
+}
+
+ParamsOptions finish_params(const Command &, ParamsOptions options) {
+  use_placed_valve(options);
+  check_opening(options);
+  return options;
+}
+
+PlaceOptions finish_place(const Command &command, PlaceOptions options) {
+  options.has_valve = command.has("--valve");
+  if (options.has_valve && is_valve_file(options.valve))
+    refuse_usage("--valve: " + options.valve + " is a file; landmarks place a kind of valve");
+  if (options.output != "-" && !options.output.empty() && !is_valve_file(options.output))
+    refuse_usage("--output: " + options.output + " must end in .json, so that other commands take it");
+  check_set_opening(options, "has no effect: landmarks are those of the closed valve");
+  return options;
+}
+
+// ---- Values that follow from options ----
+
+const std::vector<std::string> &triangulation_names() {
+  static const std::vector<std::string> names = {"adapted", "fixed"};
+  return names;
+}
+
+void apply_units(ValveOptions &options) {
+  options.surface_options.scale = factor_between(options.surface_unit.value_or(Unit::centimetre), *options.unit);
+  if (!options.has_half_thickness) options.surface_options.half_thickness = paper_half_thickness(*options.unit);
+}
+
+bool sets_opening(const ValveOptions &options) { return options.opening || has_set_opening(options); }
+
+bool is_prefix(const std::string &name) {
+  const auto is_good = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), is_good);
+}
+
+}  // namespace riis::program

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/cli/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include "common/nearest_name.hpp"
+#include "program/base/other_program.hpp"
+#include "program/cli/command_options.hpp"
+#include "program/cli/help.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+namespace {
+
+// Formats an option as its name and the type of its value. CLI11's own format also lists the options that an option excludes and
+// needs, which would make the help too long for a screen.
+class BriefHelp : public CLI::Formatter {
+ public:
+  BriefHelp() { column_width(36); }
+
+  std::string make_option_opts(const CLI::Option *option) const override {
+    if (option->get_positional() || option->get_type_size() == 0) return "";
+    const std::string type = option->get_type_name();  // CLI11 appends the allowed words to the type
+    return " " + type.substr(0, type.find(":{"));
+  }
+};
+
+// Replaces two blank lines by one.
+std::string tidied(std::string help) {
+  for (std::size_t at = 0; (at = help.find("\n\n\n", at)) != std::string::npos;) help.erase(at, 1);
+  return help;
+}
+
+// Returns the full name of a command as the user types it, such as "riis check leaks".
+std::string name_of(const CLI::App &app) {
+  return (app.get_parent() ? name_of(*app.get_parent()) + " " : "") + app.get_name();
+}
+
+// Refuses "--output= mesh.vtu", because CLI11 would read it as "--output=mesh.vtu".
+void check_equals_signs(int argc, char **argv) {
+  for (int i = 1; i < argc && argv[i] != std::string("--"); ++i) {
+    const std::string argument = argv[i];
+    if (argument.rfind("--", 0) == 0 && argument.find('=') == argument.size() - 1)
+      refuse_empty(argument.substr(0, argument.size() - 1));
+  }
+}
+
+// Returns a hint about words that are left over on the command line. In most cases the user typed a value as several words
+// although the option takes one word.
+std::string hint_of(const CLI::App &app) {
+  const struct {
+    const char *name;
+    char mark;
+    int n_marks;  // how often a complete value contains the character `mark`
+  } forms[] = {{"--set", '=', 1}, {"--rotate", ',', 3}, {"--translate", ',', 2}};
+  for (const auto &form : forms) {
+    const CLI::Option *option = app.get_option_no_throw(form.name);
+    if (!option) continue;
+    for (const std::string &value : option->results()) {
+      if (std::count(value.begin(), value.end(), form.mark) < form.n_marks)
+        return std::string(form.name) + " takes " + option->get_type_name();
+    }
+  }
+  return name_of(app) + " --help lists the options";
+}
+
+std::string nearest_option(const CLI::App &app, const std::string &name) {
+  NearestName nearest(name);
+  for (const CLI::Option *option : app.get_options())
+    for (const std::string &known : option->get_lnames()) nearest.consider(known);
+  return std::string(nearest.nearest());
+}
+
+bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
+
+// Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If
+// some of the words are unknown options, the text lists only these options. The other words may be their values.
+std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
+  std::vector<std::string> left = app.remaining();
+  const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
+  std::string text;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const auto found = std::find(left.begin(), left.end(), argument);
+    if (found == left.end()) continue;
+    left.erase(found);
+    if (looks_like_option(argument) != has_options) continue;
+    if (!text.empty()) text += "; ";
+    const std::string name = argument.substr(0, argument.find('='));
+    text += has_options ? name + " is not an option" : argument + " is one argument too many";
+    const std::string nearest = has_options && name.size() > 2 ? nearest_option(app, name.substr(2)) : "";
+    if (!nearest.empty()) text += ", did you mean --" + nearest + "?";
+  }
+  return text;
+}
+
+std::vector<const CLI::App *> commands_of(const CLI::App &app) {
+  return app.get_subcommands([](const CLI::App *) { return true; });
+}
+
+// Returns the command with this name. Refuses a word that is not a command.
+const CLI::App &command_named(const CLI::App &app, const std::string &word) {
+  const std::string hint = " (" + name_of(app) + " --help lists the commands)";
+  if (looks_like_option(word)) refuse_usage(word + " stands before a command" + hint);
+  NearestName nearest(word);
+  for (const CLI::App *command : commands_of(app)) {
+    if (command->get_name() == word) return *command;
+    nearest.consider(command->get_name());
+  }
+  const std::string near(nearest.nearest());
+  refuse_usage("'" + word.substr(0, 64) + "' is not a command" + (near.empty() ? "" : ", did you mean " + near + "?") +
+               hint);
+}
+
+// Refuses a command line whose first words are neither a complete command nor a request for help or the version.
+void check_commands(const CLI::App &app, int argc, char **argv) {
+  const CLI::App *at = &app;
+  for (int i = 1; !commands_of(*at).empty(); ++i) {
+    std::string names;
+    for (const CLI::App *command : commands_of(*at)) names += (names.empty() ? "" : " or ") + command->get_name();
+    if (i >= argc) refuse_usage(name_of(*at) + " needs a command: " + names);
+    const std::string word = argv[i];
+    if (word == "--help" || word == "-h" || word == "--version") return;
+    at = &command_named(*at, word);
+  }
+}
+
+// Returns the command that was parsed: the innermost one, if commands contain commands.
+const CLI::App &innermost(const CLI::App &app) {
+  const CLI::App *at = &app;
+  while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
+  return *at;
+}
+
+}  // namespace
+
+std::optional<Request> parse_command_line(int argc, char **argv) {
+  CLI::App app(description, "riis");
+  app.formatter(std::make_shared<BriefHelp>());
+  app.set_version_flag("--version", std::string("riis ") + riis_version_string(), "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this and exit");
+  app.footer(help_of("riis"));
+  app.require_subcommand(1);
+  MarkOptions mark, surface, crossings, leaks;
+  SizeFieldOptions field;
+  StatesOptions states;
+  ExportOptions exported;
+  ParamsOptions params;
+  PlaceOptions placed;
+  std::string topic;
+  const auto command = [](CLI::App &in, const char *name, const char *what, const char *help) {
+    CLI::App *made = in.add_subcommand(name, what);
+    made->footer(help_of(help));
+    return made;
+  };
+  const Command marks(command(app, "mark", "Mark the nodes of a mesh near a valve, at one time or at many", "mark"));
+  const Command surfaces(command(app, "surface", "Write or draw the triangles of a valve, without a mesh", "surface"));
+  const Command table(command(app, "states", "Measure a valve at openings from 0 to 1", "states"));
+  CLI::App *checks = command(app, "check", "Look for leaflets that cross, or for ways through a valve", "check");
+  checks->require_subcommand(1);
+  const Command crossing(
+      command(*checks, "crossings", "Tell whether leaflets go through each other, at 101 openings", "crossings"));
+  const Command leak(command(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", "leaks"));
+  const Command fields(
+      command(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", "size-field"));
+  const Command frames(command(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", "export"));
+  const Command values(command(app, "params", "Print the parameters of a valve", "params"));
+  const Command places(command(app, "place", "Find a valve's sizes and placement from a patient's landmarks", "place"));
+  command(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)", "view");
+  CLI::App *help = command(app, "help", "Explain a topic, or list the topics", "help");
+  help->add_option("TOPIC", topic, "One of the topics that riis help lists");
+  declare_mark(marks, mark);
+  declare_surface(surfaces, surface);
+  declare_states(table, states);
+  declare_crossings(crossing, crossings);
+  declare_leaks(leak, leaks);
+  declare_size_field(fields, field);
+  declare_export(frames, exported);
+  declare_params(values, params);
+  declare_place(places, placed);
+  const auto asks_for_help = [](const std::string &word) { return word == "--help" || word == "-h"; };
+  if (argc > 1 && std::string("view") == argv[1] && std::none_of(argv + 2, argv + argc, asks_for_help))
+    run_view(argc, argv);
+  check_equals_signs(argc, argv);
+  check_commands(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success &request) {
+    std::ostringstream text;
+    app.exit(request, text, text);
+    write_text("-", tidied(text.str()));
+    return std::nullopt;
+  } catch (const CLI::ExtrasError &) {
+    const CLI::App &parsed = innermost(app);
+    refuse_usage(text_of_leftovers(parsed, argc, argv) + " (" + hint_of(parsed) + ")");
+  } catch (const CLI::ParseError &error) {
+    refuse_usage(std::string(error.what()) + " (" + name_of(innermost(app)) + " --help lists the options)");
+  }
+  if (help->parsed()) {
+    write_text("-", text_of_topic(topic));
+    return std::nullopt;
+  }
+  if (marks.parsed()) return finish_mark(marks, std::move(mark));
+  if (surfaces.parsed()) return finish_surface(surfaces, std::move(surface));
+  if (table.parsed()) return finish_states(table, std::move(states));
+  if (crossing.parsed()) return finish_crossings(crossing, std::move(crossings));
+  if (leak.parsed()) return finish_leaks(leak, std::move(leaks));
+  if (fields.parsed()) return finish_size_field(fields, std::move(field));
+  if (frames.parsed()) return finish_export(frames, std::move(exported));
+  if (places.parsed()) return finish_place(places, std::move(placed));
+  return finish_params(values, std::move(params));
+}
+
+}  // namespace riis::program

@@ -1,0 +1,522 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/cli/command_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "program/base/text.hpp"
+#include "program/input/opening_law.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/passage.hpp"
+
+namespace riis::program {
+namespace {
+
+// The position of each name is the value of the RIIS_SEARCH_* or RIIS_MEASURE_* that it stands for.
+const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
+const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
+
+// The position of each name is the value of LandmarkWarp that it stands for.
+const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
+
+double parse_positive_finite(const std::string &text, const std::string &subject) {
+  const double number = parse_number(text, subject);
+  if (!(number > 0 && std::isfinite(number))) refuse_usage(subject + ": " + text + " is not above 0 and finite");
+  return number;
+}
+
+std::int32_t parse_count(const std::string &text, const std::string &subject, std::int32_t least, std::int32_t most) {
+  const std::int32_t n = parse_integer(text, subject);
+  if (n < least || n > most)
+    refuse_usage(subject + ": " + text + " is not from " + std::to_string(least) + " to " + std::to_string(most));
+  return n;
+}
+
+TimeSpan parse_span(const std::string &text, const std::string &subject) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || text.find(':', colon + 1) != std::string::npos)
+    refuse_usage(subject + ": '" + text + "' is not START:STOP");
+  const TimeSpan span{parse_number(text.substr(0, colon), subject), parse_number(text.substr(colon + 1), subject)};
+  if (!(std::abs(span.start) <= 1e30 && std::abs(span.stop) <= 1e30))
+    refuse_usage(subject + ": " + text + " is not finite and at most 1e30 in magnitude");
+  if (!(span.stop > span.start)) refuse_usage(subject + ": the stop of " + text + " is not after its start");
+  return span;
+}
+
+// ---- Groups of options ----
+
+void declare_valve(Command &command, ValveOptions &options) {
+  command.group("Valve");
+  command.text("--valve", "KIND|FILE.json",
+               "aortic (default), mitral, coapting, trileaflet, bileaflet, or a file of patches", options.valve);
+  command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
+               options.params);
+  command
+      .values("--set", "NAME=VALUE", "Set one parameter to a number or X,Y,Z; may be repeated",
+              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
+      ->allow_extra_args(false);
+}
+
+void declare_opening(Command &command, ValveOptions &options) {
+  command.value("--opening", "X", "How far the valve is open, from 0, closed, to 1, open",
+                [&options](const std::string &text) {
+                  options.opening = parse_number(text, "--opening");
+                  if (!(*options.opening >= 0 && *options.opening <= 1))
+                    refuse_usage("--opening: " + text + " is not from 0 to 1");
+                });
+}
+
+void declare_open_state(Command &command, ValveOptions &options) {
+  command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
+}
+
+void declare_skirt(Command &command, ValveOptions &options) {
+  CLI::Option *const skirt =
+      command.value("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
+                    [&options](const std::string &text) { options.skirt = parse_positive_finite(text, "--skirt"); });
+  command
+      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches: .vtp, .vtu or .stl", options.wall)
+      ->needs(skirt);
+}
+
+void declare_warp(Command &command, ValveOptions &options) {
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
+               options.warp);
+}
+
+void declare_tolerance(Command &command, ValveOptions &options) {
+  command.value("--tolerance", "F", "Largest deviation of triangles from the smooth valve, in half thicknesses",
+                [&options](const std::string &text) {
+                  options.has_tolerance = true;
+                  options.surface_options.tolerance = parse_number(text, "--tolerance");
+                });
+}
+
+// Declares the options of a surface from a file, and the options of any surface's triangles.
+void declare_file(Command &command, ValveOptions &options) {
+  riis_surface_options &how = options.surface_options;
+  command.group("Surface");
+  CLI::Option *const surface = command.text(
+      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
+  for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall"})
+    surface->excludes(command.option(name));
+  command
+      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
+            options.leaflets)
+      ->needs(surface);
+  command
+      .value("--skip-zero-area", nullptr, "Leave out triangles of --surface that have no area",
+             [&how](const std::string &) { how.zero_area = RIIS_ZERO_AREA_SKIP; })
+      ->needs(surface);
+  command.value("--flip-normals", nullptr, "Turn every triangle over",
+                [&how](const std::string &) { how.flip_normals = 1; });
+  declare_tolerance(command, options);
+  command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
+                 triangulation_names(), how.triangulation);
+  for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
+  command
+      .value("--time", "T", "Time at which to take the motion --surface FILE.pvd",
+             [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
+      ->needs(surface);
+  command.positive("--period", "P", "Period of --surface FILE.pvd, or of --cycle (default none)", options.period);
+}
+
+void declare_unit(Command &command, ValveOptions &options) {
+  command.group("Placement (x -> scale * rotation * x + translation)");
+  CLI::Option *const scale = command.value("--scale", "S", "Factor from the surface's unit to the mesh's (default 1)",
+                                           [&options](const std::string &text) {
+                                             options.has_scale = true;
+                                             options.surface_options.scale = parse_number(text, "--scale");
+                                           });
+  const auto unit = [&](const char *name, const char *help, std::optional<Unit> &to) {
+    return command.value(name, "m|cm|mm", help, [&to](const std::string &text) { to = unit_of(text); })
+        ->check(CLI::IsMember(unit_names()));
+  };
+  unit("--unit", "Unit of the mesh, in place of --scale", options.unit)->excludes(scale);
+  unit("--surface-unit", "Unit of the file that holds the surface or the patches", options.surface_unit);
+}
+
+void declare_placement(Command &command, ValveOptions &options) {
+  riis_surface_options &how = options.surface_options;
+  declare_unit(command, options);
+  command.value("--rotate", "X,Y,Z,DEG", "Rotate about an axis by an angle in degrees",
+                [&how](const std::string &text) {
+                  const std::vector<double> turn = parse_list(text, "--rotate", 4, "X,Y,Z,DEG");
+                  std::copy_n(turn.begin(), 3, how.rotation_axis);
+                  how.rotation_angle = turn[3];
+                });
+  command.value("--translate", "X,Y,Z", "Translate by a vector in the mesh's unit", [&how](const std::string &text) {
+    const std::vector<double> shift = parse_list(text, "--translate", 3, "X,Y,Z");
+    std::copy_n(shift.begin(), 3, how.translation);
+  });
+}
+
+void declare_half_thickness(Command &command, ValveOptions &options) {
+  command.value("--half-thickness", "L", "Half thickness of the band (default 0.1 times the scale)",
+                [&options](const std::string &text) {
+                  options.has_half_thickness = true;
+                  options.surface_options.half_thickness = parse_positive(text, "--half-thickness");
+                });
+}
+
+// Declares all options that determine a placed surface, except for its half thickness.
+void declare_surface_in_place(Command &command, ValveOptions &options) {
+  declare_valve(command, options);
+  declare_opening(command, options);
+  declare_open_state(command, options);
+  declare_warp(command, options);
+  declare_skirt(command, options);
+  declare_file(command, options);
+  declare_placement(command, options);
+}
+
+// Declares all options that determine a placed surface and its half thickness.
+void declare_placed_valve(Command &command, ValveOptions &options) {
+  declare_surface_in_place(command, options);
+  declare_half_thickness(command, options);
+}
+
+// Declares --threads. The option applies to the search for nodes and to the search for crossings.
+void declare_threads(Command &command, MarkOptions &options) {
+  command.value("--threads", "N", "Number of threads (default as many as have work)",
+                [&options](const std::string &text) {
+                  options.n_threads = options.mark_options.n_threads = parse_integer(text, "--threads");
+                });
+}
+
+void declare_search(Command &command, MarkOptions &options) {
+  command.choice("--search", "auto (default), exhaustive, neighbor, clusters or paper", search_names,
+                 options.mark_options.search);
+  command.positive("--distance-limit", "L", "Report distances up to this one (default the half thickness)",
+                   options.mark_options.distance_limit);
+  declare_threads(command, options);
+}
+
+void declare_marking(Command &command, MarkOptions &options) {
+  command.group("Marking");
+  declare_half_thickness(command, options);
+  command.value("--resistance", "R", "Write riis_K, R/eps times the delta function at each node",
+                [&options](const std::string &text) { options.resistance = parse_number(text, "--resistance"); });
+  command.number("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance);
+  command
+      .choice("--distance", "Distances to triangles (default), or by sampling or minimization", distance_names,
+              options.surface_options.measure)
+      ->excludes(command.option("--surface"));
+  command.positive("--distance-tolerance", "F", "Tolerance of sampling or minimization, in half thicknesses",
+                   options.surface_options.measure_tolerance);
+  declare_search(command, options);
+  command
+      .value("--steps", "N", "Also time N steps: each moves the opening by 0.02 and marks again",
+             [&options](const std::string &text) {
+               options.n_steps = parse_integer(text, "--steps");
+               if (options.n_steps < 1) refuse_usage("--steps: " + text + " is not above 0");
+             })
+      ->excludes(command.option("--surface"));
+}
+
+void declare_loudness(Command &command, ValveOptions &options) {
+  command.flag("--quiet", "Print no table on stdout and no progress on stderr; warnings stay", options.quiet);
+  command.flag("--strict", "Exit with status 4 if there was a warning", options.strict);
+}
+
+// --view is declared after --picture, so CLI11 passes the pictures first. Their number is then known when the views are read.
+void declare_pictures(Command &command, MarkOptions &options) {
+  CLI::Option *const pictures =
+      command
+          .values("--picture", "OUT.png", "Draw the surface and the marked cells; may be repeated",
+                  [&options](const std::vector<std::string> &paths) {
+                    for (const std::string &path : paths) options.pictures.push_back({path, RIIS_VTK_VIEW_OBLIQUE});
+                  })
+          ->allow_extra_args(false);
+  command
+      .values("--view", "VIEW",
+              "View of --picture: side, top, oblique (default), three; valve-side, ...: by the valve's axes",
+              [&options](const std::vector<std::string> &views) {
+                if (views.size() > options.pictures.size()) refuse_usage("--view: there are more views than pictures");
+                for (std::size_t i = 0; i < views.size(); ++i)
+                  options.pictures[i].view = position_of(views[i], view_names);
+              })
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(view_names))
+      ->needs(pictures);
+}
+
+void declare_stats(Command &command, MarkOptions &options) {
+  command.text("--stats", "FILE.json|-", "Write counts and seconds as JSON; - is stdout", options.stats);
+}
+
+void declare_cycle(Command &command, std::string &cycle, std::int32_t &interpolation) {
+  CLI::Option *const file =
+      command.text("--cycle", "FILE.csv", "Times and openings of the valve, in two columns", cycle);
+  command
+      .choice("--interpolation", "Between the times of the cycle: linear (default) or cubic", interpolation_names(),
+              interpolation)
+      ->needs(file);
+}
+
+CLI::Option *declare_case(Command &command, SeriesOptions &series) {
+  return command.text("--case", "FILE.json", "Valves, placements, cycles and times from a file (riis help cases)",
+                      series.case_file);
+}
+
+// Excludes the options for which the case file contains its own values, as far as the command has them.
+void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
+  for (const char *name :
+       {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",
+        "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
+        "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
+        "--period",  "--interpolation", "--prefix",        "--time",           "--skirt",          "--wall",
+        "--warp"})
+    if (command.knows(name)) command.option(name)->excludes(all_of_it);
+}
+
+void declare_series(Command &command, MarkOptions &options) {
+  SeriesOptions &series = options.series;
+  command.group("Series in time, and several valves");
+  CLI::Option *const times =
+      command.value("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output then takes a .pvd",
+                    [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
+  declare_cycle(command, series.cycle, series.interpolation);
+  CLI::Option *const all_of_it = declare_case(command, series);
+  command.flag("--all-cells", "Write the whole mesh each time, not only the cells near the sweep", series.all_cells);
+  command.text("--series-table", "OUT.csv", "Write time, opening, marked nodes and speed of each step", series.table);
+  CLI::Option *const movie =
+      command.text("--movie", "OUT.mp4|OUT.gif", "Draw each time and make a movie of it, by ffmpeg", series.movie);
+  command
+      .value("--frame-rate", "N", "Frames of the movie per second (default 10)",
+             [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
+      ->needs(movie);
+  command.choice("--movie-view", "As --view (default oblique)", view_names, series.movie_view, "VIEW")->needs(movie);
+  exclude_by_case(command, all_of_it);
+  command.option("--opening")->excludes(times);
+  command.option("--time")->excludes(times);
+}
+
+constexpr const char *mesh_help = "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM";
+
+}  // namespace
+
+void declare_mark(Command command, MarkOptions &options) {
+  command.group("Mesh");
+  command.text("MESH", "FILE", mesh_help, options.mesh);
+  command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
+               options.at_cells);
+  declare_surface_in_place(command, options);
+  declare_marking(command, options);
+  command.group("Output");
+  CLI::Option *const output = command.text(
+      "--output", "OUT", "Write the marked mesh: .vtu, .xdmf, .pvtu if MESH is one; --cells: fields in CASE/TIME",
+      options.output);
+  command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
+      ->needs(output);
+  command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
+  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
+  declare_pictures(command, options);
+  declare_stats(command, options);
+  declare_loudness(command, options);
+  declare_series(command, options);
+}
+
+void declare_surface(Command command, MarkOptions &options) {
+  options.surface_output_option = "--output";
+  declare_placed_valve(command, options);
+  command.group("Output");
+  command.text("--output", "OUT.vtp", "Write the placed triangles", options.surface_output);
+  declare_pictures(command, options);
+  declare_loudness(command, options);
+}
+
+void declare_crossings(Command command, MarkOptions &options) {
+  options.check_crossing = true;
+  options.needs_mesh = false;
+  declare_placed_valve(command, options);
+  exclude_by_case(command, declare_case(command, options.series));
+  declare_threads(command, options);
+  declare_stats(command, options);
+  declare_loudness(command, options);
+}
+
+void declare_leaks(Command command, MarkOptions &options) {
+  command.group("Mesh");
+  command.text("MESH", "FILE", mesh_help, options.mesh);
+  command
+      .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
+              [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
+      ->expected(2)
+      ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  options.measures = true;
+  command
+      .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
+      ->needs(command.option("--between"));
+  CLI::Option *const resistance =
+      command.value("--resistance", "R", "Resistance of the valve, for the ideal leak",
+                    [&options](const std::string &text) { options.resistance = parse_positive(text, "--resistance"); });
+  CLI::Option *const drop =
+      command.value("--drop", "DP", "Pressure drop over the closed valve, for the ideal leak",
+                    [&options](const std::string &text) { options.drop = parse_number(text, "--drop"); });
+  drop->needs(resistance);
+  resistance->needs(drop);
+  declare_surface_in_place(command, options);
+  command.group("Marking");
+  declare_half_thickness(command, options);
+  declare_search(command, options);
+  exclude_by_case(command, declare_case(command, options.series));
+  command.group("Output");
+  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  declare_stats(command, options);
+  declare_loudness(command, options);
+}
+
+void declare_size_field(Command command, SizeFieldOptions &options) {
+  command
+      .text("OUT", "OUT.dat|-", "The grid of edge lengths, for gmsh's field \"Structured\"; - is stdout", options.field)
+      ->required();
+  const auto length = [&](const char *name, const char *help, std::optional<double> &to) {
+    command.value(name, "L", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
+  };
+  const auto factor = [&](const char *name, const char *help, double &to) {
+    command.value(name, "F", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
+  };
+  factor("--band-edge", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge);
+  factor("--growth", "Growth of the edge length by distance outside the band (default 0.3)", options.growth);
+  length("--largest-edge", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
+         options.largest_edge);
+  length("--spacing", "Spacing of the grid, in the mesh's unit (default half a half thickness)", options.spacing);
+  command.value("--count", "N", "Number of openings (default 41)", [&options](const std::string &text) {
+    options.n_openings = parse_count(text, "--count", 2, most_states);
+  });
+  declare_threads(command, options);
+  declare_loudness(command, options);
+  declare_placed_valve(command, options);
+  SeriesOptions &series = options.series;
+  command.group("Motion in time, and several valves");
+  CLI::Option *const times =
+      command.value("--times", "START:STOP:STEP|T,T,...", "Times of a motion, in place of openings",
+                    [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
+  declare_cycle(command, series.cycle, series.interpolation);
+  CLI::Option *const all_of_it = declare_case(command, series);
+  exclude_by_case(command, all_of_it);
+  command.option("--count")->excludes(all_of_it);
+  for (const char *name : {"--opening", "--time", "--count"}) command.option(name)->excludes(times);
+}
+
+void declare_states(Command command, StatesOptions &options) {
+  command.text("OUT", "OUT.csv|-", "The table: free edges, leaflet areas and the orifice; - is stdout", options.output)
+      ->required();
+  command.value("--count", "N", "Number of openings (default 101)", [&options](const std::string &text) {
+    options.n_states = parse_count(text, "--count", 2, most_states);
+  });
+  command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_open_state(command, options);
+  declare_warp(command, options);
+  declare_skirt(command, options);
+  declare_tolerance(command, options);
+  CLI::Option *const surface = command.text(
+      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+  for (const char *name :
+       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
+    surface->excludes(command.option(name));
+  command
+      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
+            options.leaflets)
+      ->needs(surface);
+  declare_unit(command, options);
+  declare_half_thickness(command, options);
+}
+
+void declare_export(Command command, ExportOptions &options) {
+  command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
+  command.text("MESH", "FILE", "The mesh of the solver's run: say what the solver will do in it", options.mesh);
+  const auto time = [&](const char *name, const char *help, std::optional<double> &to) {
+    return command.value(name, "T", help,
+                         [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
+  };
+  const auto span = [&](const char *name, const char *help, std::optional<TimeSpan> &to) {
+    return command.value(name, "START:STOP", help,
+                         [&to, name](const std::string &text) { to = parse_span(text, name); });
+  };
+  command
+      .value("--time-step", "DT", "Time step of the solver, which plays one frame a step",
+             [&options](const std::string &text) { options.time_step = parse_positive_finite(text, "--time-step"); })
+      ->required();
+  command
+      .number("--resistance", "R", "Resistance of the valve, for the block of the solver's input", options.resistance)
+      ->required();
+  time("--opening-seconds", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration);
+  time("--closing-seconds", "Close from 1 to 0 in this time", options.closing_duration);
+  declare_cycle(command, options.cycle, options.interpolation);
+  command.positive("--period", "P", "Period of --cycle (default none)", options.period)
+      ->needs(command.option("--cycle"));
+  span("--opening-span", "Times of --cycle at which the valve opens", options.opening_span)
+      ->needs(command.option("--cycle"));
+  span("--closing-span", "Times of --cycle at which the valve closes", options.closing_span)
+      ->needs(command.option("--cycle"));
+  for (const char *name : {"--opening-seconds", "--closing-seconds"})
+    command.option(name)->excludes(command.option("--cycle"));
+  command.value(
+      "--largest-edge", "L", "Cut triangles until no edge is longer in any frame",
+      [&options](const std::string &text) { options.largest_edge = parse_positive_finite(text, "--largest-edge"); });
+  command.positive("--density", "RHO", "Density of the fluid, for MESH (default that of blood: 1.06 with cm)",
+                   options.density);
+  command.positive("--viscosity", "MU", "Viscosity of the fluid, for MESH (default that of blood: 0.04 with cm)",
+                   options.viscosity);
+  for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_open_state(command, options);
+  declare_warp(command, options);
+  declare_skirt(command, options);
+  declare_tolerance(command, options);
+  declare_placement(command, options);
+  declare_half_thickness(command, options);
+}
+
+void declare_place(Command command, PlaceOptions &options) {
+  command.text("LANDMARKS", "FILE.json|.csv", "The landmarks: JSON, 3D Slicer's .mrk.json, or CSV", options.landmarks)
+      ->required();
+  command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
+               options.output);
+  command.text("--foam", "OUT", "The valve and its placement as OpenFOAM reads them, in metres", options.foam_output);
+  command.text("--c", "OUT", "The valve and its placement as lines of C", options.c_output);
+  command.text("--fortran", "OUT", "The valve and its placement as lines of Fortran", options.fortran_output);
+  declare_loudness(command, options);
+  command.group("Landmarks");
+  command.text("--mesh", "MESH", "Refuse landmarks that are not at this mesh", options.mesh);
+  command
+      .value("--unit", "m|cm|mm", "Unit of the mesh (default that of the landmarks)",
+             [&options](const std::string &text) { options.unit = unit_of(text); })
+      ->check(CLI::IsMember(unit_names()));
+  command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
+      ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
+  command.choice("--warp", "Warp the valve to the landmarks: none (default), exact, or smoothed by their noise",
+                 warp_names, options.warp_choice);
+  command.value("--noise", "L", "Standard deviation of each coordinate (default 0.3 mm)",
+                [&options](const std::string &text) {
+                  options.noise = parse_number(text, "--noise");
+                  if (!(*options.noise >= 0)) refuse_usage("--noise: " + text + " is below 0");
+                });
+  command.value("--flow", "X,Y,Z", "Direction of flow through the valve, in the mesh's axes",
+                [&options](const std::string &text) { options.flow = parse_list(text, "--flow", 3, "X,Y,Z"); });
+  command.group("Valve");
+  command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
+               options.valve);
+  command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
+  command
+      .values("--set", "NAME=VALUE", "Set and keep one parameter, in cm; may be repeated",
+              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
+      ->allow_extra_args(false);
+}
+
+void declare_params(Command command, ParamsOptions &options) {
+  command.flag("--describe", "Print a table with units, ranges and descriptions, not JSON", options.describe);
+  declare_loudness(command, options);
+  declare_valve(command, options);
+  declare_opening(command, options);
+}
+
+}  // namespace riis::program

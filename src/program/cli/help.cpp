@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/cli/help.hpp"
+
+#include "common/nearest_name.hpp"
+#include "program/base/refusal.hpp"
+
+namespace riis::program {
+namespace {
+
+struct Footer {
+  const char *command, *text;
+};
+
+const Footer footers[] = {
+    {"mark", R"(Examples:
+  riis mark mesh.vtu --output marked.vtu --picture valve.png
+  riis mark mesh.vtu --unit m --rotate 0,0,1,90 --set right.leaflet_angle=60 --stats -
+  riis mark mesh.vtu --unit mm --surface valve.stl --surface-unit mm --leaflets connected --output marked.vtu
+  riis mark mesh.vtu --valve mitral --opening 0.5 --output half_open.vtu
+  riis mark mesh.vtu --params-closed closed.json --params-open open.json --opening 0.5 --output half_open.vtu
+  riis mark mesh.vtu --surface patient.pvd --time 0.3 --period 0.8 --output marked.vtu
+  riis mark mesh.vtu --valve mitral --cycle beat.csv --period 0.8 --times 0:0.8:0.01 --output beat.pvd --movie beat.mp4
+  riis mark --case beating_valves.json --output beat.pvd --series-table beat.csv
+riis help explains: mesh, units, parameters, opening, patches, series, cases, motion, warnings, leaks, searches,
+distances, status.)"},
+    {"surface", R"(Examples:
+  riis surface --valve mitral --opening 0.5 --output half_open.vtp --picture half_open.png --view top
+  riis surface --surface patient.pvd --time 0.3 --output moved.vtp
+riis help explains: units, parameters, opening, patches, motion.)"},
+    {"size-field", R"(Examples:
+  riis size-field valve.dat --unit mm --valve trileaflet --translate 0,0,40
+  riis size-field valve.dat --case beating_valves.json --largest-edge 0.4
+riis help meshing explains the field.)"},
+    {"states", R"(Examples:
+  riis states states.csv --valve mitral
+  riis states - --valve prosthesis.json --count 11
+riis help states explains the table.)"},
+    {"crossings", R"(Examples:
+  riis check crossings --valve prosthesis.json
+riis help crossings explains what counts.)"},
+    {"leaks", R"(Examples:
+  riis check leaks mesh.vtu --valve mitral --opening 0 --between 0,0,2 0,0,-2
+  riis check leaks --case beating_valves.json
+riis help leaks explains what counts.)"},
+    {"check", R"(Examples:
+  riis check crossings --valve prosthesis.json
+  riis check leaks mesh.vtu --between 0,0,2 0,0,-2)"},
+    {"export", R"(Examples:
+  riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4
+  riis export valve mesh.vtu --valve trileaflet --time-step 0.002 --opening-seconds 0.04 --closing-seconds 0.04 --resistance 1e4
+riis help export explains the files.)"},
+    {"params", R"(Examples:
+  riis params > valve.json
+  riis params --describe --valve mitral
+riis help parameters explains the names.)"},
+    {"place", R"(Examples:
+  riis place landmarks.json --valve trileaflet
+  riis place root.mrk.json --valve aortic --mesh root.vtu --axes RAS --output placed.json
+  riis mark root.vtu --valve placed.json --opening 0.3 --output marked.vtu
+  riis place annulus.csv --valve mitral --flow 0,0,-1 --set anterior_length=2.4 --c lines.c
+riis help landmarks explains the files and the report.)"},
+    {"view", R"(Examples:
+  riis view root.vtu
+  riis view root.vtu --unit mm --folder results --no-browser
+  riis view --open valve.view.json
+A page in the browser has the mesh, the valve and sliders for its sizes. Other options: --port N. RIIS_PYTHON names the Python
+that has the package riis; python3 unless set.)"},
+    {"help", R"(Examples:
+  riis help units)"},
+    {"riis", R"(Examples:
+  riis mark mesh.vtu --output marked.vtu
+  riis mark mesh.vtu --unit m --valve mitral --output marked.vtu
+  riis params --describe --valve mitral
+riis COMMAND --help lists the options of a command. riis help lists the topics that it explains.)"},
+};
+
+struct Topic {
+  const char *name, *subject, *text;
+};
+
+// clang-format off
+const Topic topics[] = {
+    {"mesh", "the marked mesh and its arrays",
+     R"(
+The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
+1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
+can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
+)"},
+    {"pieces", "meshes larger than memory, and MPI",
+     R"(
+A .pvtu file lists the pieces of a mesh, .vtu files. The pieces are read, marked and written one by one. Counts, leaks and
+passages are those of the whole mesh. Nodes of two pieces are the same node if their global ids are equal (the point array
+with VTK's attribute GlobalIds, vtkGlobalIds, GlobalNodeId or GlobalPointIds). Without global ids, all their coordinates must be
+equal. Ghost cells (vtkGhostType 1) do not count. --output marked.pvtu writes the pieces to the folder marked.
+A series reads each piece once. Pictures, movies, --cells, --steps and --search paper need the whole mesh.
+A program built with RIIS_PROGRAM_MPI shares out the pieces: mpirun -n 8 riis mark mesh.pvtu --threads 1 --output marked.pvtu
+)"},
+    {"units", "units of lengths, and the scale",
+     R"(
+Lengths are in the mesh's unit. --unit names that unit, and the program derives the scale from it. The parameters of the
+kinds of valves are in centimetres. If a file holds the surface or the patches, --unit needs --surface-unit, the unit of that
+file. With --unit the default half thickness is the paper's, 0.1 cm. Without --unit the program knows no units, and --scale
+is the factor from the surface's unit to the mesh's.
+)"},
+    {"parameters", "names and files of parameters",
+     R"(
+A name with a cusp (right.leaflet_angle) is a parameter of that cusp. A name without a cusp (leaflet_angle) stands for all
+cusps. A JSON file sets the names without a cusp first, in any order of the file. Then --set changes values, from left to
+right. --opening comes last, and cannot be combined with --set opening.
+
+annulus and stj are diameters, and effective_height is the height of the free edges above the annulus. These names set sizes of
+aortic, coapting and trileaflet valves, and annulus also that of a bileaflet valve. riis params --describe shows which parameters
+they set.
+
+Some parameters follow from others unless they are set: five sizes each of the trileaflet and the coapting valve, and two
+rotations of the aortic valve. riis params --describe prints these rules after "unless set". riis params prints the present
+values of all parameters.
+After such a file was read, all parameters are set, and none follows.
+)"},
+    {"opening", "closed and open states",
+     R"(
+The parameters of a kind of valve make it closed and open. By default the mitral valve has opening 1, and the others have
+opening 0. With --params-open, the other options give the closed state. That file's parameters and the defaults give the open
+state. An opening in that file has no effect. The paper's aortic valve, at opening 0 with the default parameters, is not
+closed. Seen along its axis, 19 % of a disc of radius 1.2 cm stay open. --valve coapting and --valve trileaflet close.
+)"},
+    {"skirt", "a strip that closes the gap to the wall",
+     R"(
+--skirt L gives a valve a strip of the length L, in the mesh's unit. It leads outwards from the attachment and closes the gap
+to the wall. The parameter skirt_length is the same length in the valve's own unit. With --wall FILE, a surface in the mesh's
+frame and unit, the skirt reaches that wall, and no farther. L is then the longest skirt to accept. The program prints the
+gap. A wall that is missed or farther away is refused. In a case, "skirt" and "wall" are keys of a valve.
+)"},
+    {"warp", "a valve that meets a patient's landmarks",
+     R"(
+riis place LANDMARKS --warp exact writes a warp into the placed valve, and every command that takes this valve as --valve uses it.
+With --warp smoothed the warp misses the landmarks by about their noise, so an error of a landmark bends the valve less. Points of
+the attachment among the landmarks (riis help landmarks) make the valve fit between its commissures and nadirs. The sizes and the
+placement do not depend on them. A warp that folds is refused. A bileaflet valve is rigid and takes no warp. With --foam,
+OpenFOAM's dictionary also has the warp.
+--warp FILE gives a warp to a valve of any command: landmarks on the valve, their places in the patient, in the mesh's unit.
+FILE.json has the keys of "warp" in a case (riis help cases). FILE.csv has a line SX,SY,SZ,TX,TY,TZ for each landmark, and perhaps
+lines # noise = 0.3 and # coordinates = valve.
+)"},
+    {"patches", "a file of curves for a valve of your own",
+     R"(
+--valve FILE.json is a valve from patches, which are given by the curves that bound them:
+{"curves":  {"hinge": [[0,0,0], [1,0,0]], "edge": [[0,1,0], [0.5,1,0.3], [1,1,0]],
+             "left": [[0,0,0], [0,1,0]], "right": [[1,1,0], [1,0,0]]},
+ "patches": [{"v0": "hinge", "v1": "edge", "u0": "left", "u1": "-right", "leaflet": 0}]}
+2, 3 or 4 points control a curve of degree 1, 2 or 3. One point stands for a side that collapses to a point. A minus reverses
+a curve. v0 and v1 run from u0 to u1; u0 and u1 run from v0 to v1. The default of "leaflet" is 0. "open": {"curves": {...}}
+beside "patches" holds all curves at --opening 1. Without it the valve stays at opening 0. The valve's parameters are
+opening and skirt_length.
+)"},
+    {"landmarks", "files of riis place, and its report",
+     R"(
+{"valve": "aortic", "unit": "mm", "axes": "LPS",
+ "landmarks": {"nadir_right": [1,2,3], "nadir_left": [...], "nadir_non_coronary": [...],
+               "commissure_left_right": [...], "commissure_left_non": [...], "commissure_right_non": [...]}}
+coapting    3 commissures and 3 nadirs, with names as above or as lists: "nadir": [[1,2,3], ...]; perhaps coaptation, and
+            for a warp up to 900 points of the attachment, as attachment_1 or, with the cusp, attachment_left_1
+trileaflet  the same
+aortic      the same; the names must say which cusp is which
+mitral      "annulus": 4 points or more in their order around it, anterior_horn; perhaps posterior_horn, 2 trigone,
+            posteromedial_commissure and anterolateral_commissure. 16 annulus points determine the sizes, 8 do not
+bileaflet   "annulus": 3 points or more of the housing's circle, 2 or 4 "hinge" ends, and the flow
+Other keys: "flow": [x,y,z], or the points flow_from and flow_to; "noise"; "parameters", sizes in cm that are known.
+In 3D Slicer, labels are the names, as in annulus-1. A CSV has lines NAME,X,Y,Z, and must state # unit = mm and # axes = LPS.
+LPS and RAS differ by half a turn about z, which landmarks cannot show; "mesh" stands for the mesh's own axes. With --mesh,
+landmarks that are not at the mesh are refused, and the message says if they would be with other axes or another unit.
+Sizes from "proportion" have no landmark: they keep the proportions of --params or of the defaults. A size is NOT DETERMINED if
+its standard error at the noise moves the valve by more than a fifteenth of its radius. It is then drawn to its proportion.
+Landmarks are those of the closed valve. The report's residuals are distances from landmarks to the valve.
+)"},
+    {"series", "many times: .pvd, movies, tables",
+     R"(
+--times marks the nodes at each time, and --cycle is a file with the opening. The file has a line for each key, with a time
+and an opening from 0 to 1. Times ascend. The first line may name the columns. --output beat.pvd writes beat/beat_0000.vtu
+and so on, and beat.pvd, which ParaView plays. --surface-output does the same with the triangles. With --triangulation fixed
+all times have the same triangles, so changes of the triangles cause no jumps of K.
+Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and riis_velocity of the closest point. With
+--resistance it has riis_K and riis_K_u_surface, K times that velocity. Velocities are means since the previous time. At the
+first time they are means over a step as long as the first one. A series of one time has no velocities. Without --all-cells
+the meshes have only the cells near the valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input,
+from 0. All times have the same cells.
+A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line
+then gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second
+behind the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
+seconds for surface and marks. --picture draws the first time. --movie draws all times with one camera, and needs the program
+ffmpeg. The check for leaks runs at the time when the valve is least open. For --surface it runs at the first time. The numbers of
+--stats are those of this time, and "times" has the openings, marks and speeds of all times. An orifice is that of the largest
+opening.
+)"},
+    {"cases", "several valves in one mesh, from a file",
+     R"(
+--case FILE.json describes several valves, and takes the place of the options for surface, placement and marking:
+{"mesh": "heart.vtu", "unit": "cm", "half_thickness": 0.1, "distance_limit": 0.2, "resistance": 1e4,
+ "times": "0:0.8:0.01",
+ "valves": [{"name": "mitral", "valve": "mitral", "opening": {"file": "beat.csv", "period": 0.8}},
+            {"name": "aortic", "valve": "coapting",
+             "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
+Paths are relative to the file. A MESH, --times, --distance-limit, --resistance and --between on the command line replace those
+in the file. A valve's own "resistance" stays. riis check leaks, riis check crossings and riis size-field also take a case.
+A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a
+.pvd. Such a file may have a "period". A valve may have "parameters" and "open_parameters", each an object or a file, and
+"scale", "surface_unit", "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals",
+"leaflets", "skip_zero_area", "skirt" and "wall", as the options of these names. "opening" is a number or one of
+  {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
+  {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
+  {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
+   "period": 0.8}
+A "warp" takes landmarks on the valve to landmarks in the patient, exactly or smoothed by their noise:
+  {"sources": [[1,0,0], [0,1,0], ...], "targets": [[1.1,0,0], [0,1.2,0], ...], "noise": 0.03, "coordinates": "mesh"}
+With "times", and perhaps "period" and "interpolation", "targets" has an array of points for each time. "open" may have the
+"sources" and "targets" of the open state. With "coordinates": "valve", landmarks are those of the valve before its placement.
+"check_leaks": [x,y,z, x,y,z] has two points, as riis check leaks --between (riis help leaks).
+If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
+the valves. Without times there is one mesh, --output marked.vtu. With --stats, "valves" has an object for each of several
+valves, with the keys that a single valve has.
+)"},
+    {"motion", "a surface from a file that moves",
+     R"(
+--surface FILE.pvd is a ParaView collection of surface files, each with a time. All files have the same points and faces, and
+only the points move. --time T moves the surface to a time, linearly between two files. --times moves it to each of several
+times. --surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
+Triangles in .stl files must have the same order in all files.
+)"},
+    {"warnings", "what they mean, and which comes first",
+     R"(
+A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
+any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
+does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
+One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
+advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
+allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
+at that place. They have the unit of --unit.
+)"},
+    {"leaks", "edges and passages through the band",
+     R"(
+The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
+of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. Leaks are
+unknown in a mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Leaking edges do
+not show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
+are points of the mesh on either side of the valve, each as X,Y,Z.
+The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
+thickness that closes it. The distance of the points from the valve must be larger than the width of the passage. A case has
+the points as "check_leaks": [x,y,z, x,y,z]. The check uses all its valves together, each at its least opening. For each
+valve the table then has the mesh edges across its band, and the orifice at its largest opening.
+riis check leaks also prints how many mesh edges lie across the band, and the orifice with its effective area. With
+--first-passage it tries openings and prints the first at which unmarked nodes join the points. With --resistance and --drop it
+prints the flow through an ideal closed valve.
+)"},
+    {"crossings", "leaflets that go through each other",
+     R"(
+riis check crossings checks a valve's triangles at 101 openings from 0 to 1. It ends at the first opening at which two
+triangles go through each other. A line on stderr gives that opening, the number of pairs, the length of their intersections,
+and the depth and place of the deepest pair. The depth is the distance by which one triangle must move so that both only
+touch. A depth up to 1e-6 half thicknesses counts as touching. A valve that does not open, a surface from a file and a valve
+with --opening are checked as they are. With --case each valve of a case is checked. The command needs no MESH. riis mark
+checks only openings 0, 0.5 and 1, and only a valve whose shape is set by --set, --params, --params-open or a file. Then
+contacts of leaflets do not count, nor those of a housing with its hinges.
+)"},
+    {"states", "what the table of riis states has",
+     R"(
+riis states measures the valve in its own frame at 101 openings, or at the number of --count. It needs no MESH. The table has
+a line for each opening. A line has the length of each free edge, the area of each leaflet, both also as a share of their
+closed values, and the area of the orifice. The summary on stdout names the free edges whose length differs by more than 10 %
+from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc
+that the leaflets leave uncovered, seen along the axis z. effective_area is the part that the band around the leaflets leaves
+to the flow, by the half thickness and a round rim. The disc has the closed valve's root_radius or the housing's
+radius. If a valve has neither, the outline is the free sides v = 0, such as the annulus. The table has no columns for
+measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at opening 0.
+)"},
+    {"export", "what riis export writes",
+     R"(
+riis export FOLDER writes the files that the solver's Add_URIS_mesh reads: for each leaflet NAME.vtu, NAME_open.dat and
+NAME_close.dat. The same files of a face "box" widen the box in which the solver looks for nodes. normal.dat is the direction
+of flow. The folder must be new or empty. The block for the solver's input goes to stdout; it needs --resistance. The solver
+plays a frame in each of its time steps, so --time-step must be the solver's step. The valve opens from 0 to 1 in
+--opening-seconds by a ramp of fifth degree, and closes in --closing-seconds. With --cycle it opens from the last key of its
+least opening to the next key of its largest opening. It closes from the last key of its largest opening to the next key of
+its least opening. --opening-span and --closing-span set other times. The solver measures distances to the middles of
+triangles. With a --largest-edge of 0.15 half thicknesses its sum of K is within 1 % of the exact sum. Triangles without area
+in some frame are left out, and a line on stderr says so.
+
+riis export FOLDER MESH also computes what the solver will do in MESH, by the solver's own rules: its box, its distances, their
+interpolation to Gauss points, and the bands in which it takes pressures. The comment of the block has the expected drop of the
+closed valve over (R/eps) u, and the nodes before and behind the valve. If the drop is below 0.95, a line on stderr names the
+half thickness that the mesh needs. FOLDER/forecast.csv has the numbers of each frame. A valve that the solver could never open
+or never close is refused. The drop depends a little on --density and --viscosity, in the solver's units. python3 computes it by
+NumPy and SciPy, or the Python that RIIS_PYTHON names. Without them only the drop is missing, and a line on stderr says so.
+)"},
+    {"meshing", "the edge lengths of riis size-field",
+     R"(
+A mesh whose edges are at most two half thicknesses long does not leak (riis help leaks). riis size-field writes edge lengths
+that are small near the valve only: --band-edge half thicknesses in the band of every state of the valve, and larger outside
+it. The states are openings from 0 to 1, in number --count, or the times of --times or of a case. The file is a grid, which
+gmsh's field "Structured" reads with TextFormat = 1. The lines for the .geo file go to stdout. gmsh makes some edges longer
+than the field says, so --band-edge should stay below 1. The default algorithm of gmsh in space, Delaunay, keeps closer to
+the field than HXT does. The number of nodes grows with the cube of 1 / --band-edge. A case needs no mesh here. Check the
+mesh by riis check leaks, or by riis mark at several openings.
+)"},
+    {"searches", "how nodes are found",
+     R"(
+exhaustive  queries the distance of every node near the valve
+neighbor    walks from marked nodes to their neighbours and then proves that the rest is far
+clusters    handles nearby nodes together
+paper       the published search, for comparison: from one start, through marked nodes only
+The first three give the same marks. neighbor needs the mesh's adjacency, which lists the neighbours; clusters needs sorted
+nodes. For one marking, either preparation costs more time than it saves, so auto is exhaustive. paper
+misses nodes that are not connected to its start, so it is never complete, and a line on stderr says so. Neighbours are nodes
+joined by an edge of a volume cell.
+)"},
+    {"distances", "how distances are measured",
+     R"(
+--distance sampling measures to the nearest of many points on the valve's patches. --distance-tolerance sets their number.
+--distance minimization applies Powell's method to every patch, and this may miss the closest point. Both methods are the
+paper's. They are slow, and serve for comparison.
+)"},
+    {"running", "progress, Ctrl-C, locks",
+     R"(
+On a terminal, a line on stderr announces a stage that takes longer than a second, and counts the steps of a series. --quiet
+silences this line. While a file is written, the first Ctrl-C waits until the file is complete; the second does not wait.
+During a run, an empty file .riis-NAME.lock beside each output NAME keeps other runs from writing that output. A run that is
+killed leaves the lock behind, and the next run takes it over.
+)"},
+    {"status", "exit statuses",
+     R"(
+0  fine
+1  bad data: a file that cannot be read or written, or has bad content; a valve's kind; a parameter's name or value (in a
+   file or by --set); an output that another run is writing; no display for a picture, no ffmpeg for a movie, no memory
+2  wrong usage: an option that is unknown, malformed, out of range, without effect, or at odds with another; an output
+   that would replace an input, another output, or arrays of the mesh
+3  no node is marked at any time, without --allow-none; the outputs are written all the same
+4  with --strict, a warning that none of the above covers; the outputs are written all the same
+)"},
+};
+// clang-format on
+
+std::string list_of_topics() {
+  std::string text = "riis help TOPIC explains one of these:\n";
+  for (const Topic &topic : topics) {
+    const std::string name = topic.name;
+    text += "  " + name + std::string(12 - name.size(), ' ') + topic.subject + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+const char *const description =
+    "Marks the nodes of a mesh whose distance to the surface of a heart valve is at most the half thickness.";
+
+std::string help_of(const std::string &command) {
+  for (const Footer &footer : footers)
+    if (command == footer.command) return footer.text;
+  return "";
+}
+
+std::string text_of_topic(const std::string &name) {
+  if (name.empty()) return list_of_topics();
+  NearestName nearest(name);
+  for (const Topic &topic : topics) {
+    if (name == topic.name) return topic.text + 1;  // after its first line break
+    nearest.consider(topic.name);
+  }
+  const std::string near(nearest.nearest());
+  throw Refusal{exit_wrong_usage, "'" + name.substr(0, 64) + "' is not a topic" +
+                                      (near.empty() ? "" : ", did you mean " + near + "?") +
+                                      " (riis help lists the topics)"};
+}
+
+std::string short_help() {
+  return R"(riis marks the nodes of a mesh that lie near a heart valve.
+  riis mark MESH.vtu --output MARKED.vtu                     the aortic valve, in a mesh in centimetres
+  riis mark MESH.vtu --unit m --valve mitral --output MARKED.vtu            the mitral valve, in metres
+  riis mark MESH.vtu --unit mm --surface VALVE.stl --surface-unit mm --output MARKED.vtu
+riis --help lists the commands, riis params --describe the parameters of the valve.
+)";
+}
+
+}  // namespace riis::program

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/commands/place.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/mesh_reading.hpp"
+#include "program/input/parameters.hpp"
+#include "program/input/placing.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/crossings.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+namespace {
+
+Placed place(const PlaceOptions &options, Valve &valve) {
+  LandmarkFile landmarks = read_landmarks(options.landmarks, text_of_file(options.landmarks));
+  adapt(landmarks, {Reader::program, options.unit, options.axes, options.noise, options.flow});
+  const std::string kind = kind_of(landmarks, options.has_valve ? options.valve : "", Reader::program);
+  valve = make_kind(kind, options.has_valve ? "--valve" : options.landmarks);
+  if (!options.params.empty()) set_from_json_file(valve.get(), options.params);
+  if (!landmarks.parameters.is_null())
+    set_from_json(valve.get(), landmarks.parameters, options.landmarks + ": parameters");
+  std::vector<std::string> held;
+  for (const std::string &setting : options.settings) {
+    set_from_text(valve.get(), setting);
+    held.push_back(setting.substr(0, setting.find('=')));
+  }
+  Placed placed = place_by_landmarks(landmarks, valve.get(), kind, held, Reader::program);
+  if (options.warp_choice != no_warp)
+    warp_to_landmarks(placed, valve.get(), options.warp_choice == smoothed_warp ? placed.noise : 0, Reader::program);
+  return placed;
+}
+
+void check_mesh(const PlaceOptions &options, const Placed &placed) {
+  if (options.mesh.empty()) return;
+  const MeshFile mesh = [&] {
+    const Stage stage("reading " + options.mesh, options.quiet);
+    return read_mesh_file(options.mesh);
+  }();
+  int64_t n_nodes = 0;
+  const double *nodes = nullptr;
+  check(riis_vtk_mesh_get_nodes(mesh.get(), &n_nodes, nullptr, &nodes));
+  check_at_nodes(placed.landmarks, n_nodes, nodes, " of " + options.mesh, Reader::program);
+}
+
+// ---- Lines for OpenFOAM, C and Fortran ----
+
+bool is_changed(const Size &size) {
+  return std::string(size.parameter.name) != "opening" &&
+         !std::equal(size.values.begin(), size.values.end(), size.parameter.default_values);
+}
+
+// OpenFOAM's lengths are metres.
+std::string foam_of(const Placed &placed) {
+  const riis_placement &at = placed.placement;
+  const double metres = factor_between(placed.landmarks.unit, Unit::metre);
+  double translation[3];
+  for (int k = 0; k < 3; ++k) translation[k] = metres * at.translation[k];
+  std::string text = "valve\n{\n    kind            " + placed.kind + ";\n";
+  for (const Size &size : placed.sizes) {
+    if (!is_changed(size)) continue;
+    const std::string values = numbers_text(size.values.data(), size.values.size(), " ");
+    text += "    " + std::string(size.parameter.name) + " " + (size.values.size() == 1 ? values : "(" + values + ")") +
+            ";\n";
+  }
+  text += "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" + numbers_text(at.rotation_axis, 3, " ") +
+          ");\n    rotationAngle   " + shortest(at.rotation_angle) + ";\n    translation     (" +
+          numbers_text(translation, 3, " ") + ");\n}\n";
+  if (!placed.warp) return text;
+  const auto points = [&](const std::vector<double> &xyz) {
+    std::string list;
+    for (std::size_t i = 0; i < xyz.size(); i += 3) {
+      const double point[3] = {metres * xyz[i], metres * xyz[i + 1], metres * xyz[i + 2]};
+      list += "\n        (" + numbers_text(point, 3, " ") + ")";
+    }
+    return "\n    (" + list + "\n    );\n";
+  };
+  return text + "warp\n{\n    sources" + points(placed.places) + "    targets" + points(placed.landmarks.xyz) +
+         "    noise           " + shortest(metres * placed.warp_noise) + ";\n}\n";
+}
+
+std::string c_of(const Placed &placed) {
+  const riis_placement &at = placed.placement;
+  std::string text = "riis_valve *valve = NULL;\nriis_surface *surface = NULL;\nriis_surface_options options;\n";
+  text += "riis_valve_create(\"" + placed.kind + "\", &valve);\n";
+  for (const Size &size : placed.sizes) {
+    if (!is_changed(size)) continue;
+    const std::string values = numbers_text(size.values.data(), size.values.size(), ", ");
+    text += size.values.size() == 1
+                ? "riis_valve_set_scalar(valve, \"" + std::string(size.parameter.name) + "\", " + values + ");\n"
+                : "riis_valve_set(valve, \"" + std::string(size.parameter.name) + "\", " +
+                      std::to_string(size.values.size()) + ", (const double[]){" + values + "});\n";
+  }
+  text += "riis_surface_options_init(&options, sizeof options);\noptions.scale = " + shortest(at.scale) + ";\n";
+  for (int k = 0; k < 3; ++k)
+    text += "options.rotation_axis[" + std::to_string(k) + "] = " + shortest(at.rotation_axis[k]) + ";\n";
+  text += "options.rotation_angle = " + shortest(at.rotation_angle) + ";\n";
+  for (int k = 0; k < 3; ++k)
+    text += "options.translation[" + std::to_string(k) + "] = " + shortest(at.translation[k]) + ";\n";
+  if (placed.warp) {
+    const std::string n = std::to_string(placed.places.size() / 3);
+    const auto array = [&](const char *name, const std::vector<double> &xyz) {
+      std::string made = std::string("const double ") + name + "[][3] = {";
+      for (std::size_t i = 0; i < xyz.size(); i += 3)
+        made += (i == 0 ? "\n  {" : ",\n  {") + numbers_text(xyz.data() + i, 3, ", ") + "}";
+      return made + "};\n";
+    };
+    text += "/* The warp takes landmarks on the valve to the patient's landmarks. */\n" +
+            array("on_valve", placed.places) + array("in_patient", placed.landmarks.xyz) +
+            "riis_points sources, targets;\nriis_warp_options warp_options;\nriis_warp *warp = NULL;\n";
+    for (const auto &[points, from] : {std::pair("sources", "on_valve"), std::pair("targets", "in_patient")}) {
+      const std::string to = points;
+      text += "riis_points_init(&" + to + ", sizeof " + to + ");\n" + to + ".n_points = " + n + ";\n" + to +
+              ".stride = 3;\n";
+      for (int k = 0; k < 3; ++k) text += to + "." + "xyz"[k] + " = &" + from + "[0][" + std::to_string(k) + "];\n";
+    }
+    text += "riis_warp_options_init(&warp_options, sizeof warp_options);\nwarp_options.noise = " +
+            shortest(placed.warp_noise) + ";\nwarp_options.placement = &options;\n" +
+            "riis_warp_create(&sources, &warp_options, &warp);\nriis_warp_set_targets(warp, &targets);\n" +
+            "riis_valve_set_warp(valve, warp, NULL);\nriis_warp_destroy(&warp);\n";
+  }
+  return text + "riis_surface_create(valve, &options, &surface);\n";
+}
+
+// A double as Fortran writes it: 1.5d0.
+std::string in_fortran(double number) {
+  std::string text = shortest(number);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text + "d0";
+  text[e] = 'd';
+  return text;
+}
+
+std::string fortran_of(const Placed &placed) {
+  const riis_placement &at = placed.placement;
+  std::string text = "call valve%create('" + placed.kind + "')\n";
+  for (const Size &size : placed.sizes) {
+    if (!is_changed(size)) continue;
+    const std::string values = numbers_text(size.values.data(), size.values.size(), ", ", in_fortran);
+    text += "call valve%set('" + std::string(size.parameter.name) + "', " +
+            (size.values.size() == 1 ? values : "[" + values + "]") + ")\n";
+  }
+  const std::string where = "scale=" + in_fortran(at.scale) + ", &\n  rotation_axis=[" +
+                            numbers_text(at.rotation_axis, 3, ", ", in_fortran) +
+                            "], &\n  rotation_angle=" + in_fortran(at.rotation_angle) + ", &\n  translation=[" +
+                            numbers_text(at.translation, 3, ", ", in_fortran) + "])\n";
+  if (placed.warp) {
+    const auto array = [](const std::vector<double> &xyz) {
+      std::string made = "reshape([ &\n";
+      for (std::size_t i = 0; i < xyz.size(); i += 3)
+        made += "  " + numbers_text(xyz.data() + i, 3, ", ", in_fortran) + (i + 3 < xyz.size() ? ", &\n" : "");
+      return made + "], [3, " + std::to_string(xyz.size() / 3) + "])";
+    };
+    text += "! The warp takes landmarks on the valve to the patient's landmarks.\ncall warp%create(" +
+            array(placed.places) + ", &\n  noise=" + in_fortran(placed.warp_noise) + ", " + where +
+            "call warp%set_targets(" + array(placed.landmarks.xyz) +
+            ")\ncall valve%set_warp(warp)\ncall warp%destroy()\n";
+  }
+  return text + "call surface%create(valve, " + where;
+}
+
+}  // namespace
+
+void run_place(const PlaceOptions &options) {
+  const OutputLocks locks = check_outputs(options);
+  Valve valve;
+  const Placed placed = place(options, valve);
+  check_mesh(options, placed);
+  ValveOptions shape = options;
+  shape.valve = placed.kind;
+  shape.surface_options = placed.where;
+  shape.unit = placed.landmarks.unit;
+  check_shape(shape, valve.get(), false);
+  const std::pair<std::string, std::string> outputs[] = {{options.output, placed_file_of(placed, valve.get())},
+                                                         {options.foam_output, foam_of(placed)},
+                                                         {options.c_output, c_of(placed)},
+                                                         {options.fortran_output, fortran_of(placed)}};
+  bool uses_stdout = false;
+  for (const auto &[path, text] : outputs) {
+    if (path.empty()) continue;
+    write_text(path, text);
+    uses_stdout = uses_stdout || path == "-";
+  }
+  if (!options.quiet && !uses_stdout) write_text("-", take_notes() + place_report(placed, Reader::program));
+}
+
+}  // namespace riis::program

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/commands/run.hpp"
+
+#include <variant>
+
+#include "program/base/ranks.hpp"
+#include "program/commands/place.hpp"
+#include "program/commands/size_field.hpp"
+#include "program/commands/states.hpp"
+#include "program/input/parameters.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/marking_run.hpp"
+#include "program/mark/mesh_pieces.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
+#include "program/svmultiphysics/uris_export.hpp"
+
+namespace riis::program {
+namespace {
+
+void print_params(const ParamsOptions &options) {
+  const Valve valve = make_valve(options, OpeningCheck::no);
+  write_text("-", options.describe ? parameter_table(valve.get()) : json_template(valve.get()) + "\n");
+}
+
+// Runs the command to which the options belong.
+ExitCode run_command(const Request &request) {
+  // riis mark, riis surface and both of riis check
+  if (const auto *options = std::get_if<MarkOptions>(&request)) return run_mark(*options);
+  if (const auto *options = std::get_if<SizeFieldOptions>(&request)) return run_size_field(*options);
+  if (const auto *options = std::get_if<StatesOptions>(&request)) run_states(*options);
+  if (const auto *options = std::get_if<ExportOptions>(&request)) export_uris(*options);
+  if (const auto *options = std::get_if<PlaceOptions>(&request)) run_place(*options);
+  if (const auto *options = std::get_if<ParamsOptions>(&request)) print_params(*options);
+  return exit_fine;
+}
+
+// Only a mesh in pieces gives work to more than one rank. A case may name one.
+bool has_ranks(const Request &request) {
+  const auto *options = std::get_if<MarkOptions>(&request);
+  return options && (is_in_pieces(options->mesh) || !options->series.case_file.empty());
+}
+
+}  // namespace
+
+ExitCode run(const Request &request) {
+  if (!ranks::is_first() && !has_ranks(request)) return exit_fine;
+  const ExitCode code = run_command(request);
+  const bool is_strict = std::visit([](const ValveOptions &options) { return options.strict; }, request);
+  return code == exit_fine && is_strict && n_warnings() > 0 ? exit_warned : code;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/commands/size_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/text.hpp"
+#include "program/input/case.hpp"
+#include "program/input/case_file.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/mesh_marking.hpp"
+#include "program/mark/moving_valve.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+namespace {
+
+// Returns a law whose opening is the time, so that times stand for openings.
+OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
+
+std::vector<double> openings_from_0_to_1(std::int32_t n) {
+  std::vector<double> openings;
+  for (std::int32_t i = 0; i < n; ++i) openings.push_back(static_cast<double>(i) / (n - 1));
+  return openings;
+}
+
+// Returns the valve or the surface of the command line. A valve moves through its openings, unless the user gave one.
+Case case_without_times(const SizeFieldOptions &options) {
+  Case all{options, {}, {}};
+  ValveSource source{options, nullptr, nullptr};
+  if (!options.surface.empty()) {
+    Seconds seconds;
+    source.file = read_surface(options, seconds);
+    all.options.series.times = {0};
+  } else {
+    source.valve = make_valve(options);
+    source.has_open_state = !options.params_open.empty();
+    source.law = OpeningLaw(opening_of(source.valve.get()));
+    all.options.series.times = {0};
+    const Valve trial = program::copy_of(source.valve.get());
+    if (!sets_opening(options) && why_closed(trial.get(), options.surface_options).empty()) {
+      source.law = all_openings();
+      all.options.series.times = openings_from_0_to_1(options.n_openings);
+    }
+  }
+  all.valves.push_back(std::move(source));
+  return all;
+}
+
+Case case_of(const SizeFieldOptions &options) {
+  if (!options.series.case_file.empty()) {
+    Case all = read_case(options);
+    if (all.options.series.times.empty()) all.options.series.times = {0};
+    return all;
+  }
+  return options.series.times.empty() ? case_without_times(options) : case_of_command_line(options);
+}
+
+// The edge lengths around one valve: `band` up to `half_thickness` from its surface. They grow with the distance, up to
+// `largest`.
+struct Edges {
+  double half_thickness, band, growth, largest;
+
+  double at(double distance) const {
+    return std::min(largest, band + growth * std::max(0.0, distance - half_thickness));
+  }
+  // The distance at which the edge length reaches its largest value.
+  double reach() const { return half_thickness + (largest - band) / growth; }
+};
+
+std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<MovingValve> &valves) {
+  std::vector<Edges> edges;
+  double thickest = 0;
+  for (const MovingValve &valve : valves) {
+    riis_surface_info info;
+    check(riis_surface_get_info(valve.surface(), &info, sizeof info));
+    edges.push_back({info.half_thickness, options.band_edge * info.half_thickness, options.growth, 0});
+    thickest = std::max(thickest, info.half_thickness);
+  }
+  const double largest = options.largest_edge.value_or(4 * thickest);
+  for (Edges &one : edges) {
+    one.largest = largest;
+    if (largest < one.band)
+      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest) +
+                                          " is below the edge length in the band, " + shortest(one.band) +
+                                          " (--band-edge times the half thickness)"};
+  }
+  return edges;
+}
+
+struct Grid {
+  std::array<double, 3> origin;
+  double spacing;
+  std::array<std::int64_t, 3> n;
+
+  std::int64_t n_points() const { return n[0] * n[1] * n[2]; }
+  // The grid's points are in gmsh's order, in which z runs fastest.
+  std::vector<double> points() const {
+    std::vector<double> xyz;
+    xyz.reserve(static_cast<std::size_t>(3 * n_points()));
+    for (std::int64_t i = 0; i < n[0]; ++i)
+      for (std::int64_t j = 0; j < n[1]; ++j)
+        for (std::int64_t k = 0; k < n[2]; ++k)
+          for (const auto &[axis, at] : {std::pair(0, i), std::pair(1, j), std::pair(2, k)})
+            xyz.push_back(origin[static_cast<std::size_t>(axis)] + spacing * static_cast<double>(at));
+    return xyz;
+  }
+};
+
+// Collects the triangles of one valve at all times, as one surface. The distance to this surface is the least distance of the
+// whole motion, so one marking per valve suffices.
+class SweptSurface {
+ public:
+  explicit SweptSurface(MovingValve &valve) : valve_(valve) {}
+
+  void add(double time) {
+    valve_.move_to(time);
+    // An opening that occurs again is skipped, because the valve has the same triangles there.
+    if (!valve_.source().keyframes && !openings_.insert(valve_.opening().value_or(0)).second) return;
+    const riis_triangles triangles = triangles_of(valve_.surface());
+    const std::int64_t before = view(xyz_).size() / 3;
+    xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+    for (std::int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners_.push_back(before + triangles.vertex_id[i]);
+  }
+
+  Surface make(double half_thickness) const {
+    const riis_surface_arrays arrays = arrays_of(xyz_, corners_);
+    riis_surface_options how;
+    check(riis_surface_options_init(&how, sizeof how));
+    how.half_thickness = half_thickness;
+    how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
+    riis_surface *surface = nullptr;
+    check(riis_surface_create_from_arrays(&arrays, &how, &surface), "the triangles of all states together");
+    return Surface(surface);
+  }
+
+ private:
+  MovingValve &valve_;
+  std::set<double> openings_;
+  std::vector<double> xyz_;
+  std::vector<std::int64_t> corners_;
+};
+
+std::vector<Surface> swept_surfaces(std::vector<MovingValve> &valves, const std::vector<Edges> &edges,
+                                    const Case &all) {
+  const std::vector<double> &times = all.options.series.times;
+  std::vector<Surface> surfaces;
+  for (std::size_t at = 0; at < valves.size(); ++at) {
+    SweptSurface swept(valves[at]);
+    StepProgress progress("collecting the states", times.size(), all.options.quiet);
+    for (std::size_t step = 0; step < times.size(); ++step) {
+      progress.begin(step);
+      swept.add(times[step]);
+    }
+    surfaces.push_back(swept.make(edges[at].half_thickness));
+  }
+  return surfaces;
+}
+
+// Returns the box around all points that are within reach of a surface.
+Box box_around(const std::vector<Surface> &surfaces, const std::vector<Edges> &edges) {
+  Box box = empty_box();
+  for (std::size_t at = 0; at < surfaces.size(); ++at) {
+    riis_surface_info info;
+    check(riis_surface_get_info(surfaces[at].get(), &info, sizeof info));
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = std::min(box.lower[k], info.lower[k] - edges[at].reach());
+      box.upper[k] = std::max(box.upper[k], info.upper[k] + edges[at].reach());
+    }
+  }
+  return box;
+}
+
+Grid grid_in(const Box &box, double spacing) {
+  Grid grid{{box.lower[0], box.lower[1], box.lower[2]}, spacing, {}};
+  double n_points = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double n = std::ceil((box.upper[k] - box.lower[k]) / spacing) + 1;
+    n_points *= n;
+    grid.n[k] = n < 1e9 ? static_cast<std::int64_t>(n) : most_field_points;
+  }
+  if (!(n_points <= static_cast<double>(most_field_points)))
+    throw Refusal{exit_wrong_usage, "--spacing: the grid would have " + shown(n_points) + " points with a spacing of " +
+                                        shortest(spacing) + "; at most " + grouped(most_field_points) +
+                                        " are possible"};
+  return grid;
+}
+
+// Returns the edge length at each point: the least over all valves.
+std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &surfaces, const std::vector<Edges> &edges,
+                               const SizeFieldOptions &options) {
+  const Stage stage("measuring the distances of the grid", options.quiet);
+  const std::vector<double> xyz = grid.points();
+  riis_mesh *handle = nullptr;
+  check(riis_mesh_create(grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3, &handle));
+  const Mesh mesh(handle);
+  // Most points of the grid are within reach of the valves, so clusters pay off at once.
+  check(riis_mesh_prepare(mesh.get(), options.mark_options.n_threads));
+  const Marks marks = new_result();
+  std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), edges[0].largest);
+  for (std::size_t at = 0; at < surfaces.size(); ++at) {
+    riis_mark_options how = options.mark_options;
+    how.distance_limit = std::max(edges[at].reach(), edges[at].half_thickness);
+    check(riis_mark_nodes(surfaces[at].get(), mesh.get(), &how, marks.get()));
+    const riis_mark_list near = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+    for (std::int64_t i = 0; i < near.n_nodes; ++i) {
+      double &length = view(lengths)[near.node_id[i]];
+      length = std::min(length, edges[at].at(near.distance[i]));
+    }
+  }
+  return lengths;
+}
+
+// Returns the text of gmsh's field "Structured": origin, spacing, numbers of points, and lengths with z running fastest.
+std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
+  const std::string spacing = shortest(grid.spacing);
+  std::string text = shortest(grid.origin[0]) + " " + shortest(grid.origin[1]) + " " + shortest(grid.origin[2]) + "\n" +
+                     spacing + " " + spacing + " " + spacing + "\n" + std::to_string(grid.n[0]) + " " +
+                     std::to_string(grid.n[1]) + " " + std::to_string(grid.n[2]) + "\n";
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.5g", lengths[i]);
+    text += number;
+    text += static_cast<std::int64_t>(i + 1) % grid.n[2] == 0 ? '\n' : ' ';
+  }
+  return text;
+}
+
+// Returns the lines that load the field in a .geo file. The other sources of lengths are switched off, because gmsh takes the
+// least of all.
+std::string gmsh_lines(const SizeFieldOptions &options, double largest) {
+  return "gmsh      Field[1] = Structured;\n"
+         "          Field[1].FileName = \"" +
+         options.field +
+         "\";\n"
+         "          Field[1].TextFormat = 1;\n"
+         "          Field[1].SetOutsideValue = 1;\n"
+         "          Field[1].OutsideValue = " +
+         shortest(largest) +
+         ";\n"
+         "          Background Field = 1;\n"
+         "          Mesh.MeshSizeExtendFromBoundary = 0;\n"
+         "          Mesh.MeshSizeFromPoints = 0;\n"
+         "          Mesh.MeshSizeFromCurvature = 0;\n";
+}
+
+void print_summary(const SizeFieldOptions &options, const Case &all, const std::vector<Edges> &edges,
+                   const Grid &grid) {
+  if (options.quiet || options.field == "-") return;
+  const auto by_band = [](const Edges &a, const Edges &b) { return a.band < b.band; };
+  const Edges least = *std::min_element(edges.begin(), edges.end(), by_band);
+  const bool has_openings = options.series.case_file.empty() && options.series.times.empty();
+  std::string text = "states    " + counted(static_cast<std::int64_t>(all.options.series.times.size()), "state") +
+                     (has_openings && all.options.series.times.size() > 1 ? ", openings from 0 to 1\n" : "\n");
+  text += "edges     " + shown(least.band) + " within the half thickness of " + shown(least.half_thickness) +
+          ", growing by " + shown(least.growth) + " a length, up to " + shown(least.largest) + "\n";
+  text += "grid      " + counted(grid.n_points(), "point") + ", spacing " + shown(grid.spacing) + "\n";
+  text += "written   " + options.field + "\n";
+  write_text("-", text + gmsh_lines(options, least.largest));
+}
+
+}  // namespace
+
+ExitCode run_size_field(const SizeFieldOptions &options) {
+  Case all = case_of(options);
+  const OutputLocks locks = check_outputs(options, all.files);
+  std::vector<MovingValve> valves = moving_valves(all);
+  const std::vector<Edges> edges = edges_of(options, valves);
+  double spacing = std::numeric_limits<double>::infinity();
+  for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
+  if (options.spacing) spacing = *options.spacing;
+  const std::vector<Surface> surfaces = swept_surfaces(valves, edges, all);
+  const Grid grid = grid_in(box_around(surfaces, edges), spacing);
+  const std::vector<double> lengths = lengths_at(grid, surfaces, edges, options);
+  write_text(options.field, text_of(grid, lengths));
+  print_summary(options, all, edges, grid);
+  return exit_fine;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/commands/states.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/handles.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/crossings.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
+#include "program/output/pictures.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+namespace {
+
+// The orifice of the triangles differs from that of the smooth surface. The difference is up to 0.3 % for the prosthesis at the
+// program's usual tolerance. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
+constexpr double fine_tolerance = 0.01;
+
+riis_surface_options own_frame(const StatesOptions &options) {
+  riis_surface_options own = options.surface_options;  // this command places a valve by the scale only
+  if (!options.has_tolerance) own.tolerance = fine_tolerance;
+  return own;
+}
+
+// A valve with its surface, or a surface from a file.
+class Measured {
+ public:
+  explicit Measured(const StatesOptions &options) : options_(options) {
+    if (options.surface.empty()) {
+      valve_ = make_valve(options);
+      set_opening(0);
+      const riis_surface_options own = own_frame(options);
+      riis_surface *surface = nullptr;
+      check(riis_surface_create(valve_.get(), &own, &surface), subject());
+      surface_.reset(surface);
+      return;
+    }
+    Seconds seconds;
+    MarkOptions as_file;
+    static_cast<ValveOptions &>(as_file) = options;
+    ValveSource source{as_file, nullptr, nullptr};
+    if (is_motion_file(options.surface)) {
+      times_ = times_of_frames(options);
+      keyframes_ = read_keyframes(options, seconds).keyframes;
+      source.options.time = times_.front();
+      surface_ = surface_of_keyframes(source.options, keyframes_.get());
+    } else {
+      source.file = read_surface(options, seconds);
+      surface_ = make_surface(source, FileVelocity::none);
+    }
+  }
+
+  // Moves to a place: an opening of a valve, or a time of a surface that moves.
+  void move_to(double place) {
+    if (keyframes_)
+      check(riis_surface_update_from_keyframes(surface_.get(), keyframes_.get(), place, 0, nullptr), options_.surface);
+    if (!valve_) return;
+    set_opening(place);
+    check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject());
+  }
+
+  bool is_valve() const { return valve_ != nullptr; }
+  std::string why_closed() { return valve_ ? program::why_closed(valve_.get(), own_frame(options_)) : ""; }
+
+  // Returns the openings or the times of the table.
+  std::vector<double> places(bool can_open) const {
+    if (!valve_) return keyframes_ ? times_ : std::vector<double>{0};
+    std::vector<double> made{0};
+    for (std::int32_t i = 1; can_open && i < options_.n_states; ++i)
+      made.push_back(static_cast<double>(i) / static_cast<double>(options_.n_states - 1));
+    return made;
+  }
+
+  // Returns the name of the parameter that is the disc's radius, or "".
+  std::string radius_parameter() const {
+    int64_t n = 0;
+    check(riis_valve_get_n_parameters(valve_.get(), &n));
+    for (int64_t i = 0; i < n; ++i) {
+      riis_parameter parameter;
+      check(riis_valve_get_parameter(valve_.get(), i, &parameter, sizeof parameter));
+      const std::string name = parameter.name;
+      if (name == "root_radius" || name == "radius") return name;
+    }
+    return "";
+  }
+
+  std::vector<riis_leaflet> leaflets() const {
+    int64_t n = 0;
+    check(riis_surface_get_n_leaflets(surface_.get(), &n));
+    std::vector<riis_leaflet> made(static_cast<std::size_t>(n));
+    for (int64_t i = 0; i < n; ++i) check(riis_surface_get_leaflet(surface_.get(), i, &view(made)[i], sizeof made[0]));
+    return made;
+  }
+
+  riis_orifice orifice() const {
+    riis_orifice made;
+    check(riis_surface_get_orifice(surface_.get(), nullptr, &made, sizeof made));
+    return made;
+  }
+
+  ContactSize contact() const {
+    riis_coaptation made;
+    check(riis_surface_get_coaptation(surface_.get(), RIIS_AUTO, RIIS_ALL_LEAFLETS, &made, sizeof made));
+    return {made.area, made.edge};
+  }
+
+ private:
+  std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
+  void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
+
+  const StatesOptions &options_;
+  Valve valve_;  // null for a surface from a file
+  Keyframes keyframes_;
+  std::vector<double> times_;
+  Surface surface_;
+};
+
+// Tells whether a leaflet is the valve's skirt, which has the largest id.
+bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const std::vector<riis_leaflet> &leaflets) {
+  if (!options.surface.empty() || options.valve == "bileaflet") return false;
+  if (!is_valve_file(options.valve)) return leaflet.leaflet_id == RIIS_LEAFLET_SKIRT;
+  return options.skirt && &leaflet == &leaflets.back();
+}
+
+std::vector<std::string> names_of_leaflets(const StatesOptions &options, const std::vector<riis_leaflet> &leaflets) {
+  const std::vector<const char *> known = leaflet_names(options);
+  std::vector<std::string> names;
+  for (const riis_leaflet &leaflet : leaflets) {
+    const auto at = static_cast<std::size_t>(leaflet.leaflet_id);
+    const std::string other =
+        is_skirt(options, leaflet, leaflets) ? "skirt" : "leaflet " + std::to_string(leaflet.leaflet_id);
+    names.push_back(at < known.size() ? known[at] : other);
+  }
+  return names;
+}
+
+// Tells whether the leaflets are rigid. A rigid leaflet only turns, so its lengths do not change.
+bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
+
+State state_at(Measured &valve, double place, bool has_contacts) {
+  valve.move_to(place);
+  State state{place, {}, std::nullopt};
+  for (const riis_leaflet &leaflet : valve.leaflets()) state.leaflets.push_back({leaflet.free_edge, leaflet.area});
+  const riis_orifice orifice = valve.orifice();
+  if (orifice.outline != RIIS_OUTLINE_NONE) state.orifice = {orifice.area, orifice.perimeter, orifice.effective_area};
+  if (has_contacts) state.contact = valve.contact();
+  return state;
+}
+
+// Returns the closed state's names, ids and disc, which all openings share.
+States frame_of(const StatesOptions &options, Measured &valve) {
+  if (valve.is_valve()) valve.move_to(0);
+  const std::vector<riis_leaflet> leaflets = valve.leaflets();
+  const riis_orifice orifice = valve.orifice();
+  States states{{}, names_of_leaflets(options, leaflets), "", "", orifice.outline_area, "", {}, ""};
+  states.is_of_file = !valve.is_valve();
+  for (const riis_leaflet &leaflet : leaflets) {
+    states.ids.push_back(leaflet.leaflet_id);
+    if (leaflet.free_edge == 0 && !is_skirt(options, leaflet, leaflets))
+      states.why_no_edges = valve.is_valve() ? "a leaflet has no side v = 1 on its rim"
+                                             : "a leaflet has no open edge besides the outline";
+  }
+  if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
+  if (orifice.outline == RIIS_OUTLINE_DISC)
+    states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
+  if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
+  if (orifice.outline == RIIS_OUTLINE_BOUNDARY)
+    states.disc = "the longest open boundary, which is taken as the outline,";
+  states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
+  return states;
+}
+
+}  // namespace
+
+States measure_states(const StatesOptions &options) {
+  Measured valve(options);
+  const std::string why_closed = valve.why_closed();
+  States states = frame_of(options, valve);
+  states.why_closed = why_closed;
+  const std::vector<double> places = valve.places(why_closed.empty());
+  const std::size_t n = places.size();
+  StepProgress progress("measuring the valve", n, options.quiet);
+  for (std::size_t i = 0; i < n; ++i) {
+    progress.begin(i);
+    states.states.push_back(state_at(valve, places[i], options.has_contacts));
+    if (!states.states.back().orifice) states.disc.clear();
+  }
+  return states;
+}
+
+void run_states(const StatesOptions &options) {
+  const OutputLocks locks = check_outputs(options);
+  const States states = measure_states(options);
+  if (!states.is_of_file) check_shape(options, make_valve(options).get(), !options.params_open.empty());
+  write_text(options.output, csv_of(states));
+  if (options.quiet || options.output == "-") return;
+  write_text("-", summary_of(states, options));
+}
+
+// ---- State table ----
+
+namespace {
+
+// A free edge may gain or lose this share of its closed length.
+constexpr double fair_change = 0.1;
+// Lengths and areas that differ by at most this share count as equal, since they differ by rounding.
+constexpr double same = 1e-9;
+
+using StateValue = std::function<double(const State &)>;
+
+// Finds the states with the least and with the greatest value. Of equal states, finds the first.
+struct Extremes {
+  const State *least, *most;
+};
+
+Extremes extremes_of(const States &states, const StateValue &value) {
+  const auto less = [&](const State &a, const State &b) { return value(a) < value(b); };
+  const auto begin = states.states.begin(), end = states.states.end();
+  return {&*std::min_element(begin, end, less), &*std::max_element(begin, end, less)};
+}
+
+// Returns a ratio or an area as readable text.
+std::string rounded(double value) { return shown(std::round(value * 1e4) / 1e4); }
+
+std::string at(const State &state) { return " at " + shown(state.opening); }
+
+// Returns the opening or the time of the first state. For a valve, this is the closed state.
+std::string at_first(const States &states) {
+  if (states.is_of_file && states.states.size() == 1) return "";
+  return at(states.states.front());
+}
+
+std::string ratios_of(const States &states, const StateValue &value) {
+  const double closed = value(states.states.front());
+  std::string text = shown(closed) + (states.is_of_file ? at_first(states) : " when closed");
+  if (states.states.size() == 1) return text;
+  const auto [least, most] = extremes_of(states, value);
+  if (value(*most) - value(*least) <= same * closed)
+    return text + (states.is_of_file ? ", and at every time" : ", and at every opening");
+  return text + ", times " + rounded(value(*least) / closed) + at(*least) + " to " + rounded(value(*most) / closed) +
+         at(*most);
+}
+
+StateValue edge_of(std::size_t leaflet) {
+  return [=](const State &state) { return state.leaflets[leaflet].edge; };
+}
+
+StateValue area_of_leaflet(std::size_t leaflet) {
+  return [=](const State &state) { return state.leaflets[leaflet].area; };
+}
+
+// Collects the lines of the summary, with their texts aligned.
+class Summary {
+ public:
+  explicit Summary(const States &states) {
+    for (const std::string &name : states.names) width_ = std::max(width_, name.size() + 1);
+  }
+  void add(std::string label, const std::string &text) {
+    label.resize(width_, ' ');
+    text_ += label + text + "\n";
+  }
+  const std::string &text() const { return text_; }
+
+ private:
+  std::size_t width_ = 10;
+  std::string text_;
+};
+
+void add_leaflets(const States &states, Summary &summary) {
+  for (std::size_t i = 0; i < states.names.size(); ++i) {
+    const bool has_edge = states.has_edges() && states.states.front().leaflets[i].edge > 0;
+    if (has_edge) summary.add(states.names[i], "free edge " + ratios_of(states, edge_of(i)));
+    summary.add(has_edge ? "" : states.names[i], "area " + ratios_of(states, area_of_leaflet(i)));
+  }
+}
+
+std::string text_of_orifice(const States &states) {
+  if (states.disc.empty() && states.is_of_file) return "not measured: no closed line of open edges encloses an area";
+  if (states.disc.empty())
+    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
+  const StateValue value = [](const State &state) { return state.orifice->area; };
+  std::string text = rounded(value(states.states.front())) + at_first(states);
+  if (states.states.size() > 1) {
+    const State *most = extremes_of(states, value).most;
+    text += ", largest " + rounded(value(*most)) + at(*most);
+  }
+  return text + "; " + states.disc + " has " + rounded(states.disc_area);
+}
+
+// Names the areas that the band leaves to the flow.
+std::string text_of_effective(const States &states) {
+  const StateValue value = [](const State &state) { return state.orifice->effective_area; };
+  std::string text = rounded(value(states.states.front())) + at_first(states);
+  if (states.states.size() > 1) {
+    const State *most = extremes_of(states, value).most;
+    text += ", largest " + rounded(value(*most)) + at(*most);
+  }
+  return text + "; the band's rim takes " + states.reach;
+}
+
+std::string text_of_contact(const States &states) {
+  const State *most = extremes_of(states, [](const State &state) { return state.contact->area; }).most;
+  const ContactSize &first = *states.states.front().contact;
+  std::string text = "area " + rounded(first.area) + ", free edge " + rounded(first.edge) + at_first(states);
+  if (states.states.size() > 1) text += "; largest area " + rounded(most->contact->area) + at(*most);
+  return text;
+}
+
+// Lists the free edges that gain or lose more than a tenth, and the opening at which this begins.
+std::string text_of_changes(const States &states) {
+  std::string text;
+  for (std::size_t i = 0; i < states.names.size(); ++i) {
+    const double closed = edge_of(i)(states.states.front());
+    const auto is_beyond = [&](const State &state) {
+      return std::abs(state.leaflets[i].edge / closed - 1) > fair_change;
+    };
+    const auto n = std::count_if(states.states.begin(), states.states.end(), is_beyond);
+    if (n == 0) continue;
+    const auto first = std::find_if(states.states.begin(), states.states.end(), is_beyond);
+    text += (text.empty() ? "" : ", ") + states.names[i] + " (" + counted(n, states.is_of_file ? "time" : "opening") +
+            ", first " + shown(first->opening) + ")";
+  }
+  const std::string range =
+      states.is_of_file ? "within 10 % of their first length" : "within 10 % of their closed length";
+  return text.empty() ? "all " + range : "not " + range + ": " + text;
+}
+
+// Returns the names in letters, digits and _. If a name has other characters, such as "x > 0", numbers replace all names.
+std::vector<std::string> columns_of(const States &states) {
+  std::vector<std::string> columns = states.names;
+  bool are_words = true;
+  for (std::string &column : columns)
+    for (char &c : column) {
+      if (c == ' ' || c == '-') c = '_';
+      are_words = are_words && (c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0);
+    }
+  for (std::size_t i = 0; i < columns.size() && !are_words; ++i)
+    columns[i] = "leaflet_" + std::to_string(states.ids[i]);
+  return columns;
+}
+
+std::string cells_of(const LeafletSize &now, const LeafletSize &closed, bool has_edges) {
+  std::string text;
+  if (has_edges) text += "," + shortest(now.edge) + "," + shortest(closed.edge > 0 ? now.edge / closed.edge : 1);
+  return text + "," + shortest(now.area) + "," + shortest(now.area / closed.area);
+}
+
+}  // namespace
+
+std::string csv_of(const States &states) {
+  std::string text = states.is_of_file ? "time" : "opening";
+  for (const std::string &name : columns_of(states)) {
+    const std::string column = "," + name;
+    if (states.has_edges()) text += column + "_edge" + column + "_edge_ratio";
+    text += column + "_area" + column + "_area_ratio";
+  }
+  if (!states.disc.empty()) text += ",orifice_area,orifice_perimeter,effective_area";
+  if (states.states.front().contact) text += ",contact_area,contact_edge";
+  text += "\n";
+  for (const State &state : states.states) {
+    text += shortest(state.opening);
+    for (std::size_t i = 0; i < state.leaflets.size(); ++i)
+      text += cells_of(state.leaflets[i], states.states.front().leaflets[i], states.has_edges());
+    if (!states.disc.empty())
+      text += "," + shortest(state.orifice->area) + "," + shortest(state.orifice->perimeter) + "," +
+              shortest(state.orifice->effective_area);
+    if (state.contact) text += "," + shortest(state.contact->area) + "," + shortest(state.contact->edge);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string summary_of(const States &states, const StatesOptions &options) {
+  const bool can_open = states.why_closed.empty();
+  Summary summary(states);
+  const auto n = static_cast<std::int64_t>(states.states.size());
+  if (states.is_of_file)
+    summary.add("surface",
+                options.surface + (n > 1 ? ": " + counted(n, "time") + " from " + shown(states.states.front().opening) +
+                                               " to " + shown(states.states.back().opening)
+                                         : ""));
+  else
+    summary.add("valve", options.valve + ": " +
+                             (can_open ? counted(n, "opening") + " from 0 to 1"
+                                       : "opening 0 alone, because it has no state to open to"));
+  add_leaflets(states, summary);
+  summary.add("orifice", text_of_orifice(states));
+  if (!states.disc.empty()) summary.add("effective", text_of_effective(states));
+  if (states.states.front().contact) summary.add("contact", text_of_contact(states));
+  if (!states.has_edges()) summary.add("edges", "not measured: " + states.why_no_edges);
+  if (states.has_edges() && can_open) summary.add("edges", text_of_changes(states));
+  summary.add("written", options.output);
+  return summary.text();
+}
+
+}  // namespace riis::program

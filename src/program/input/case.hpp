@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A case: one or several valves in one mesh, at one time or at many. The valve of the command line is a case of one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "program/base/options.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+struct Case {
+  MarkOptions options;  // the mesh, the times, the outputs, and a prefix for the arrays that all valves share
+  std::vector<ValveSource> valves;
+  std::vector<std::string> files;  // all files that were read; no output may replace one of them
+  Seconds seconds{};               // of reading them
+
+  bool has_resistance() const;
+  bool is_series() const { return !options.series.times.empty(); }
+  // Returns the times of the series, or the only time.
+  std::vector<double> times() const;
+  // Returns the name for the files and columns of one valve, or "" if it is the only valve.
+  std::string part_of(std::size_t valve) const { return valves.size() == 1 ? "" : valves[valve].options.prefix; }
+  // Returns the name of a valve's surface in warnings.
+  std::string surface_of(std::size_t valve) const;
+};
+
+// Returns the valve or the surface of the command line as a case. It has the opening and the time of the options, or their times
+// and cycle. Reads a surface only for a series, whose outputs must not replace its frames.
+Case case_of_command_line(const MarkOptions &options);
+// Reads the surfaces of the valves that are in files, as far as they are not read.
+void read_surfaces(Case &all);
+
+}  // namespace riis::program

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/case_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/json.hpp"
+#include "program/input/opening_law.hpp"
+#include "program/input/parameters.hpp"
+#include "program/input/placed_valve.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+
+namespace {
+
+const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
+                                            "resistance", "times", "valves",         "check_leaks"};
+const std::vector<std::string> valve_keys = {
+    "name",           "valve",          "surface",       "leaflets",     "parameters", "open_parameters", "opening",
+    "half_thickness", "resistance",     "scale",         "surface_unit", "rotate",     "translate",       "tolerance",
+    "flip_normals",   "skip_zero_area", "triangulation", "period",       "warp",       "skirt",           "wall"};
+
+class CaseReader {
+ public:
+  explicit CaseReader(const MarkOptions &options) : path_(options.series.case_file), all_{options, {}, {}} {}
+
+  Case read() {
+    const Json root = parse_json_file(path_, "a case");
+    const CaseValues values(path_, "", root, case_keys);
+    read_common(values);
+    const Json &valves = values.needed("valves");
+    if (!valves.is_array() || valves.empty()) values.refuse("valves", "it must be an array of one valve or more");
+    for (std::size_t i = 0; i < valves.size(); ++i) read_valve(valves[i], i, valves.size());
+    read_surfaces(all_);
+    return std::move(all_);
+  }
+
+ private:
+  void read_common(const CaseValues &values) {
+    MarkOptions &options = all_.options;
+    if (options.mesh.empty() && !options.check_crossing) options.mesh = file_of(values, "mesh");
+    if (options.mesh.empty() && options.needs_mesh)
+      values.refuse("mesh", "it is missing, and no MESH is on the command line");
+    options.unit = values.unit("unit");
+    if (const auto length = values.above_zero("half_thickness")) {
+      options.has_half_thickness = true;
+      options.surface_options.half_thickness = *length;
+    }
+    const auto limit = values.above_zero("distance_limit");
+    if (limit && options.mark_options.distance_limit == RIIS_AUTO) options.mark_options.distance_limit = *limit;
+    const auto resistance = values.at_least_zero("resistance");
+    if (!options.resistance) options.resistance = resistance;
+    if (values.has("check_leaks") && !options.check_leaks) options.check_leaks = leak_check_of(values);
+    if (values.has("times") && options.series.times.empty()) options.series.times = times_of(values);
+  }
+
+  LeakCheck leak_check_of(const CaseValues &values) const {
+    const std::vector<double> points = values.numbers("check_leaks", 6);
+    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
+    std::copy_n(points.begin(), 3, made.from);
+    std::copy_n(points.begin() + 3, 3, made.to);
+    return made;
+  }
+
+  std::vector<double> times_of(const CaseValues &values) const {
+    const std::string subject = path_ + ": times";
+    try {
+      const Json &times = values.needed("times");
+      if (times.is_string()) return parse_times(times.get<std::string>(), subject);
+      const std::vector<double> numbers = values.numbers("times");
+      check_times(numbers, subject);
+      return numbers;
+    } catch (Refusal &refusal) {
+      refusal.exit_code = exit_bad_data;
+      throw;
+    }
+  }
+
+  // Returns the path that a key gives, or "" if the key is missing. A relative path starts from the case's folder.
+  std::string file_of(const CaseValues &values, const char *key) {
+    const std::string text = values.text(key);
+    if (text.empty()) return "";
+    all_.files.push_back(in_folder(text));
+    return all_.files.back();
+  }
+
+  std::string in_folder(const std::string &path) const {
+    return (std::filesystem::path(path_).parent_path() / path).string();
+  }
+
+  void read_valve(const Json &value, std::size_t number, std::size_t n_valves) {
+    CaseValues values(path_, "valve " + std::to_string(number), value, valve_keys);
+    ValveSource source{all_.options, nullptr, nullptr};
+    MarkOptions &options = source.options;
+    options.prefix = name_of(values, n_valves);
+    if (n_valves > 1) values.set_subject("valve \"" + options.prefix + "\"");
+    source.subject = values.subject();
+    options.surface = file_of(values, "surface");
+    options.leaflets = values.text("leaflets");
+    options.valve = values.text("valve");
+    if (options.valve.empty() == options.surface.empty())
+      values.refuse("valve", "either it or \"surface\" must be given");
+    if (is_valve_file(options.valve)) options.valve = file_of(values, "valve");
+    use_placed_valve(options);
+    read_placement(values, options);
+    if (const auto own = values.at_least_zero("resistance")) options.resistance = own;
+    options.skirt = values.above_zero("skirt");
+    options.wall = file_of(values, "wall");
+    if (!options.wall.empty() && !options.skirt) values.refuse("wall", "it needs \"skirt\", the longest skirt");
+    if (options.surface.empty())
+      make_valve_of(values, source);
+    else
+      make_surface_of(values, source);
+    all_.valves.push_back(std::move(source));
+  }
+
+  std::string name_of(const CaseValues &values, std::size_t n_valves) {
+    const std::string name = values.text("name");
+    if (name.empty()) {
+      if (n_valves > 1) values.refuse("name", "each of several valves needs one");
+      return all_.options.prefix;
+    }
+    if (!is_prefix(name)) values.refuse("name", "\"" + name + "\" must be 1 to 64 letters, digits, _, - and .");
+    if (n_valves > 1 && name == all_.options.prefix) values.refuse("name", "\"" + name + "\" is the name of the sums");
+    if (!names_.insert(name).second) values.refuse("name", "\"" + name + "\" is the name of two valves");
+    return name;
+  }
+
+  void read_placement(const CaseValues &values, MarkOptions &options) const {
+    if (!options.placed.empty())
+      for (const char *key : {"scale", "surface_unit", "rotate", "translate"})
+        if (values.has(key)) values.refuse(key, "it has no effect, because the placement is in " + options.placed);
+    riis_surface_options &surface = options.surface_options;
+    if (const auto scale = values.above_zero("scale")) {
+      if (options.unit) values.refuse("scale", "it cannot be combined with \"unit\", which gives the scale");
+      options.has_scale = true;
+      surface.scale = *scale;
+    }
+    if (const auto own = values.above_zero("half_thickness")) {
+      options.has_half_thickness = true;
+      surface.half_thickness = *own;
+    }
+    options.surface_unit = values.unit("surface_unit");
+    if (options.surface_unit && !options.unit) values.refuse("surface_unit", "it needs \"unit\", the unit of the mesh");
+    const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
+    if (options.unit && is_file && !options.surface_unit)
+      values.refuse("surface_unit", "it is missing: \"unit\" needs the unit of the file");
+    if (options.surface_unit && !is_file && options.surface_unit != Unit::centimetre)
+      values.refuse("surface_unit", "the parameters of the " + options.valve + " valve are in centimetres");
+    if (options.unit) apply_units(options);
+    if (values.has("rotate")) {
+      const std::vector<double> turn = values.numbers("rotate", 4);
+      std::copy_n(turn.begin(), 3, surface.rotation_axis);
+      surface.rotation_angle = turn[3];
+    }
+    if (values.has("translate")) {
+      const std::vector<double> shift = values.numbers("translate", 3);
+      std::copy_n(shift.begin(), 3, surface.translation);
+    }
+    if (const auto tolerance = values.above_zero("tolerance")) surface.tolerance = *tolerance;
+    surface.flip_normals = values.flag("flip_normals");
+    surface.triangulation = static_cast<int32_t>(values.choice("triangulation", triangulation_names()));
+    surface.zero_area = values.flag("skip_zero_area") ? RIIS_ZERO_AREA_SKIP : RIIS_ZERO_AREA_REFUSE;
+  }
+
+  void make_valve_of(const CaseValues &values, ValveSource &source) {
+    for (const char *key : {"leaflets", "skip_zero_area", "period"})
+      if (values.has(key)) values.refuse(key, "it needs \"surface\"");
+    const std::string &kind = source.options.valve;
+    if (is_valve_file(kind)) {
+      if (values.has("open_parameters")) values.refuse("open_parameters", "the open state is in " + kind);
+      ValveFile file(kind);
+      set_parameters_of(values, "parameters", file.valve());
+      set_law(values, file.valve(), source);
+      set_warp(values, file.valve(), source);
+      file.check_opening();
+      set_skirt(source.options, file.valve(), source.subject);
+      source.valve = file.take_valve();
+      return;
+    }
+    source.valve = make_kind(kind, source.subject);
+    set_placed_parameters(source.options, source.valve.get());
+    set_parameters_of(values, "parameters", source.valve.get());
+    if (values.has("open_parameters")) {
+      const Valve open = make_kind(kind, source.subject);
+      set_parameters_of(values, "open_parameters", open.get());
+      check(riis_valve_set_open_state(source.valve.get(), open.get()), source.subject);
+      source.has_open_state = true;
+    }
+    set_law(values, source.valve.get(), source);
+    set_warp(values, source.valve.get(), source);
+    set_skirt(source.options, source.valve.get(), source.subject);
+  }
+
+  // Reads the warp, and gives it to the valve at the first time.
+  void set_warp(const CaseValues &values, riis_valve *valve, ValveSource &source) {
+    const std::vector<double> &times = all_.options.series.times;
+    source.warp = read_warp(source.options);
+    if (values.has("warp")) {
+      if (!source.warp.is_empty())
+        values.refuse("warp", "it has no effect, because " + source.options.placed + " has a warp");
+      const std::string object = (values.subject() + ": warp").substr(path_.size() + 2);
+      source.warp = WarpSource(path_, object, values.needed("warp"), source.options.surface_options);
+    }
+    if (times.empty() && source.warp.moves())
+      values.refuse("warp", "landmarks that move need times, in the file or by --times");
+    source.warp.apply(times.empty() ? 0 : times.front(), valve);
+  }
+
+  // Sets parameters from an object, or from a file if the value is a path.
+  void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
+    if (!values.has(key)) return;
+    if (values.needed(key).is_string())
+      set_from_json_file(valve, file_of(values, key));
+    else
+      set_from_json(valve, values.needed(key), values.subject() + ": " + key);
+  }
+
+  // Sets the law of opening. Also sets the valve to its largest opening, which fails if the valve cannot open.
+  void set_law(const CaseValues &values, riis_valve *valve, ValveSource &source) {
+    const std::vector<double> &times = all_.options.series.times;
+    source.law = OpeningLaw(opening_of(valve));
+    if (values.has("opening")) {
+      const CaseOpening found = case_opening(values, [this](const std::string &path) { return in_folder(path); });
+      source.law = found.law;
+      if (!found.file.empty()) all_.files.push_back(found.file);
+    }
+    if (times.empty() && !source.law.is_constant())
+      values.refuse("opening", "a valve that moves needs times, in the file or by --times");
+    check(riis_valve_set_scalar(valve, "opening", largest_opening(source.law, times)), source.subject);
+  }
+
+  void make_surface_of(const CaseValues &values, ValveSource &source) {
+    for (const char *key :
+         {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
+      if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
+    if (is_motion_file(source.options.surface)) {
+      if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
+      source.options.period = values.above_zero("period").value_or(0);
+    } else if (values.has("period")) {
+      values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
+    }
+  }
+
+  const std::string &path_;
+  Case all_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+Case read_case(const MarkOptions &options) { return CaseReader(options).read(); }
+
+// ---- Case opening ----
+
+namespace {
+
+const std::vector<std::string> table_keys = {"times", "openings", "period", "interpolation"};
+const std::vector<std::string> cycle_keys = {"file", "period", "interpolation"};
+const std::vector<std::string> ramp_keys = {
+    "opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"};
+
+OpeningLaw law_of_table(const CaseValues &values, OpeningTable table, const std::string &subject) {
+  table.period = values.above_zero("period").value_or(0);
+  table.interpolation = static_cast<std::int32_t>(values.choice("interpolation", interpolation_names()));
+  return OpeningLaw(std::move(table), subject);
+}
+
+OpeningLaw law_of_arrays(const CaseValues &values) {
+  const OpeningTable table{values.numbers("times"), values.numbers("openings")};
+  if (table.times.size() != table.openings.size()) {
+    values.refuse("openings", "there are " + std::to_string(table.openings.size()) + " for " +
+                                  std::to_string(table.times.size()) + " times");
+  }
+  return law_of_table(values, table, values.subject());
+}
+
+OpeningLaw law_of_ramps(const CaseValues &values) {
+  riis_opening_times times;
+  check(riis_opening_times_init(&times, sizeof times));
+  const auto set = [&](const char *key, double &field) {
+    if (const auto number = values.number(key)) field = *number;
+  };
+  for (const char *key : {"opening_start", "opening_duration", "closing_start", "closing_duration"})
+    static_cast<void>(values.needed(key));
+  set("opening_start", times.opening_start);
+  set("opening_duration", times.opening_duration);
+  set("closing_start", times.closing_start);
+  set("closing_duration", times.closing_duration);
+  set("closed", times.closed);
+  set("open", times.open);
+  times.period = values.above_zero("period").value_or(0);
+  return OpeningLaw(times, values.subject());
+}
+
+}  // namespace
+
+CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder) {
+  const Json &value = valve.needed("opening");
+  if (value.is_number()) {
+    const double opening = value.get<double>();
+    if (!(opening >= 0 && opening <= 1)) valve.refuse("opening", value.dump() + " is not from 0 to 1");
+    return {OpeningLaw(opening), ""};
+  }
+  const std::string object = valve.subject().substr(valve.path().size() + 2) + ": opening";
+  if (!value.is_object()) valve.refuse("opening", value.dump() + " is neither a number nor an object");
+  if (value.contains("file")) {
+    const CaseValues values(valve.path(), object, value, cycle_keys);
+    const std::string file = in_folder(values.text("file"));
+    return {law_of_table(values, read_cycle(file), file), file};
+  }
+  if (value.contains("times")) return {law_of_arrays({valve.path(), object, value, table_keys}), ""};
+  if (value.contains("opening_start")) return {law_of_ramps({valve.path(), object, value, ramp_keys}), ""};
+  valve.refuse("opening", "it has none of file, times and opening_start");
+}
+
+}  // namespace riis::program

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/landmark_file.hpp"
+
+#include <riis/riis.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "common/nearest_name.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+
+namespace riis::program {
+namespace {
+
+const std::vector<std::string> cusp_names = {"right", "left", "non_coronary"};
+
+// The words for roles. Some words may stand for several landmarks, because a valve has several of their role.
+struct RoleWord {
+  const char *word;
+  std::int32_t role;
+  bool is_repeated;
+};
+const std::vector<RoleWord> role_words = {{"commissure", RIIS_LANDMARK_COMMISSURE, true},
+                                          {"nadir", RIIS_LANDMARK_NADIR, true},
+                                          {"coaptation", RIIS_LANDMARK_COAPTATION, false},
+                                          {"annulus", RIIS_LANDMARK_ANNULUS, true},
+                                          {"anterior_horn", RIIS_LANDMARK_ANTERIOR_HORN, false},
+                                          {"posterior_horn", RIIS_LANDMARK_POSTERIOR_HORN, false},
+                                          {"trigone", RIIS_LANDMARK_TRIGONE, true},
+                                          {"posteromedial_commissure", RIIS_LANDMARK_POSTEROMEDIAL, false},
+                                          {"anterolateral_commissure", RIIS_LANDMARK_ANTEROLATERAL, false},
+                                          {"hinge", RIIS_LANDMARK_HINGE, true},
+                                          {"attachment", RIIS_LANDMARK_ATTACHMENT, true}};
+const char *const flow_from = "flow_from", *const flow_to = "flow_to";
+
+struct Place {
+  std::int32_t role;
+  std::array<std::int32_t, 2> leaflet_ids;
+  bool may_repeat;  // whether other landmarks may have the same name
+};
+
+// Returns the name in small letters, with _ for blanks and hyphens.
+std::string plain(const std::string &name) {
+  std::string made;
+  for (const char c : name)
+    made += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return made;
+}
+
+bool is_number(const std::string &text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// Takes a cusp's name from the start of the text. Returns its leaflet id, or -1.
+std::int32_t take_cusp(std::string &text) {
+  for (std::size_t cusp = 0; cusp < cusp_names.size(); ++cusp)
+    for (const std::string &word : {cusp_names[cusp], std::string(cusp == 2 ? "non" : cusp_names[cusp])}) {
+      if (text.rfind(word, 0) != 0 || (text.size() > word.size() && text[word.size()] != '_')) continue;
+      text.erase(0, std::min(text.size(), word.size() + 1));
+      return static_cast<std::int32_t>(cusp);
+    }
+  return -1;
+}
+
+// Reads a name: the word of a role, and perhaps more. A number may follow, or one cusp after a nadir, or two cusps after a
+// commissure. A cusp and a number may follow the word of a point of the attachment.
+std::optional<Place> place_of_name(const std::string &name) {
+  const std::string text = plain(name);
+  for (const RoleWord &known : role_words) {
+    const std::string word = known.word;
+    if (text == word) return Place{known.role, {-1, -1}, known.is_repeated};
+    if (text.rfind(word + "_", 0) != 0) continue;
+    std::string rest = text.substr(word.size() + 1);
+    if (is_number(rest)) {
+      if (known.is_repeated) return Place{known.role, {-1, -1}, false};
+      continue;
+    }
+    const std::int32_t first = take_cusp(rest);
+    if (known.role == RIIS_LANDMARK_ATTACHMENT) {
+      if (first >= 0 && (rest.empty() || is_number(rest))) return Place{known.role, {first, -1}, rest.empty()};
+      continue;
+    }
+    const std::int32_t second = first >= 0 ? take_cusp(rest) : -1;
+    if (first < 0 || !rest.empty()) continue;
+    if (known.role == RIIS_LANDMARK_NADIR && second < 0) return Place{known.role, {first, -1}, false};
+    if (known.role == RIIS_LANDMARK_COMMISSURE && second >= 0 && first != second)
+      return Place{known.role, {first, second}, false};
+  }
+  return std::nullopt;
+}
+
+class Collector {
+ public:
+  explicit Collector(LandmarkFile &file) : file_(file) {}
+
+  void add(const std::string &name, const std::array<double, 3> &point) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!std::isfinite(point[k]))
+        refuse_file(file_.path, quoted(name) + ": " + "xyz"[k] + " is " + shortest(point[k]) + "; it must be finite");
+    const std::string text = plain(name);
+    if (text == flow_from || text == flow_to) {
+      if (!ends_.emplace(text, point).second) refuse_file(file_.path, quoted(name) + " is given twice");
+      return;
+    }
+    const std::optional<Place> place = place_of_name(name);
+    if (!place) refuse_name(name);
+    const auto key = std::pair(place->role, std::minmax(place->leaflet_ids[0], place->leaflet_ids[1]));
+    const bool names_cusp = place->leaflet_ids[0] >= 0 && place->role != RIIS_LANDMARK_ATTACHMENT;
+    const bool is_new = names_cusp ? cusps_.insert({key.first, {key.second.first, key.second.second}}).second
+                                   : names_.insert(text).second;
+    if (!is_new && !place->may_repeat) refuse_file(file_.path, quoted(name) + " is given twice");
+    file_.names.push_back(name);
+    file_.roles.push_back(place->role);
+    file_.leaflet_ids.insert(file_.leaflet_ids.end(), place->leaflet_ids.begin(), place->leaflet_ids.end());
+    file_.xyz.insert(file_.xyz.end(), point.begin(), point.end());
+  }
+
+  // Checks the landmarks as a whole, and takes the direction of flow from its two points.
+  void finish() {
+    if (file_.names.empty()) refuse_file(file_.path, "holds no landmarks");
+    if (ends_.empty()) return;
+    if (ends_.size() == 1)
+      refuse_file(file_.path, ends_.begin()->first + " is given without " +
+                                  (ends_.begin()->first == flow_from ? flow_to : flow_from));
+    if (file_.flow) refuse_file(file_.path, "the flow is given twice, by flow and by flow_from and flow_to");
+    const auto &from = ends_.at(flow_from), &to = ends_.at(flow_to);
+    file_.flow = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+  }
+
+ private:
+  [[noreturn]] void refuse_name(const std::string &name) const {
+    const std::string text = plain(name);
+    NearestName nearest(text);
+    std::string known;
+    for (const RoleWord &word : role_words) {
+      nearest.consider(word.word);
+      known += (known.empty() ? "" : ", ") + std::string(word.word);
+    }
+    for (const char *nadir : {"nadir_right", "nadir_left", "nadir_non_coronary"}) nearest.consider(nadir);
+    const std::string near(nearest.nearest());
+    refuse_file(
+        file_.path,
+        quoted(name) + " is not the name of a landmark" + (near.empty() ? "" : ", did you mean " + quoted(near) + "?") +
+            "; there are " + known +
+            ", flow_from and flow_to; a nadir may name its cusp, as in nadir_left, a commissure its two, as in "
+            "commissure_left_right, and a point of the attachment its cusp and a number, as in attachment_left_2");
+  }
+
+  LandmarkFile &file_;
+  std::map<std::string, std::array<double, 3>> ends_;
+  std::set<std::string> names_;
+  std::set<std::pair<std::int32_t, std::pair<std::int32_t, std::int32_t>>> cusps_;
+};
+
+// ---- What a file states ----
+
+constexpr const char *why_axes =
+    "; LPS and RAS differ by half a turn about z, which the landmarks themselves cannot show";
+
+Unit stated_unit(const std::string &path, const std::string &text) {
+  if (const auto unit = unit_of(text)) return *unit;
+  refuse_file(path, "the unit is " + quoted(text) + "; it must be " + one_of(unit_names()));
+}
+
+Axes stated_axes(const std::string &path, const std::string &text) {
+  for (std::size_t i = 0; i < axes_names().size(); ++i)
+    if (text == axes_names()[i]) return static_cast<Axes>(i);
+  refuse_file(path, "the axes are " + quoted(text) + "; they must be " + one_of(axes_names()) + why_axes);
+}
+
+std::array<double, 3> point_of(const std::string &path, const std::string &name, const Json &value) {
+  std::array<double, 3> point{};
+  if (!value.is_array() || value.size() != 3) refuse_file(path, name + " must be three numbers, not " + value.dump());
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!value[k].is_number()) refuse_file(path, name + " must be three numbers, not " + value.dump());
+    point[k] = value[k].get<double>();
+  }
+  return point;
+}
+
+// ---- JSON ----
+
+void read_json(const Json &root, LandmarkFile &file) {
+  const CaseValues values(file.path, "", root, {"valve", "unit", "axes", "noise", "flow", "parameters", "landmarks"},
+                          "the file");
+  file.valve = values.text("valve");
+  if (!values.has("unit")) values.refuse("unit", "it is missing; it must be " + one_of(unit_names()));
+  file.unit = stated_unit(file.path, values.text("unit"));
+  if (!values.has("axes")) values.refuse("axes", "they are missing; they must be " + one_of(axes_names()) + why_axes);
+  file.axes = stated_axes(file.path, values.text("axes"));
+  file.noise = values.at_least_zero("noise");
+  if (values.has("flow")) file.flow = point_of(file.path, "flow", values.needed("flow"));
+  if (values.has("parameters")) file.parameters = values.needed("parameters");
+  const Json &list = values.needed("landmarks");
+  if (!list.is_object())
+    values.refuse("landmarks", std::string("it must be an object of points by name, not of type ") + list.type_name());
+  Collector to(file);
+  for (const auto &[name, value] : list.items()) {
+    const bool is_list = value.is_array() && !value.empty() && value[0].is_array();
+    if (!is_list) {
+      to.add(name, point_of(file.path, quoted(name), value));
+      continue;
+    }
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string numbered = name + "_" + std::to_string(i + 1);
+      to.add(numbered, point_of(file.path, quoted(numbered), value[i]));
+    }
+  }
+  to.finish();
+}
+
+// ---- 3D Slicer ----
+
+// A file of 3D Slicer has many keys, which change from version to version. Only those needed here are read.
+void read_slicer(const Json &root, LandmarkFile &file) {
+  const std::string &path = file.path;
+  const Json &lists = root["markups"];
+  if (!lists.is_array() || lists.empty()) refuse_file(path, "markups must be an array of one list of points or more");
+  const auto text_in = [&](const Json &object, const char *key, const std::string &where) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_string()) refuse_file(path, where + " has no text " + quoted(key));
+    return found->get<std::string>();
+  };
+  Collector to(file);
+  for (std::size_t i = 0; i < lists.size(); ++i) {
+    const std::string where = "markups " + std::to_string(i);
+    const Json &list = lists[i];
+    if (!list.is_object()) refuse_file(path, where + " must be an object, not of type " + list.type_name());
+    const std::string system = text_in(list, "coordinateSystem", where);
+    if (system != "LPS" && system != "RAS")
+      refuse_file(path, where + ": coordinateSystem is " + quoted(system) + "; it must be LPS or RAS");
+    const Axes axes = stated_axes(path, system);
+    const Unit unit = stated_unit(path, text_in(list, "coordinateUnits", where));
+    if (i > 0 && (axes != file.axes || unit != file.unit))
+      refuse_file(path, where + " has other axes or another unit than markups 0: save them alike");
+    file.axes = axes;
+    file.unit = unit;
+    const auto points = list.find("controlPoints");
+    if (points == list.end() || !points->is_array()) refuse_file(path, where + " has no array \"controlPoints\"");
+    for (std::size_t k = 0; k < points->size(); ++k) {
+      const Json &point = (*points)[k];
+      const std::string at = where + ", control point " + std::to_string(k);
+      if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
+      const std::string label = text_in(point, "label", at);
+      const auto status = point.find("positionStatus"), position = point.find("position");
+      if (status != point.end() && *status != "defined")
+        refuse_file(path,
+                    quoted(label) + " has the positionStatus " + status->dump() + "; place the point or delete it");
+      if (position == point.end()) refuse_file(path, quoted(label) + " has no position");
+      to.add(label, point_of(path, quoted(label), *position));
+    }
+  }
+  to.finish();
+}
+
+// ---- CSV ----
+
+void read_csv(const std::string &text, LandmarkFile &file) {
+  const std::string &path = file.path;
+  const CsvFile csv = csv_of_text(path, text, {"unit", "axes", "valve", "noise", "flow"}, "NAME,X,Y,Z", 4);
+  const std::map<std::string, std::string> &stated = csv.stated;
+  Collector to(file);
+  for (const CsvFile::Row &row : csv.rows) {
+    const bool is_heading = &row == &csv.rows.front() && plain(row.cells[1]) == "x" && plain(row.cells[2]) == "y" &&
+                            plain(row.cells[3]) == "z";
+    if (is_heading) continue;
+    std::array<double, 3> point{};
+    for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, row.cells[k + 1], row.where);
+    to.add(row.cells[0], point);
+  }
+  const auto value_of = [&](const char *key) { return stated.count(key) ? stated.at(key) : std::string(); };
+  if (!stated.count("unit"))
+    refuse_file(path, "states no unit: a line such as # unit = mm is missing; it must be " + one_of(unit_names()));
+  file.unit = stated_unit(path, value_of("unit"));
+  if (!stated.count("axes"))
+    refuse_file(path, "states no axes: a line such as # axes = LPS is missing; they must be " + one_of(axes_names()) +
+                          why_axes);
+  file.axes = stated_axes(path, value_of("axes"));
+  file.valve = value_of("valve");
+  if (stated.count("noise")) {
+    file.noise = number_in_file(path, value_of("noise"), "noise");
+    if (!(*file.noise >= 0)) refuse_file(path, "noise: " + value_of("noise") + " is below 0");
+  }
+  if (stated.count("flow")) {
+    const std::vector<std::string> cells = csv_cells(value_of("flow"));
+    if (cells.size() != 3) refuse_file(path, "flow: " + quoted(value_of("flow")) + " is not X,Y,Z");
+    file.flow.emplace();
+    for (std::size_t k = 0; k < 3; ++k) (*file.flow)[k] = number_in_file(path, cells[k], "flow");
+  }
+  to.finish();
+}
+
+}  // namespace
+
+const std::vector<std::string> &axes_names() {
+  static const std::vector<std::string> names = {"LPS", "RAS", "mesh"};
+  return names;
+}
+const char *name_of(Axes axes) { return axes_names()[static_cast<std::size_t>(axes)].c_str(); }
+
+void LandmarkFile::convert(Unit to) {
+  const double factor = factor_between(unit, to);
+  for (double &x : xyz) x *= factor;
+  if (noise) *noise *= factor;
+  unit = to;
+}
+
+void LandmarkFile::convert(Axes to) {
+  const bool is_turned = axes != to && axes != Axes::mesh && to != Axes::mesh;
+  axes = to;
+  if (!is_turned) return;
+  for (std::size_t i = 0; i < xyz.size(); ++i)
+    if (i % 3 != 2) xyz[i] = -xyz[i];
+  if (flow) flow = {-(*flow)[0], -(*flow)[1], (*flow)[2]};
+}
+
+LandmarkFile read_landmarks(const std::string &path, const std::string &text) {
+  LandmarkFile file;
+  file.path = path;
+  if (has_ending(path, ".csv")) {
+    read_csv(text, file);
+    return file;
+  }
+  if (!has_ending(path, ".json")) refuse_file(path, "landmarks must be a .json, .mrk.json or .csv file");
+  const Json root = parse_json(path, text, "landmarks");
+  if (root.is_object() && root.contains("markups"))
+    read_slicer(root, file);
+  else
+    read_json(root, file);
+  return file;
+}
+
+LandmarkFile landmarks_of_json(const std::string &subject, const Json &root) {
+  LandmarkFile file;
+  file.path = subject;
+  file.is_file = false;
+  read_json(root, file);
+  return file;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/mesh_reading.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <utility>
+
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Returns whether a damaged file of this format can crash its reader: HDF5, or VTK's reader of Exodus.
+bool may_crash(const std::string &path) {
+  static const std::set<std::string> endings = {".xdmf", ".xmf", ".e", ".exo", ".ex2", ".exii"};
+  return endings.count(ending_of(path)) != 0;
+}
+
+// A folder for the mesh that a child process passes on. The destructor removes the folder.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::error_code error;
+    const fs::path place = fs::temp_directory_path(error);
+    path_ = ((error ? fs::path("/tmp") : place) / "riis-XXXXXX").string();
+    if (!mkdtemp(path_.data()))
+      throw Refusal{exit_bad_data, "no temporary folder can be made in " + fs::path(path_).parent_path().string() +
+                                       ": " + std::strerror(errno) + "; TMPDIR may name another place"};
+    remove_if_ended(path_, mesh());
+  }
+  ~PassingFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+    remove_if_ended("", "");
+  }
+  PassingFolder(const PassingFolder &) = delete;
+  PassingFolder &operator=(const PassingFolder &) = delete;
+
+  std::string mesh() const { return path_ + "/mesh.vtu"; }
+
+ private:
+  std::string path_;
+};
+
+// Limits the memory of this process, because damaged files may claim any size. Honest files need a few times their size, and up
+// to a thousand times if they are compressed. The address sanitizer reserves terabytes, so there is no limit under it.
+void limit_memory([[maybe_unused]] const std::string &path) {
+#ifndef __SANITIZE_ADDRESS__
+  std::error_code error;
+  std::uintmax_t size = fs::file_size(path, error);
+  for (const std::string &file : data_files_of(path)) {
+    std::error_code unknown;
+    const std::uintmax_t more = fs::file_size(file, unknown);
+    if (!unknown) size += more;
+  }
+  std::ifstream statm("/proc/self/statm");
+  std::uintmax_t n_pages = 0;
+  if (error || !(statm >> n_pages)) return;
+  constexpr rlim_t base = rlim_t{2} << 30, per_byte = 1000;
+  const rlim_t now = n_pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  rlimit limit;
+  if (getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, now + base + per_byte * size);
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+// The result of the child process: a status, and the notes or the message.
+struct Answer {
+  riis_status status = RIIS_INTERNAL_ERROR;
+  std::string text;
+};
+
+// Reads the mesh, writes it again as a .vtu, and answers through the pipe.
+[[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
+  // Readers print errors of their own. This process's message goes through the pipe.
+  const int nowhere = open("/dev/null", O_WRONLY);
+  // This process ends with its parent, and removes nothing of its parent's.
+  for (const int ending : {SIGINT, SIGTERM, SIGHUP})
+    if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, stream);
+  const rlimit none = {0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  limit_memory(path);
+  riis_vtk_mesh *mesh = nullptr;
+  riis_status status = riis_vtk_mesh_read(path.c_str(), &mesh);
+  const char *notes = "";
+  if (status == RIIS_OK) status = riis_vtk_mesh_get_notes(mesh, &notes);
+  if (status == RIIS_OK) status = riis_vtk_mesh_write(mesh, passed.c_str());
+  const char *const text = status == RIIS_OK ? notes : riis_last_error();
+  // A pipe takes as few bytes as these in one call.
+  const auto n_bytes = static_cast<ssize_t>(std::strlen(text));
+  const bool is_written =
+      write(answer, &status, sizeof status) == sizeof status && write(answer, text, std::strlen(text)) == n_bytes;
+  _exit(is_written ? 0 : 1);
+}
+
+Answer answer_of(int from) {
+  Answer answer;
+  char bytes[4096];
+  std::string all;
+  for (;;) {
+    const ssize_t n = read(from, bytes, sizeof bytes);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) break;
+    all.append(bytes, static_cast<std::size_t>(n));
+  }
+  if (all.size() < sizeof answer.status) return answer;
+  std::memcpy(&answer.status, all.data(), sizeof answer.status);
+  answer.text = all.substr(sizeof answer.status);
+  return answer;
+}
+
+std::string &kept_notes() {
+  static std::string notes;
+  return notes;
+}
+
+void note(const std::string &path, const std::string &text) {
+  if (!text.empty()) kept_notes() += "note      " + path + ": " + text + "\n";
+}
+
+MeshFile read_by_child(const std::string &path) {
+  const PassingFolder folder;
+  int ends[2];
+  if (pipe(ends) != 0) throw Refusal{exit_bad_data, std::string("no pipe to a child process: ") + std::strerror(errno)};
+  const pid_t parent = getpid(), child = fork();
+  if (child < 0) {
+    close(ends[0]);
+    close(ends[1]);
+    throw Refusal{exit_bad_data, std::string("no child process to read ") + path + ": " + std::strerror(errno)};
+  }
+  if (child == 0) read_as_child(path, folder.mesh(), ends[1], parent);
+  close(ends[1]);
+  const Answer answer = answer_of(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  if (WIFSIGNALED(status))
+    throw Refusal{exit_bad_data, path + ": is damaged: its reader ended with signal " +
+                                     std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")"};
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Refusal{exit_bad_data,
+                  path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status))};
+  if (answer.status == RIIS_OUT_OF_MEMORY)
+    throw Refusal{exit_bad_data, answer.text + "; its reader may take 2 GB and a thousand times the size of its files"};
+  if (answer.status != RIIS_OK)
+    throw Refusal{
+        exit_bad_data,
+        answer.text + (answer.status == RIIS_FILE_ERROR ? conversion_hint(path, Content::mesh, answer.text) : "")};
+  note(path, answer.text);
+  riis_vtk_mesh *mesh = nullptr;
+  check(riis_vtk_mesh_read(folder.mesh().c_str(), &mesh));
+  return MeshFile(mesh);
+}
+
+bool has_poly_mesh(const fs::path &folder) {
+  std::error_code error;
+  return fs::is_directory(folder / "constant" / "polyMesh", error);
+}
+
+}  // namespace
+
+std::vector<std::string> data_files_of(const std::string &path) {
+  if (!has_ending(path, ".xdmf") && !has_ending(path, ".xmf")) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  std::vector<std::string> found;
+  constexpr std::size_t longest = PATH_MAX;
+  while (std::getline(file, text, '<')) {
+    text.erase(0, text.find('>') + 1);
+    if (text.size() > longest) continue;  // numbers
+    const std::size_t begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
+    if (begin == std::string::npos) continue;
+    text = text.substr(begin, end + 1 - begin);
+    const std::string name = text.substr(0, text.find(":/"));  // a dataset may follow the file
+    const fs::path place = fs::path(path).parent_path() / name;
+    std::error_code error;
+    if (fs::is_regular_file(place, error)) found.push_back(place.string());
+  }
+  return found;
+}
+
+MeshFile read_mesh_file(const std::string &path) {
+  if (may_crash(path)) return read_by_child(path);
+  riis_vtk_mesh *mesh = nullptr;
+  check_mesh_read(riis_vtk_mesh_read(path.c_str(), &mesh), path);
+  MeshFile file(mesh);
+  const char *text = nullptr;
+  check(riis_vtk_mesh_get_notes(mesh, &text));
+  note(path, text);
+  return file;
+}
+
+std::string take_notes() { return std::exchange(kept_notes(), ""); }
+
+bool is_foam_case(const std::string &path) { return has_poly_mesh(path); }
+
+bool is_foam_time(const std::string &path) {
+  fs::path folder = path;
+  if (!folder.has_filename()) folder = folder.parent_path();
+  const std::string name = folder.filename().string();
+  double time = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), time);
+  return error == std::errc() && end == name.data() + name.size() && !name.empty() &&
+         has_poly_mesh(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
+}
+
+std::string foam_time(const std::string &foam_case, double time) {
+  char digits[32];
+  return (fs::path(foam_case) / std::string(digits, std::to_chars(digits, digits + sizeof digits, time).ptr)).string();
+}
+
+}  // namespace riis::program

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/parameters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/json.hpp"
+
+namespace riis::program {
+namespace {
+
+std::vector<double> numbers_of(const std::string &path, const std::string &name, const Json &value) {
+  const auto number_of = [&](const Json &item) {
+    if (item.is_number()) return item.get<double>();
+    refuse_file(path, name + " must be a number or an array of numbers, not of type " + item.type_name());
+  };
+  if (!value.is_array()) return {number_of(value)};
+  if (value.empty()) refuse_file(path, name + " must be a number or an array of numbers, not an empty array");
+  std::vector<double> numbers;
+  for (const Json &item : value) numbers.push_back(number_of(item));
+  return numbers;
+}
+
+bool is_cusp(const riis_valve *valve, const std::string &name) {
+  int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    if (std::string(parameter.name).rfind(name + ".", 0) == 0) return true;
+  }
+  return false;
+}
+
+// Returns the parameter's own name for a name that may be its second name, such as "root_radius" for "annulus".
+std::string own_name(const riis_valve *valve, const std::string &name) {
+  const std::size_t dot = name.rfind('.'), start = dot == std::string::npos ? 0 : dot + 1;
+  int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    const std::string own = parameter.name;
+    if (name.substr(start) == parameter.other_name) return name.substr(0, start) + own.substr(own.rfind('.') + 1);
+  }
+  return name;
+}
+
+struct Setting {
+  std::string name;  // as the file has it
+  std::vector<double> values;
+};
+using Settings = std::map<std::string, Setting>;  // by the parameter's own name
+
+void add(const std::string &path, const riis_valve *valve, const std::string &name, const Json &value,
+         Settings &settings) {
+  const auto [place, is_new] = settings.emplace(own_name(valve, name), Setting{name, numbers_of(path, name, value)});
+  if (is_new) return;
+  if (place->second.name == name) refuse_file(path, name + " is given twice");
+  refuse_file(path, place->second.name + " and " + name + " are given, but they are names of one size; give one");
+}
+
+Settings settings_of(const std::string &path, const riis_valve *valve, const Json &root) {
+  if (!root.is_object()) refuse_file(path, "must hold a JSON object of parameters");
+  Settings settings;
+  for (const auto &[name, value] : root.items()) {
+    if (!value.is_object()) {
+      add(path, valve, name, value, settings);
+      continue;
+    }
+    if (!is_cusp(valve, name)) refuse_file(path, name + " is not a part of the valve with parameters of its own");
+    for (const auto &[inner, inner_value] : value.items()) add(path, valve, name + "." + inner, inner_value, settings);
+  }
+  return settings;
+}
+
+void set_parameter(riis_valve *valve, const std::string &name, const std::vector<double> &values,
+                   const std::string &subject) {
+  check(riis_valve_set(valve, name.c_str(), static_cast<int64_t>(values.size()), values.data()), subject);
+}
+
+bool belongs_to_cusp(const std::string &name) { return name.find('.') != std::string::npos; }
+
+}  // namespace
+
+void set_from_json_file(riis_valve *valve, const std::string &path) {
+  set_from_json(valve, parse_json_file(path, "parameters"), path);
+}
+
+void set_from_json(riis_valve *valve, const Json &parameters, const std::string &path) {
+  const Settings settings = settings_of(path, valve, parameters);
+  for (const bool cusps : {false, true}) {
+    for (const auto &[own, setting] : settings) {
+      if (belongs_to_cusp(own) == cusps) set_parameter(valve, setting.name, setting.values, path);
+    }
+  }
+}
+
+void set_from_text(riis_valve *valve, const std::string &setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw Refusal{exit_wrong_usage, "--set: '" + setting + "' is not NAME=VALUE"};
+  }
+  const std::string name = setting.substr(0, equals);
+  set_parameter(valve, name, parse_list(setting.substr(equals + 1), "--set " + name), "--set");
+}
+
+namespace {
+
+std::string text_of(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
+// Returns the description with the parameter's rule and its second name.
+std::string description_of(const riis_parameter &parameter) {
+  std::string text = parameter.description;
+  if (*parameter.rule) text += std::string("; unless set: ") + parameter.rule;
+  if (!*parameter.other_name) return text;
+  const std::string name = parameter.name;
+  const std::string factor = parameter.other_factor == 1 ? "" : text_of(parameter.other_factor) + " ";
+  return text + "; " + name.substr(0, name.rfind('.') + 1) + parameter.other_name + " = " + factor + name;
+}
+
+using Row = std::array<std::string, 5>;
+
+Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
+  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
+  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+  std::string value;
+  for (const double number : values) value += (value.empty() ? "" : ",") + text_of(number);
+  const std::string unit = parameter.unit;
+  return {parameter.name, value,
+          unit == "length" ? "cm"
+          : unit == "1"    ? "-"
+                           : unit,
+          text_of(parameter.minimum) + " to " + text_of(parameter.maximum), description_of(parameter)};
+}
+
+}  // namespace
+
+std::string parameter_table(const riis_valve *valve) {
+  std::vector<Row> rows = {{"name", "value", "unit", "range", "description"}};
+  int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    rows.push_back(row_of(valve, parameter));
+  }
+  std::array<std::size_t, 5> widths{};
+  for (const Row &row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  std::string table;
+  for (const Row &row : rows) {
+    for (std::size_t k = 0; k + 1 < row.size(); ++k) table += row[k] + std::string(widths[k] + 2 - row[k].size(), ' ');
+    table += row.back() + "\n";
+  }
+  return table;
+}
+
+std::string json_template(const riis_valve *valve) {
+  Json root = Json::object();
+  int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    riis_parameter parameter{};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
+    check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+    const std::string name = parameter.name;
+    const std::size_t dot = name.find('.');
+    Json &place = dot == std::string::npos ? root[name] : root[name.substr(0, dot)][name.substr(dot + 1)];
+    place = values.size() == 1 ? Json(values[0]) : Json(values);
+  }
+  return root.dump(2);
+}
+
+}  // namespace riis::program

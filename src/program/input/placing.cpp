@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/placing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/parameters.hpp"
+
+namespace riis::program {
+namespace {
+
+std::string digits(double number, int n = 4) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", n, number);
+  return text;
+}
+
+std::string option_name(Reader reader, const char *name) {
+  return (reader == Reader::program ? "--" : "") + std::string(name);
+}
+
+std::string option_text(Reader reader, const char *name, const std::string &value) {
+  return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
+}
+
+std::size_t n_parameters(const riis_valve *valve) {
+  int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  return static_cast<std::size_t>(n);
+}
+
+riis_parameter parameter_of(const riis_valve *valve, std::size_t i) {
+  riis_parameter parameter{};
+  check(riis_valve_get_parameter(valve, static_cast<int64_t>(i), &parameter, sizeof parameter));
+  return parameter;
+}
+
+std::vector<double> all_values(const riis_valve *valve, const riis_parameter &parameter) {
+  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
+  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+  return values;
+}
+
+// Returns the names of the parameters that keep their values: the given ones and those of the landmarks' file. The library
+// refuses names that are not a parameter's.
+std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
+  if (landmarks.parameters.is_object())
+    for (const auto &[name, value] : landmarks.parameters.items()) {
+      if (!value.is_object()) given.push_back(name);
+      if (value.is_object())
+        for (const auto &inner : value.items()) given.push_back(name + "." + inner.key());
+    }
+  std::vector<std::string> held;
+  for (const std::string &name : given) {
+    const std::size_t n_before = held.size();
+    for (std::size_t i = 0; i < n_parameters(valve); ++i) {
+      const std::string full = parameter_of(valve, i).name;
+      const bool is_part = full.size() > name.size() && full.substr(full.size() - name.size() - 1) == "." + name;
+      if (full == name || is_part) held.push_back(full);
+    }
+    if (held.size() == n_before) held.push_back(name);
+  }
+  return joined_by(held, " ");
+}
+
+// Returns the library's message with the names of the file for landmarks, and the words of the file for fields.
+std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
+  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
+    const std::string number = "landmark " + std::to_string(i);
+    for (std::size_t at = 0; (at = text.find(number, at)) != std::string::npos;) {
+      std::size_t end = at + number.size();
+      if (end < text.size() && text[end] >= '0' && text[end] <= '9') {
+        ++at;
+        continue;
+      }
+      if (text.compare(end, 2, " (") == 0) end = std::min(text.find(')', end) + 1, text.size());
+      const std::string name = quoted(landmarks.names[i]);
+      text.replace(at, end - at, name);
+      at += name.size();
+    }
+  }
+  const std::pair<std::string, std::string> fields[] = {
+      {"landmarks.scale is " + shortest(factor_between(Unit::centimetre, landmarks.unit)) + " (" +
+           words_of(landmarks.unit) + ")",
+       std::string("the unit is ") + words_of(landmarks.unit)},
+      {"landmarks.leaflet_id of ", "the name of "},
+      {"landmarks.leaflet_id", "the names"},
+      {"landmarks.role has the ", "it has the "},
+      {"landmarks.", ""}};
+  for (const auto &[field, words] : fields)
+    if (text.rfind(field, 0) == 0) {
+      text.replace(0, field.size(), words);
+      break;
+    }
+  return text;
+}
+
+// Refuses the landmarks with the library's message, if it refused them.
+void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader reader) {
+  if (status == RIIS_OK) return;
+  if (status != RIIS_INVALID_ARGUMENT && status != RIIS_INVALID_PARAMETER) return check(status);
+  std::string text = in_words_of_file(riis_last_error(), landmarks);
+  if (reader == Reader::program && text.rfind("the landmarks give ", 0) == 0)
+    text += "; --set gives sizes that landmarks do not tell, in centimetres";
+  throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
+}
+
+riis_points points_of(const std::vector<double> &xyz) {
+  riis_points points;
+  check(riis_points_init(&points, sizeof points));
+  points.n_points = static_cast<int64_t>(xyz.size() / 3);
+  points.x = xyz.data();
+  points.y = xyz.data() + 1;
+  points.z = xyz.data() + 2;
+  points.stride = 3;
+  return points;
+}
+
+}  // namespace
+
+std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
+  return joined_by(parts, between);
+}
+
+void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
+  const std::string axes = option_name(request.reader, "axes");
+  if (request.unit) landmarks.convert(*request.unit);
+  if (!request.axes.empty()) {
+    if (request.axes != "LPS" && request.axes != "RAS")
+      refuse_usage(axes + " is " + quoted(request.axes) + "; it must be LPS or RAS");
+    if (landmarks.axes == Axes::mesh)
+      refuse_usage(axes + ": " + landmarks.path + " states the axes mesh, so it is not known how to turn it");
+    landmarks.convert(request.axes == "LPS" ? Axes::LPS : Axes::RAS);
+  }
+  if (request.noise) landmarks.noise = *request.noise;
+  if (request.flow) landmarks.flow = {(*request.flow)[0], (*request.flow)[1], (*request.flow)[2]};
+}
+
+std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader) {
+  const std::string option = option_name(reader, "valve");
+  if (given.empty() && landmarks.valve.empty())
+    refuse_usage(option + " is needed, because " + landmarks.path + " does not name the kind of valve");
+  if (!given.empty() && !landmarks.valve.empty() && given != landmarks.valve)
+    refuse_usage(option + ": " + given + " is not the valve of " + landmarks.path + ", which is " + landmarks.valve);
+  return given.empty() ? landmarks.valve : given;
+}
+
+Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
+                          const std::vector<std::string> &held, Reader reader) {
+  Placed made{landmarks, kind, {}, {}, {}, 0, {}, {}, std::nullopt, 0, {}};
+  riis_landmarks given;
+  check(riis_landmarks_init(&given, sizeof given));
+  given.n_landmarks = static_cast<int64_t>(landmarks.names.size());
+  given.x = landmarks.xyz.data();
+  given.y = landmarks.xyz.data() + 1;
+  given.z = landmarks.xyz.data() + 2;
+  given.stride = 3;
+  given.role = landmarks.roles.data();
+  given.leaflet_id = landmarks.leaflet_ids.data();
+  given.scale = factor_between(Unit::centimetre, landmarks.unit);
+  if (landmarks.noise) given.noise = *landmarks.noise;
+  if (landmarks.flow) std::copy(landmarks.flow->begin(), landmarks.flow->end(), given.flow);
+  made.noise = landmarks.noise.value_or(0.03 * given.scale);
+  const std::size_t n = n_parameters(valve);
+  made.residuals.resize(landmarks.names.size());
+  made.places.resize(landmarks.xyz.size());
+  std::vector<double> errors(n);
+  std::vector<int32_t> states(n);
+  riis_placement_arrays arrays;
+  check(riis_placement_arrays_init(&arrays, sizeof arrays));
+  arrays.residual = made.residuals.data();
+  arrays.standard_error = errors.data();
+  arrays.size_state = states.data();
+  arrays.place = made.places.data();
+  check_landmarks(riis_place(valve, &given, held_names(held, landmarks, valve).c_str(), &arrays, &made.placement,
+                             sizeof made.placement),
+                  landmarks, reader);
+  const riis_placement &at = made.placement;
+  check(riis_surface_options_init(&made.where, sizeof made.where));
+  made.where.scale = at.scale;
+  made.where.half_thickness = 0.1 * at.scale;
+  std::copy_n(at.rotation_axis, 3, made.where.rotation_axis);
+  made.where.rotation_angle = at.rotation_angle;
+  std::copy_n(at.translation, 3, made.where.translation);
+  for (std::size_t i = 0; i < n; ++i) {
+    const riis_parameter parameter = parameter_of(valve, i);
+    made.sizes.push_back({parameter, all_values(valve, parameter), errors[i], states[i]});
+  }
+  return made;
+}
+
+Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader) {
+  const LandmarkFile &landmarks = placed.landmarks;
+  const std::vector<double> &targets = landmarks.xyz;
+  const riis_points from = points_of(placed.places), to = points_of(targets);
+  riis_warp_options how;
+  check(riis_warp_options_init(&how, sizeof how));
+  how.placement = &placed.where;
+  how.noise = placed.warp_noise = noise;
+  Warp warp;
+  check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
+  check_landmarks(riis_warp_set_targets(warp.get(), &to), landmarks, reader);
+  check(riis_valve_set_warp(valve, warp.get(), nullptr), option_name(reader, "warp"));
+  riis_warp_info info;
+  check(riis_warp_get_info(warp.get(), &info, sizeof info));
+  placed.warp = info;
+  std::vector<double> mapped(placed.places.size());
+  check(riis_warp_map(warp.get(), &from, mapped.data()));
+  for (std::size_t i = 0; i < mapped.size(); i += 3)
+    placed.still_off.push_back(
+        std::hypot(mapped[i] - targets[i], mapped[i + 1] - targets[i + 1], mapped[i + 2] - targets[i + 2]));
+  Valve trial;
+  check(riis_valve_copy(valve, trial.out()));
+  for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    check(riis_valve_set_scalar(trial.get(), "opening", opening));
+    Surface surface;
+    check_landmarks(riis_surface_create(trial.get(), &placed.where, surface.out()), landmarks, reader);
+  }
+  return warp;
+}
+
+// ---- The mesh ----
+
+namespace {
+
+// Returns the mean distance of the landmarks from their nearest nodes, after x and y are perhaps reversed and lengths multiplied.
+double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const double *nodes, double sign,
+                           double factor) {
+  double sum = 0;
+  const std::size_t n = landmarks.names.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double *at = landmarks.xyz.data() + 3 * i;
+    const double p[3] = {sign * factor * at[0], sign * factor * at[1], factor * at[2]};
+    double least = HUGE_VAL;
+    for (int64_t node = 0; node < n_nodes; ++node) {
+      const double *q = nodes + 3 * node;
+      const double x = q[0] - p[0], y = q[1] - p[1], z = q[2] - p[2];
+      least = std::min(least, x * x + y * y + z * z);
+    }
+    sum += std::sqrt(least) / static_cast<double>(n);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const double *nodes, const std::string &of,
+                    Reader reader) {
+  // Landmarks lie on the wall, so nodes of the mesh must be near. Landmarks a centimetre away belong to another place.
+  const double near = factor_between(Unit::centimetre, landmarks.unit);
+  const double apart = distance_from_nodes(landmarks, n_nodes, nodes, 1, 1);
+  if (apart <= near) return;
+  std::string text = landmarks.path + ": the landmarks are " + digits(apart, 3) + " " + name_of(landmarks.unit) +
+                     " from the nodes" + of + " on average";
+  for (const Unit unit : {landmarks.unit, Unit::metre, Unit::centimetre, Unit::millimetre})
+    for (const double sign : {1.0, -1.0}) {
+      const double factor = factor_between(landmarks.unit, unit);
+      const double other = distance_from_nodes(landmarks, n_nodes, nodes, sign, factor);
+      if (other > factor * near) continue;
+      std::vector<std::string> changes;
+      if (unit != landmarks.unit) changes.push_back(std::string("in ") + words_of(unit));
+      if (sign < 0) changes.emplace_back("with x and y reversed, as between LPS and RAS");
+      text +=
+          "; " + joined_by(changes, " and ") + ", they are " + digits(other, 3) + " " + name_of(unit) + " from them: ";
+      std::vector<std::string> advice;
+      if (unit != landmarks.unit)
+        advice.push_back("give " + (landmarks.is_file ? option_text(reader, "unit", name_of(unit))
+                                                      : std::string("the landmarks in ") + words_of(unit)));
+      if (sign < 0 && landmarks.axes != Axes::mesh)
+        advice.push_back("give " + option_text(reader, "axes", landmarks.axes == Axes::LPS ? "RAS" : "LPS") +
+                         ", the mesh's axes");
+      else if (sign < 0)
+        advice.emplace_back(landmarks.is_file ? "state the axes of the file"
+                                              : "turn the landmarks by half a turn about z");
+      text += joined_by(advice, " and ");
+      throw Refusal{exit_bad_data, text};
+    }
+  throw Refusal{exit_bad_data, text + ", which is more than 1 cm, in any unit and with the axes LPS and RAS"};
+}
+
+// ---- Outputs ----
+
+namespace {
+
+Json json_of_points(const std::vector<double> &xyz) {
+  Json points = Json::array();
+  for (std::size_t i = 0; i < xyz.size(); i += 3) points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+  return points;
+}
+
+Json parameters_of(const riis_valve *valve) {
+  Json parameters = Json::parse(json_template(valve));
+  parameters.erase("opening");
+  return parameters;
+}
+
+std::string filled(const std::string &text, std::size_t width) {
+  return text + std::string(std::max(width, text.size()) - text.size(), ' ');
+}
+
+// A length, or 0 if it is rounding.
+std::string length_text(double length, double centimetre) {
+  return length > 1e-9 * centimetre ? digits(length, 3) : "0";
+}
+
+}  // namespace
+
+std::string placed_file_of(const Placed &placed, const riis_valve *valve) {
+  const riis_placement &at = placed.placement;
+  Json root = Json::object();
+  root["valve"] = placed.kind;
+  root["unit"] = name_of(placed.landmarks.unit);
+  root["axes"] = name_of(placed.landmarks.axes);
+  root["rotate"] = {at.rotation_axis[0], at.rotation_axis[1], at.rotation_axis[2], at.rotation_angle};
+  root["translate"] = {at.translation[0], at.translation[1], at.translation[2]};
+  root["parameters"] = parameters_of(valve);
+  const auto by_name = [&](const std::vector<double> &values) {
+    Json made = Json::object();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      // A name may occur repeatedly, such as that of annulus points.
+      std::string name = placed.landmarks.names[i];
+      while (made.contains(name)) name += "'";
+      made[name] = values[i];
+    }
+    return made;
+  };
+  if (placed.warp) {
+    Json warp = Json::object();
+    warp["sources"] = json_of_points(placed.places);
+    warp["targets"] = json_of_points(placed.landmarks.xyz);
+    warp["noise"] = placed.warp_noise;
+    root["warp"] = warp;
+  }
+  Json fit = Json::object();
+  fit["rms"] = at.rms;
+  fit["worst"] = at.worst;
+  fit["noise"] = at.noise;
+  fit["rotation_error"] = at.rotation_error;
+  fit["position_error"] = at.position_error;
+  Json errors = Json::object(), undetermined = Json::array(), tied = Json::array();
+  for (const Size &size : placed.sizes) {
+    if (size.state == RIIS_SIZE_DETERMINED || size.state == RIIS_SIZE_UNDETERMINED)
+      errors[size.parameter.name] = size.standard_error;
+    if (size.state == RIIS_SIZE_UNDETERMINED) undetermined.push_back(size.parameter.name);
+    if (size.state == RIIS_SIZE_TIED) tied.push_back(size.parameter.name);
+  }
+  fit["standard_errors"] = errors;
+  fit["undetermined"] = undetermined;
+  fit["in_proportion"] = tied;
+  fit["residuals"] = by_name(placed.residuals);
+  if (placed.warp) {
+    fit["warped_rms"] = placed.warp->rms_residual;
+    fit["warped_worst"] = placed.warp->largest_residual;
+    fit["warped_residuals"] = by_name(placed.still_off);
+  }
+  root["fit"] = fit;
+  return root.dump(2) + "\n";
+}
+
+std::string with_parameters_of(const std::string &placed_file, const riis_valve *valve) {
+  Json root = Json::parse(placed_file);
+  root["parameters"] = parameters_of(valve);
+  return root.dump(2) + "\n";
+}
+
+std::string place_report(const Placed &placed, Reader reader) {
+  const LandmarkFile &landmarks = placed.landmarks;
+  const riis_placement &at = placed.placement;
+  const std::string unit = name_of(landmarks.unit);
+  std::string text = placed.kind + " valve from " + std::to_string(landmarks.names.size()) + " landmarks of " +
+                     landmarks.path + ", axes " + name_of(landmarks.axes) + ", noise " + digits(placed.noise, 3) + " " +
+                     unit + "\n\n";
+  std::size_t width = 16;
+  for (const Size &size : placed.sizes) width = std::max(width, std::string(size.parameter.name).size() + 2);
+  text += filled("parameter", width) + filled("value", 26) + filled("std. error", 12) + "from\n";
+  std::vector<std::string> undetermined;
+  for (const Size &size : placed.sizes) {
+    if (size.state == RIIS_SIZE_KEPT) continue;
+    const bool is_fitted = size.state != RIIS_SIZE_TIED;
+    const std::string of = std::string(size.parameter.unit) == "length"   ? " cm"
+                           : std::string(size.parameter.unit) == "degree" ? " degrees"
+                                                                          : "";
+    const std::string values =
+        numbers_text(size.values.data(), size.values.size(), " ", [](double number) { return digits(number); });
+    text += filled(size.parameter.name, width) + filled(values + of, 26) +
+            filled(is_fitted ? digits(size.standard_error, 2) : "-", 12) +
+            (size.state == RIIS_SIZE_DETERMINED     ? "landmarks"
+             : size.state == RIIS_SIZE_UNDETERMINED ? "landmarks and proportion: NOT DETERMINED"
+                                                    : "proportion") +
+            "\n";
+    if (size.state == RIIS_SIZE_UNDETERMINED) undetermined.emplace_back(size.parameter.name);
+  }
+  const auto four_digits = [](double number) { return digits(number); };
+  text += "\nplacement       scale " + shortest(at.scale) + ", rotation by " + digits(at.rotation_angle) +
+          " degrees about " + numbers_text(at.rotation_axis, 3, " ", four_digits) + ", translation " +
+          numbers_text(at.translation, 3, " ", four_digits) + " " + unit + "\nstd. errors     " +
+          digits(at.rotation_error, 2) + " degrees, " + digits(at.position_error, 2) + " " + unit + ", by a noise of " +
+          digits(at.noise, 2) + " " + unit + "\n";
+  std::size_t name_width = 16;
+  for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
+  const std::string column = "residual " + unit;
+  text += "\n" + filled("landmark", name_width) + (placed.warp ? filled(column, 16) + "warped " + unit : column) + "\n";
+  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
+    const std::string residual = digits(placed.residuals[i], 3);
+    text += filled(landmarks.names[i], name_width) +
+            (placed.warp ? filled(residual, 16) + length_text(placed.still_off[i], at.scale) : residual) + "\n";
+  }
+  const auto name_of_landmark = [&](int64_t i) { return landmarks.names[static_cast<std::size_t>(i)]; };
+  text += "rms " + digits(at.rms, 3) + ", worst " + digits(at.worst, 3) + " at " +
+          name_of_landmark(at.worst_landmark_id) + "\n";
+  if (placed.warp)
+    text += "warped, rms " + length_text(placed.warp->rms_residual, at.scale) + ", worst " +
+            length_text(placed.warp->largest_residual, at.scale) + " at " +
+            name_of_landmark(placed.warp->largest_landmark_id) +
+            (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(placed.warp_noise, 3) + " " + unit : "") +
+            "\n";
+  else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
+    text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +
+            option_text(reader, "warp", "smoothed") + " as near as their noise.\n";
+  text += undetermined.empty() ? "\nThe landmarks determine every size that they bear on.\n"
+                               : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") + ".\n";
+  return text;
+}
+
+}  // namespace riis::program

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/valve_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <regex>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/json.hpp"
+
+namespace riis::program {
+namespace {
+
+constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
+
+// Returns a value as text, as it is in the file. refuse_file shortens long values.
+std::string json_text(const Json &value) { return value.dump(); }
+
+// The curves of one state, and the arrays that the library needs for them.
+struct Curves {
+  std::vector<std::string> names;
+  std::unordered_map<std::string, std::int32_t> position;
+  std::vector<std::int32_t> degrees;
+  std::vector<double> control;
+};
+
+struct Patches {
+  std::vector<std::int32_t> curve_ids, reversed, leaflet_ids;
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::string &path) : path_(path) {}
+
+  // `where`, "" or "open: ", precedes names in refusals.
+  Curves curves_of(const Json &root, const std::string &where) const {
+    const Json &list = member(root, "curves", where);
+    if (!list.is_object())
+      refuse(where + "\"curves\" must be an object of curves by name, not of type " + list.type_name());
+    if (list.empty()) refuse(where + "\"curves\" is empty");
+    Curves curves;
+    for (const auto &[name, points] : list.items()) {
+      check_name(name, where);
+      curves.position.emplace(name, static_cast<std::int32_t>(curves.names.size()));
+      curves.names.push_back(name);
+      add_points(points, where + "curve " + quoted(name), curves);
+    }
+    return curves;
+  }
+
+  Patches patches_of(const Json &root, const Curves &curves) const {
+    const Json &list = member(root, "patches", "");
+    if (!list.is_array())
+      refuse(std::string("\"patches\" must be an array of patches, not of type ") + list.type_name());
+    if (list.empty()) refuse("\"patches\" is empty");
+    Patches patches;
+    std::vector<bool> used(curves.names.size(), false);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      add_patch(list[i], "patch " + std::to_string(i), curves, used, patches);
+    const auto idle = std::find(used.begin(), used.end(), false);
+    if (idle != used.end()) {
+      refuse("curve " + quoted(view(curves.names)[idle - used.begin()]) + " is a side of no patch");
+    }
+    return patches;
+  }
+
+  // Returns the open state's curves, in the order of the closed state's curves.
+  Curves open_curves_of(const Json &open, const Curves &closed) const {
+    check_object(open, "\"open\"", {"curves"});
+    const Curves found = curves_of(open, "open: ");
+    for (const std::string &name : found.names) {
+      if (closed.position.count(name) == 0)
+        refuse("open: curve " + quoted(name) + " is not a curve of the closed state");
+    }
+    Curves ordered{closed.names, closed.position, {}, {}};
+    std::vector<std::size_t> begins = {0};
+    for (const std::int32_t degree : found.degrees) begins.push_back(begins.back() + 3 * n_control_points(degree));
+    for (std::size_t i = 0; i < closed.names.size(); ++i) {
+      const auto place = found.position.find(closed.names[i]);
+      if (place == found.position.end()) refuse("open: curve " + quoted(closed.names[i]) + " is missing");
+      const auto at = static_cast<std::size_t>(place->second);
+      check_degrees(closed.names[i], closed.degrees[i], found.degrees[at]);
+      ordered.degrees.push_back(found.degrees[at]);
+      ordered.control.insert(ordered.control.end(), found.control.begin() + static_cast<std::ptrdiff_t>(begins[at]),
+                             found.control.begin() + static_cast<std::ptrdiff_t>(begins[at + 1]));
+    }
+    return ordered;
+  }
+
+  void check_object(const Json &value, const std::string &subject, const std::vector<std::string> &keys) const {
+    check_keys(path_, subject, value, keys);
+  }
+
+  [[noreturn]] void refuse(const std::string &reason) const { refuse_file(path_, reason); }
+
+ private:
+  static std::size_t n_control_points(std::int32_t degree) { return static_cast<std::size_t>(degree) + 1; }
+
+  const Json &member(const Json &object, const char *key, const std::string &where) const {
+    const auto found = object.find(key);
+    if (found == object.end()) refuse(where + quoted(key) + " is missing");
+    return *found;
+  }
+
+  void check_name(const std::string &name, const std::string &where) const {
+    if (name.empty()) refuse(where + "a curve has an empty name");
+    if (name[0] == '-')
+      refuse(where + "curve " + quoted(name) + ": a name must not begin with a minus, which turns a side");
+  }
+
+  void check_degrees(const std::string &name, std::int32_t closed, std::int32_t open) const {
+    if (open == closed) return;
+    refuse("open: curve " + quoted(name) + " has degree " + std::to_string(open) + ", in the closed state " +
+           std::to_string(closed));
+  }
+
+  void add_points(const Json &points, const std::string &curve, Curves &curves) const {
+    if (!points.is_array()) refuse(curve + " must be an array of 1 to 4 points, not of type " + points.type_name());
+    if (points.empty() || points.size() > 4) {
+      refuse(curve + " has " + std::to_string(points.size()) + " points; it must have 1 to 4");
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      add_point(points[i], curve + ": point " + std::to_string(i), curves);
+    // A side that collapses to a point is stored as a line without length.
+    if (points.size() == 1) add_point(points[0], curve, curves);
+    curves.degrees.push_back(std::max(1, static_cast<std::int32_t>(points.size()) - 1));
+  }
+
+  void add_point(const Json &point, const std::string &subject, Curves &curves) const {
+    const bool is_point = point.is_array() && point.size() == 3 &&
+                          std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
+    if (!is_point) refuse(subject + " is " + json_text(point) + "; it must be three numbers, [x, y, z]");
+    for (const Json &x : point) curves.control.push_back(x.get<double>());
+  }
+
+  void add_patch(const Json &patch, const std::string &subject, const Curves &curves, std::vector<bool> &used,
+                 Patches &patches) const {
+    check_object(patch, subject, {"v0", "v1", "u0", "u1", "leaflet"});
+    for (const char *key : side_keys) {
+      const Json &side = member(patch, key, subject + ": ");
+      if (!side.is_string())
+        refuse(subject + ": " + key + " is " + json_text(side) + "; it must be the name of a curve");
+      const std::string &text = side.get_ref<const std::string &>();
+      const bool reversed = !text.empty() && text[0] == '-';
+      const auto found = curves.position.find(text.substr(reversed ? 1 : 0));
+      if (found == curves.position.end())
+        refuse(subject + ": " + key + " is " + quoted(text) + "; there is no such curve");
+      used[static_cast<std::size_t>(found->second)] = true;
+      patches.curve_ids.push_back(found->second);
+      patches.reversed.push_back(reversed ? 1 : 0);
+    }
+    const auto leaflet = patch.find("leaflet");
+    patches.leaflet_ids.push_back(leaflet == patch.end() ? 0 : leaflet_of(*leaflet, subject));
+  }
+
+  std::int32_t leaflet_of(const Json &value, const std::string &subject) const {
+    constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
+    // The comparison also refuses a negative number, which as an unsigned number is too large.
+    if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
+      refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
+             std::to_string(most));
+    }
+    return value.get<std::int32_t>();
+  }
+
+  const std::string &path_;
+};
+
+// Replaces numbers of curves and the library's names of sides in a library message by the file's names.
+std::string with_names(std::string text, const Curves &curves, const Patches &patches) {
+  std::smatch match;
+  if (std::regex_search(text, match, std::regex("curve ([0-9]+)"))) {
+    const std::size_t curve = std::stoul(match[1]);
+    if (curve < curves.names.size()) {
+      return match.prefix().str() + "curve " + quoted(curves.names[curve]) + match.suffix().str();
+    }
+  }
+  if (!std::regex_search(text, match, std::regex("patch ([0-9]+)"))) return text;
+  const std::size_t patch = std::stoul(match[1]);
+  if (4 * patch + 3 >= patches.curve_ids.size()) return text;
+  for (std::size_t k = 0; k < side_keys.size(); ++k) {
+    const std::string key = side_keys[k];
+    const std::string counted = std::string("side ") + key[0] + " = " + key[1];
+    const std::size_t place = text.find(counted), side = 4 * patch + k;
+    if (place == std::string::npos) continue;
+    const std::string &name = view(curves.names)[patches.curve_ids[side]];
+    text.replace(place, counted.size(), key + " " + quoted((patches.reversed[side] ? "-" : "") + name));
+  }
+  return text;
+}
+
+Valve make_valve(const Reader &reader, const Curves &curves, const Patches &patches, const std::string &where) {
+  riis_patches arrays;
+  check(riis_patches_init(&arrays, sizeof arrays));
+  arrays.n_curves = view(curves.degrees).size();
+  arrays.degree = curves.degrees.data();
+  arrays.control = curves.control.data();
+  arrays.n_patches = view(patches.leaflet_ids).size();
+  arrays.curve_id = patches.curve_ids.data();
+  arrays.reversed = patches.reversed.data();
+  arrays.leaflet_id = patches.leaflet_ids.data();
+  riis_valve *valve = nullptr;
+  const riis_status status = riis_valve_create_from_patches(&arrays, &valve);
+  if (status == RIIS_INVALID_PARAMETER || status == RIIS_INVALID_ARGUMENT) {
+    reader.refuse(where + with_names(riis_last_error(), curves, patches));
+  }
+  check(status);
+  return Valve(valve);
+}
+
+}  // namespace
+
+bool is_valve_file(const std::string &valve) {
+  const std::string ending = ".json";
+  const auto same = [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b); };
+  return valve.size() >= ending.size() && std::equal(ending.rbegin(), ending.rend(), valve.rbegin(), same);
+}
+
+ValveFile::ValveFile(const std::string &path) : path_(path) {
+  const Json root = parse_json_file(path, "curves and patches");
+  const Reader reader(path);
+  reader.check_object(root, "the file", {"curves", "patches", "open"});
+  const Curves curves = reader.curves_of(root, "");
+  const Patches patches = reader.patches_of(root, curves);
+  valve_ = make_valve(reader, curves, patches, "");
+  const auto open = root.find("open");
+  if (open == root.end()) return;
+  const Valve open_valve = make_valve(reader, reader.open_curves_of(*open, curves), patches, "open: ");
+  check(riis_valve_set_open_state(valve_.get(), open_valve.get()), path);
+  can_open_ = true;
+}
+
+void ValveFile::check_opening() const {
+  double opening = 0;
+  check(riis_valve_get(valve_.get(), "opening", 1, &opening));
+  if (opening != 0 && !can_open_) {
+    refuse_file(path_, "opening is " + json_text(opening) + ", but the file has no \"open\" state");
+  }
+}
+
+}  // namespace riis::program

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/leaks.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "program/base/handles.hpp"
+#include "program/base/ranks.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/mark/mesh_marking.hpp"
+#include "program/mark/warnings.hpp"
+
+namespace riis::program {
+
+KeyedEdge edge_between(NodeKey p, NodeKey q, double length) {
+  if (q < p) std::swap(p, q);
+  return {p, q, length, 0, {0, 0, 0}};
+}
+
+std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own) {
+  std::vector<KeyedEdge> all = ranks::gather(own);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness) {
+  riis_surface_options surface_options = options.surface_options;
+  surface_options.half_thickness = half_thickness;
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, &surface_options, &surface));
+  return Surface(surface);
+}
+
+namespace {
+
+// Rounds up to three digits, so that the number also closes the leaks when the user types it as printed.
+double rounded_up(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)) - 2);
+  for (int steps = 0;; ++steps) {
+    char text[64];
+    double rounded = 0;
+    const char *end = std::to_chars(text, text + sizeof text, x + steps * unit, std::chars_format::general, 3).ptr;
+    std::from_chars(text, end, rounded);
+    if (rounded >= x) return rounded;
+  }
+}
+
+}  // namespace
+
+// Each candidate must be tried, because a valve's triangles depend on the half thickness. The triangles of a file do not.
+double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left) {
+  constexpr int n_tries = 8;
+  double wanted = rounded_up(half_thickness);
+  if (!valve) return wanted;
+  try {
+    for (int i = 0; i < n_tries; ++i) {
+      const std::optional<double> needed = left(wanted);
+      if (!needed) return wanted;
+      wanted = rounded_up(std::max(*needed, 1.01 * wanted));
+    }
+  } catch (const Refusal &) {
+    // The warning is valid even without advice. There is no advice, for example, if a half thickness allows no surface, or if an
+    // end of a passage lies in the thicker band.
+  }
+  return 0;
+}
+
+namespace {
+
+// Returns the numbers of a list of leaks. Its pointers are null.
+riis_leak_list summary_of(const std::vector<KeyedEdge> &edges) {
+  riis_leak_list list{};
+  list.n_edges = view(edges).size();
+  list.longest_node_id[0] = list.longest_node_id[1] = -1;
+  for (const KeyedEdge &edge : edges) {
+    list.half_thickness = std::max(list.half_thickness, edge.distance);
+    if (edge.length <= list.longest_length) continue;
+    list.longest_length = edge.length;
+    std::copy_n(edge.middle, 3, list.longest_middle);
+  }
+  return list;
+}
+
+// --quiet does not silence this warning, because the valve lets flow through.
+void warn_of_leaks(const MarkOptions &options, const LeakReport &report, const std::string &surface,
+                   double half_thickness) {
+  const riis_leak_list &leaks = report.found;
+  const bool is_one = leaks.n_edges == 1;
+  const std::string length = shown(leaks.longest_length);
+  const std::string text =
+      surface + " leaks: " +
+      (is_one ? "1 edge of length " + length + " crosses it between two unmarked nodes"
+              : grouped(leaks.n_edges) + " edges cross it between two unmarked nodes, the longest (" + length + ")") +
+      " at " + place_text(options, leaks.longest_middle, leaks.longest_length);
+  std::string advice = "; ";
+  if (report.closing_half_thickness > 0)
+    advice += "--half-thickness " + shortest(report.closing_half_thickness) + " closes " + (is_one ? "it; " : "them; ");
+  warn({{Cause::leaks, text,
+         advice + "edges of at most two half thicknesses (" + shortest(2 * half_thickness) + ") do not leak"}});
+}
+
+}  // namespace
+
+MeshLeaks::MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
+                     const riis_valve *valve, std::string name)
+    : options_(options),
+      mesh_(mesh),
+      surface_(surface),
+      valve_(valve),
+      name_(std::move(name)),
+      info_(info_of(surface)) {
+  resize(boxes_, view(mesh.files()).size());
+  std::fill(boxes_.begin(), boxes_.end(), empty_box());
+}
+
+void MeshLeaks::add(Piece &piece, riis_marks *marks) {
+  view(boxes_)[piece.number] = piece.nodes.box();
+  if (!piece.nodes.box().meets(info_.lower, info_.upper)) return;
+  riis_mark_stats stats{};
+  check(riis_marks_get_stats(marks, &stats, sizeof stats));
+  add(piece, surface_, marks, info_.half_thickness, stats.complete != 0, found_);
+}
+
+void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
+                    bool is_complete, std::vector<KeyedEdge> &to) const {
+  // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
+  const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
+  const std::int32_t n_threads = options_.mark_options.n_threads;
+  riis_adjacency *handle = nullptr;
+  check(riis_vtk_mesh_create_long_edges(piece.file.get(), surface, is_exact ? 2 * half_thickness : 0, n_threads,
+                                        nullptr, &handle));
+  const Adjacency adjacency(handle);
+  riis_csr rows;
+  check(riis_adjacency_get_csr(handle, &rows, sizeof rows));
+  const FileNodes::Lent lent(*piece.mesh, rows);
+  riis_leaks *leaks_handle = nullptr;
+  check(riis_leaks_create(&leaks_handle));
+  const Leaks leaks(leaks_handle);
+  riis_mark_options how = options_.mark_options;
+  if (surface != surface_) how.search = RIIS_SEARCH_AUTO, how.distance_limit = RIIS_AUTO;
+  check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks_handle));
+  const riis_leak_list list = list_of(leaks_handle);
+  for (std::int64_t i = 0; i < list.n_edges; ++i) {
+    const std::int64_t a = list.node_id[2 * i], b = list.node_id[2 * i + 1];
+    KeyedEdge edge = edge_between(piece.nodes.key(a), piece.nodes.key(b), list.length[i]);
+    edge.distance = list.distance[i];
+    for (int k = 0; k < 3; ++k) edge.middle[k] = 0.5 * (piece.nodes.point(a)[k] + piece.nodes.point(b)[k]);
+    to.push_back(edge);
+  }
+}
+
+void MeshLeaks::judge(ValveReport &report) {
+  LeakReport &leaks = report.leaks;
+  const std::vector<KeyedEdge> edges = gathered(found_);
+  found_ = {};
+  leaks.found = summary_of(edges);
+  // In a whole mesh, the keys are the nodes' numbers.
+  for (const KeyedEdge &edge : edges)
+    if (mesh_.is_whole())
+      for (const NodeKey &end : {edge.p, edge.q}) leaks.edges.push_back(static_cast<std::int64_t>(end.a));
+  if (options_.check_leaks) return;
+  if (leaks.found.n_edges > 0) {
+    if (report.marks.complete)
+      leaks.closing_half_thickness =
+          closing_half_thickness(valve_, leaks.found.half_thickness, [&](double wanted) { return left(wanted); });
+    warn_of_leaks(options_, leaks, name_, report.surface.half_thickness);
+  }
+  if (!leaks.has_all_edges())
+    warn((leaks.found.n_edges > 0 ? "more leaks of " : "leaks of ") + name_ +
+         " are unknown: " + why_unknown(leaks, options_.mesh));
+}
+
+// Marks the pieces near the surface again with another half thickness.
+std::optional<double> MeshLeaks::left(double half_thickness) const {
+  const Surface surface = with_half_thickness(options_, valve_, half_thickness);
+  const riis_surface_info info = info_of(surface.get());
+  riis_mark_options how = options_.mark_options;
+  how.search = RIIS_SEARCH_AUTO;
+  how.distance_limit = RIIS_AUTO;
+  std::vector<KeyedEdge> found;
+  mesh_.for_wanted([&](std::int64_t number) { return view(boxes_)[number].meets(info.lower, info.upper); },
+                   [&](Piece &piece) {
+                     const Marks marks = new_result();
+                     check(riis_mark_nodes(surface.get(), piece.mesh->mesh(), &how, marks.get()));
+                     add(piece, surface.get(), marks.get(), half_thickness, true, found);
+                   });
+  const riis_leak_list left = summary_of(gathered(found));
+  return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
+}
+
+}  // namespace riis::program

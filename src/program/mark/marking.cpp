@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/marking.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/ranks.hpp"
+#include "program/base/refusal.hpp"
+#include "program/mark/mesh_marking.hpp"
+#include "program/mark/warnings.hpp"
+
+namespace riis::program {
+namespace {
+
+// Returns one surface of all valves at their present positions, or null for one valve. Refuses valves of different half
+// thicknesses.
+Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
+  if (valves.size() == 1) return nullptr;
+  const MovingValve &first = valves[0];
+  riis_surface_options together;
+  check(riis_surface_options_init(&together, sizeof together));
+  together.half_thickness = info_of(first.surface()).half_thickness;
+  for (const MovingValve &valve : valves) {
+    const double half_thickness = info_of(valve.surface()).half_thickness;
+    if (half_thickness != together.half_thickness)
+      throw Refusal{all.options.check_leaks->exit_code,
+                    all.options.check_leaks->subject + ": the valves must have one half thickness; that of " +
+                        first.options().prefix + " is " + shown(together.half_thickness) + ", that of " +
+                        valve.options().prefix + " " + shown(half_thickness)};
+  }
+  return joined_surface(valves, &together);
+}
+
+// Adds the numbers of a piece or a rank to those of others. The numbers of nodes are counted by NodeCounts.
+void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
+  if (all.n_threads == 0) all.search = stats.search;
+  all.complete = all.complete && stats.complete;
+  all.n_unreached += stats.n_unreached;
+  all.n_threads = std::max(all.n_threads, stats.n_threads);
+}
+
+void report_leak(const MovingValve &valve, FlowReport &flow) {
+  const std::optional<double> &R = valve.options().resistance;
+  if (!R || !(*R > 0)) return;
+  riis_resistance how;
+  check(riis_resistance_init(&how, sizeof how));
+  how.R = *R;
+  double leak = 0;
+  check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
+  flow.leak_per_drop = leak;
+  flow.drop = valve.options().drop;
+}
+
+// Moves each valve to the time at which its opening comes first in an order, and to the first such time if there are several.
+template <class Order>
+void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &valves, Order order) {
+  for (MovingValve &valve : valves) {
+    const OpeningLaw &law = valve.source().law;
+    valve.move_to(
+        *std::min_element(times.begin(), times.end(), [&](double a, double b) { return order(law.at(a), law.at(b)); }));
+  }
+}
+
+}  // namespace
+
+riis_mark_stats no_stats() {
+  riis_mark_stats none{};
+  none.complete = 1;
+  return none;
+}
+
+Marking::Marking(Case &all, const MeshPieces &mesh)
+    : all_(all),
+      mesh_(mesh),
+      valves_(moving_valves(all)),
+      times_(all.times()),
+      names_(names_of_arrays()),
+      wants_measures_(options().measures || !options().stats.empty() || options().check_leaks),
+      node_counts_((times_.size() + 1) * valves_.size()),
+      most_steps_(valves_.size()),
+      passage_(valves_.size() == 1 ? valves_[0].options() : options(), mesh) {
+  report_.times = options().series.times;
+  report_.seconds = all.seconds;
+  report_.prints_flow = options().measures || options().check_leaks;
+  move_to_least_openings();
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    report_.valves.push_back(report_of(i));
+    sums_.push_back({MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve.get(),
+                               all.surface_of(i))});
+  }
+}
+
+bool Marking::has_marks() const {
+  return std::any_of(n_marked_.begin(), n_marked_.end() - view(valves_).size(), [](std::int64_t n) { return n > 0; });
+}
+
+std::int32_t Marking::fields() const {
+  if (!all_.is_series()) return 0;
+  return RIIS_FIELD_NORMAL | RIIS_FIELD_SIDE | (has_velocities() ? RIIS_FIELD_VELOCITY : 0);
+}
+
+std::vector<std::string> Marking::names_of_arrays() const {
+  std::vector<std::string> names;
+  for (const ValveSource &valve : all_.valves) {
+    const std::vector<std::string> own = names_of_marks(valve.options.prefix, fields());
+    names.insert(names.end(), own.begin(), own.end());
+  }
+  if (all_.has_resistance()) names.push_back(options().prefix + "_K");
+  if (all_.has_resistance() && has_velocities()) names.push_back(options().prefix + "_K_u_surface");
+  if (all_.is_series() && !options().series.all_cells) names.emplace_back("riis_node_id");
+  return names;
+}
+
+// Returns the report of a valve's surface at its present position.
+ValveReport Marking::report_of(std::size_t i) {
+  const MovingValve &valve = valves_[i];
+  const MarkOptions &own = valve.options();
+  ValveReport report;
+  report.name = all_.part_of(i);
+  report.surface_name = own.surface.empty() ? own.valve : own.surface;
+  report.opening = valve.opening();
+  if (!all_.is_series()) report.time = own.time;
+  if (!own.leaflets.empty()) report.n_leaflets = count_leaflets(valve.surface());
+  report.surface = info_of(valve.surface());
+  if (valve.opening() && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
+  report.crossings = valve.crossings;
+  report_.seconds.surface += report.surface.seconds_triangles;
+  report_.seconds.scene += report.surface.seconds_scene;
+  return report;
+}
+
+// ---- Times ----
+
+// Leaks matter where a valve is least open. An open valve is not meant to stop the flow.
+void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
+
+void Marking::move_to_step(std::size_t step) {
+  const double time = times_[step];
+  for (MovingValve &valve : valves_) {
+    if (has_velocities())
+      valve.move_to(time, step == 0 ? time - (times_[1] - time) : times_[step - 1]);
+    else
+      valve.move_to(time);
+  }
+}
+
+void Marking::mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step) {
+  move_to_step(step);
+  for (MovingValve &valve : valves_) valve.mark(nodes, fields());
+  set_arrays(file);
+}
+
+// ---- Marks of a piece ----
+
+void Marking::measure(Piece &piece) {
+  counts_.add(piece);
+  loose_.add(piece.nodes);
+  if (!piece.mesh) return;
+  check_new_arrays(options(), names_, piece.file.get());
+  find_neighbors_for_search(piece);
+  for (MovingValve &valve : valves_) valve.forget_marks();
+  mark_at_all_times(piece);
+  if (all_.is_series()) mark_at_least_openings(*piece.mesh);
+  const Stage stage("looking for leaks", options().quiet);
+  // The neighbours are of use only if all edges of the piece are known.
+  const riis_vtk_sharing &cells = piece.nodes.counts();
+  const bool has_edges = cells.n_cells_left_out == 0 && (cells.n_volume_cells > 0 || !mesh_.is_whole());
+  if (options().check_leaks || (wants_measures_ && has_edges))
+    piece.mesh->find_neighbors(options().mark_options.n_threads);
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    ValveSums &sums = sums_[i];
+    combine(sums.marks, valves_[i].stats());
+    sums.leaks.add(piece, valves_[i].result());
+    node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
+    std::vector<std::int64_t> regions;
+    if (wants_measures_ && has_edges) regions = sums.band.add(piece, valves_[i].result(), options().mark_options);
+    if (i == 0 || !regions.empty()) sums.shared.push_back(shared_nodes_of(piece, regions));
+  }
+  passage_.add(piece);
+  report_.seconds.leaks += stage.seconds();
+  if (!all_.is_series()) set_arrays(piece.file.get());
+}
+
+void Marking::find_neighbors_for_search(Piece &piece) {
+  if (!needs_adjacency(options().mark_options.search)) return;
+  const Stage stage("finding the nodes' neighbours", options().quiet);
+  piece.mesh->find_neighbors(options().mark_options.n_threads);
+  report_.seconds.adjacency += stage.seconds();
+}
+
+// Also notes the nodes near the motion, and the box that contains all of it.
+void Marking::mark_at_all_times(Piece &piece) {
+  const Stage stage("marking", options().quiet || all_.is_series());
+  std::vector<std::uint8_t> is_near(all_.is_series() ? static_cast<std::size_t>(piece.nodes.n()) : 0);
+  std::optional<StepProgress> progress;
+  if (all_.is_series()) progress.emplace("finding the nodes near the sweep", times_.size(), options().quiet);
+  for (std::size_t step = 0; step < times_.size(); ++step) {
+    if (progress) progress->begin(step);
+    for (std::size_t i = 0; i < valves_.size(); ++i) {
+      valves_[i].move_to(times_[step]);
+      valves_[i].mark(*piece.mesh, 0);
+      node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_MARKED), marked_at(step, i));
+      if (!all_.is_series()) continue;
+      const riis_mark_list within = list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT);
+      for (std::int64_t k = 0; k < within.n_nodes; ++k) view(is_near)[within.node_id[k]] = 1;
+      if (options().series.movie.empty()) continue;
+      const riis_surface_info info = info_of(valves_[i].surface());
+      swept_.grow(info.lower, info.upper);
+    }
+  }
+  near_.clear();
+  for (std::size_t node = 0; node < is_near.size(); ++node)
+    if (is_near[node]) near_.push_back(static_cast<std::int64_t>(node));
+  report_.seconds.search += stage.seconds();
+}
+
+void Marking::mark_at_least_openings(FileNodes &nodes) {
+  move_to_least_openings();
+  for (MovingValve &valve : valves_) valve.mark(nodes, 0);
+}
+
+void Marking::set_arrays(riis_vtk_mesh *file) const {
+  std::int64_t n_nodes = 0;
+  check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
+  ResistanceSum resistance(n_nodes,
+                           has_velocities() ? ResistanceSum::WithVelocity::yes : ResistanceSum::WithVelocity::no);
+  for (const MovingValve &valve : valves_) {
+    set_marks(valve.options(), valve.result(), fields(), file);
+    resistance.add(valve.options(), valve.result());
+  }
+  resistance.set_arrays(options().prefix, file);
+}
+
+// ---- Results of all pieces ----
+
+void Marking::judge() {
+  const MeshCounts counts = sum_of(counts_, mesh_);
+  std::vector<MatchedNodes> matched;
+  for (ValveSums &sums : sums_)
+    matched.push_back(match_nodes(std::move(sums.shared), counts.n_with_ids > 0, mesh_.files()));
+  loose_.check(mesh_);
+  const std::int64_t n_nodes = counts.n_nodes + matched[0].n_nodes;
+  n_marked_ = node_counts_.sums();
+  report_.mesh_name = options().mesh;
+  report_.n_cells = counts.n_cells;
+  for (std::size_t i = 0; i < valves_.size(); ++i) report_marks(i, n_nodes, counts);
+  warn_of_apart(counts, matched[0], mesh_);
+  warn_of_marks(n_nodes, counts);
+  if (all_.is_series()) move_to_least_openings();
+  const Stage stage("looking for leaks", options().quiet);
+  for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].leaks.judge(report_.valves[i]);
+  for (std::size_t i = 0; wants_measures_ && i < valves_.size(); ++i) {
+    ValveReport &valve = report_.valves[i];
+    if (valve.leaks.has_all_edges()) sums_[i].band.judge(matched[i], valve.surface.half_thickness, valve.flow);
+    report_leak(valves_[i], valve.flow);
+  }
+  if (options().check_leaks) {
+    const Surface joined = joined_for_passage(all_, valves_);
+    passage_.judge(joined ? joined.get() : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve.get(),
+                   joined ? "the surface of all valves" : "the surface", counts, report_);
+  }
+  report_orifices();
+  report_.seconds.leaks += stage.seconds();
+}
+
+// Fills the report of a valve. The marks are those of its least opening.
+void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts) {
+  ValveReport &report = report_.valves[i];
+  const MovingValve &valve = valves_[i];
+  riis_mark_stats &stats = report.marks = no_stats();
+  for (const riis_mark_stats &of_rank : ranks::gather(std::vector<riis_mark_stats>{sums_[i].marks}))
+    combine(stats, of_rank);
+  stats.n_nodes = n_nodes;
+  std::size_t least = 0, most = 0;
+  for (std::size_t step = 0; step < times_.size(); ++step) {
+    const OpeningLaw &law = valve.source().law;
+    if (law.at(times_[step]) < law.at(times_[least])) least = step;
+    if (n_marked_[marked_at(step, i)] > n_marked_[marked_at(most, i)]) most = step;
+  }
+  most_steps_[i] = most;
+  stats.n_marked = n_marked_[marked_at(least, i)];
+  stats.n_within_limit = n_marked_[within_limit(i)];
+  const double limit = valve.options().mark_options.distance_limit;
+  report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
+  report.distance = valve.options().surface_options.measure;
+  report.leaks.n_volume_cells = counts.n_volume_cells;
+  report.leaks.n_cells_left_out = counts.n_cells_left_out;
+}
+
+// Warns of suspicious marks. Judges each valve at the time when it marks most nodes.
+void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
+  std::vector<Warning> warnings;
+  bool are_complete = true;
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    are_complete = are_complete && report_.valves[i].marks.complete;
+    valves_[i].move_to(times_[most_steps_[i]]);
+    const riis_surface_info info = all_.is_series() ? info_of(valves_[i].surface()) : report_.valves[i].surface;
+    Situation situation{valves_[i].options(),
+                        n_nodes,
+                        n_marked_[marked_at(most_steps_[i], i)],
+                        counts.box,
+                        {},
+                        counts.median_edge,
+                        info.area,
+                        info.half_thickness};
+    std::copy_n(info.lower, 3, situation.surface.lower);
+    std::copy_n(info.upper, 3, situation.surface.upper);
+    auto warning = warning_of(situation);
+    if (!warning) continue;
+    const std::string part = all_.part_of(i);
+    warning->text.insert(0, part.empty() ? "" : part + ": ");
+    warnings.push_back(*warning);
+  }
+  if (!are_complete) warn_of_incomplete_marks();
+  warn(warnings);
+}
+
+// Measures the orifices. In a series, each valve is measured where it is most open.
+void Marking::report_orifices() {
+  if (!wants_measures_) return;
+  if (all_.is_series()) move_to_first(times_, valves_, std::greater<>());
+  for (std::size_t i = 0; i < valves_.size(); ++i) {
+    riis_orifice orifice;
+    check(riis_surface_get_orifice(valves_[i].surface(), nullptr, &orifice, sizeof orifice));
+    if (orifice.outline == RIIS_OUTLINE_NONE) continue;
+    report_.valves[i].flow.orifice = orifice;
+    if (all_.is_series() || valves_.size() > 1) report_.valves[i].flow.orifice_opening = valves_[i].opening();
+  }
+}
+
+}  // namespace riis::program

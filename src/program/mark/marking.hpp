@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the valves and the times of a case, and the pieces of a mesh, one by one. Out: marks in the pieces, and the report about
+// all of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/box.hpp"
+#include "program/input/case.hpp"
+#include "program/mark/band.hpp"
+#include "program/mark/file_nodes.hpp"
+#include "program/mark/leaks.hpp"
+#include "program/mark/mesh_pieces.hpp"
+#include "program/mark/moving_valve.hpp"
+#include "program/mark/passage.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+// Returns the numbers of no marking at all.
+riis_mark_stats no_stats();
+
+class Marking {
+ public:
+  // Makes the surfaces of the valves. The case and the mesh must outlive this object.
+  Marking(Case &all, const MeshPieces &mesh);
+
+  // Marks a piece by all valves at all times, and notes what the report needs. Without a series, the piece gets its arrays.
+  void measure(Piece &piece);
+  // Completes the report, except for times and files, and warns. All ranks must have measured their pieces.
+  void judge();
+  // Moves the valves to a step of a series.
+  void move_to_step(std::size_t step);
+  // Moves the valves to a step, marks the nodes of a file, and sets its arrays.
+  void mark_step(FileNodes &nodes, riis_vtk_mesh *file, std::size_t step);
+
+  std::vector<MovingValve> &valves() { return valves_; }
+  Report &report() { return report_; }
+  const std::vector<double> &times() const { return times_; }
+  // Both functions need a judged marking. n_marked is the number of marked nodes of all pieces.
+  std::int64_t n_marked(std::size_t step, std::size_t valve) const { return view(n_marked_)[marked_at(step, valve)]; }
+  bool has_marks() const;
+  // Returns the nodes of the last piece that are within the distance limit at some time of a series.
+  const std::vector<std::int64_t> &near_nodes() const { return near_; }
+  // Returns the box around all surfaces at all times, for a movie.
+  const Box &swept() const { return swept_; }
+
+ private:
+  // What one valve needs of all pieces.
+  struct ValveSums {
+    MeshLeaks leaks;
+    riis_mark_stats marks = no_stats();
+    BandMeasures band{};
+    std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
+  };
+
+  const MarkOptions &options() const { return all_.options; }
+  // A single time has no time before it, and thus no velocities.
+  bool has_velocities() const { return times_.size() > 1; }
+  std::int32_t fields() const;
+  std::vector<std::string> names_of_arrays() const;
+  // Returns the report of a valve's surface at its present position.
+  ValveReport report_of(std::size_t i);
+  // Kinds of node counts: the marked nodes at each step, then those within the limit at the least opening.
+  std::size_t marked_at(std::size_t step, std::size_t valve) const { return step * valves_.size() + valve; }
+  std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
+
+  void move_to_least_openings();
+  void find_neighbors_for_search(Piece &piece);
+  void mark_at_all_times(Piece &piece);
+  void mark_at_least_openings(FileNodes &nodes);
+  void set_arrays(riis_vtk_mesh *file) const;
+  void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
+  void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);
+  void report_orifices();
+
+  Case &all_;
+  const MeshPieces &mesh_;
+  std::vector<MovingValve> valves_;
+  Report report_;
+  const std::vector<double> times_;
+  const std::vector<std::string> names_;
+  const bool wants_measures_;
+  MeshCounts counts_;
+  LooseNodes loose_;
+  NodeCounts node_counts_;
+  std::vector<std::int64_t> n_marked_;   // by kind of node_counts_, once all pieces are marked
+  std::vector<std::size_t> most_steps_;  // by valve: the step with most marked nodes
+  std::vector<std::int64_t> near_;
+  Box swept_ = empty_box();
+  std::vector<ValveSums> sums_;  // by valve
+  PassageCheck passage_;
+};
+
+}  // namespace riis::program

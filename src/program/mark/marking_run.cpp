@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/marking_run.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/ranks.hpp"
+#include "program/input/case_file.hpp"
+#include "program/input/mesh_reading.hpp"
+#include "program/mark/marking.hpp"
+#include "program/mark/mesh_marking.hpp"
+#include "program/output/marked_files.hpp"
+#include "program/output/outputs.hpp"
+#include "program/output/pictures.hpp"
+
+namespace riis::program {
+namespace {
+
+void refuse_option(const std::string &option, const std::string &why) { refuse_usage(option + ": " + why); }
+
+// Refuses options that need the whole mesh at once.
+void check_options_of_pieces(const MarkOptions &options) {
+  const auto refuse_if = [&](bool is_given, const std::string &option, const std::string &why) {
+    if (is_given) refuse_option(option, why + ", and " + options.mesh + " is read in pieces");
+  };
+  refuse_if(!options.pictures.empty(), "--picture", "a picture needs the whole mesh");
+  refuse_if(!options.series.movie.empty(), "--movie", "a movie needs the whole mesh");
+  refuse_if(options.at_cells, "--cells", "cells at the border of a piece have neighbours in another piece");
+  refuse_if(options.n_steps > 0, "--steps", "steps are timed in the whole mesh");
+  refuse_if(options.mark_options.search == RIIS_SEARCH_PAPER, "--search paper",
+            "this search walks through the whole mesh");
+}
+
+// Refuses options that have an effect only in a series, if there is no series.
+void check_one_time(const MarkOptions &options) {
+  const SeriesOptions &series = options.series;
+  const auto refuse_if = [&](bool is_given, const std::string &option) {
+    if (is_given) refuse_usage(option + " needs times: " + series.case_file + " has none, and --times is not given");
+  };
+  refuse_if(!series.movie.empty(), "--movie");
+  refuse_if(!series.table.empty(), "--series-table");
+  refuse_if(series.all_cells && !options.at_cells, "--all-cells");
+}
+
+// Refuses --first-passage unless there is one valve that opens.
+void check_first_passage(const Case &all) {
+  if (!all.options.first_passage) return;
+  if (!all.valves[0].options.surface.empty())
+    refuse_usage("--first-passage needs a valve; a surface from a file does not open");
+  if (all.valves.size() > 1)
+    refuse_usage("--first-passage takes one valve, because each of several may close the way of another");
+}
+
+// Returns a text such as "12.3 MB".
+std::string bytes_text(double n) {
+  const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
+  char text[32];
+  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.3g %s", n, units[unit]);
+  return text;
+}
+
+MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {
+  riis_vtk_mesh *part = nullptr;
+  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
+  return MeshFile(part);
+}
+
+MeshFile copy_of(const riis_vtk_mesh *file, std::int64_t n_nodes) {
+  std::vector<std::int64_t> all(static_cast<std::size_t>(n_nodes));
+  std::iota(all.begin(), all.end(), 0);
+  return part_of(file, all);
+}
+
+void write_stats(const MarkOptions &options, const Report &report) {
+  if (!options.stats.empty()) write_text(options.stats, json_of(report));
+}
+
+// Marks the pieces of a mesh, and writes all files.
+class MarkingRun {
+ public:
+  MarkingRun(Case &all, const MeshPieces &mesh)
+      : all_(all),
+        mesh_(mesh),
+        marking_(all, mesh),
+        times_(marking_.times()),
+        valves_(marking_.valves()),
+        report_(marking_.report()),
+        files_(all, mesh),
+        surfaces_(all.is_series() ? all.options.surface_output : "", ".vtp", times_.size()),
+        seconds_(times_.size()) {}
+
+  // Returns whether all steps are complete. A signal stops a series.
+  bool run() {
+    if (all_.options.mesh.empty()) {
+      write_surface();
+      draw(nullptr);
+      return true;
+    }
+    if (!mesh_.is_whole()) begin_writing();
+    mesh_.for_each_own(
+        [&](Piece &piece) {
+          if (UnbrokenWrite::has_signal()) return;
+          marking_.measure(piece);
+          // The warnings about a whole mesh come before its files are written, which may take long.
+          if (mesh_.is_whole()) marking_.judge();
+          write(piece);
+        },
+        &report_.seconds);
+    return mesh_.is_whole() ? n_done_ == times_.size() : finish_pieces();
+  }
+
+  const Report &report() const { return report_; }
+  std::size_t n_done() const { return n_done_; }
+  bool has_marks() const { return marking_.has_marks(); }
+
+ private:
+  void begin_writing() {
+    // In a series, a signal such as Ctrl-C waits for the end of a step. So even then the lists are written and the movie's frames
+    // are removed.
+    if (all_.is_series()) unbroken_.emplace();
+    if (ranks::is_first()) {
+      files_.make_folder();
+      surfaces_.make_folder();
+    }
+    ranks::agree();
+  }
+
+  void write(Piece &piece) {
+    if (all_.is_series()) return write_steps(piece);
+    if (piece.mesh) piece.mesh->forget_neighbors();
+    if (all_.options.n_steps > 0)
+      report_.step = time_steps(valves_[0].options(), valves_[0].source().valve.get(), piece.file.get());
+    if (mesh_.is_whole()) write_surface();
+    const Stage stage("writing", all_.options.quiet);
+    files_.write(piece.number, 0, piece.file.get());
+    report_.seconds.write += stage.seconds();
+    if (!mesh_.is_whole()) return;
+    files_.report(report_);
+    n_done_ = 1;
+    draw(std::move(piece.file));
+  }
+
+  void write_surface() {
+    if (all_.options.surface_output.empty()) return;
+    const Stage stage("writing", all_.options.quiet);
+    const UnbrokenWrite unbroken;
+    const Surface joined = valves_.size() > 1 ? joined_surface(valves_) : nullptr;
+    if (ranks::is_first())
+      check(riis_vtk_surface_write(joined ? joined.get() : valves_[0].surface(), all_.options.surface_output.c_str()));
+    report_.written.push_back(all_.options.surface_output);
+    report_.seconds.write += stage.seconds();
+  }
+
+  // Draws the pictures of one time.
+  void draw(MeshFile file) {
+    if (!RunPictures::are_wanted(all_.options)) return;
+    try {
+      RunPictures(all_, std::move(file), marking_.swept()).draw(0, valves_, report_);
+    } catch (const Refusal &) {
+      // The statistics are written even if drawing failed, because the marks are valid.
+      write_stats(all_.options, report_);
+      throw;
+    }
+  }
+
+  // Writes the part of a piece at each time. A piece that the valves do not come near has no files.
+  void write_steps(Piece &piece) {
+    if (!mesh_.is_whole() && !(files_.is_wanted() && piece.mesh)) return;
+    if (!unbroken_) unbroken_.emplace();
+    const std::int64_t n_of_piece = piece.nodes.n();
+    piece.mesh.reset();
+    MeshFile file =
+        all_.options.series.all_cells ? std::move(piece.file) : part_of(piece.file.get(), marking_.near_nodes());
+    std::optional<RunPictures> pictures;
+    // Pictures get a mesh of their own, because they show the whole mesh and store other arrays in it.
+    if (RunPictures::are_wanted(all_.options))
+      pictures.emplace(all_, piece.file ? std::move(piece.file) : copy_of(file.get(), n_of_piece), marking_.swept());
+    piece.file.reset();
+    FileNodes nodes(file.get(), piece.path);
+    if (mesh_.is_whole()) {
+      announce(nodes, file.get(), n_of_piece);
+      begin_writing();
+      lists_.emplace([this](bool is_last) { write_lists(is_last); });
+    } else if (nodes.n() == 0) {
+      return;
+    }
+    try {
+      write_steps(piece.number, nodes, file.get(), pictures ? &*pictures : nullptr);
+    } catch (...) {
+      if (lists_) lists_->end();
+      throw;
+    }
+    if (!mesh_.is_whole()) return;
+    lists_->end();
+    if (pictures && !UnbrokenWrite::has_signal()) pictures->encode(report_);
+    report_files();
+  }
+
+  void write_steps(std::int64_t piece, FileNodes &nodes, riis_vtk_mesh *file, RunPictures *pictures) {
+    StepProgress progress("writing", times_.size(), all_.options.quiet);
+    for (std::size_t step = 0; step < times_.size() && !UnbrokenWrite::has_signal(); ++step) {
+      progress.begin(step);
+      const Stage stage("", true);
+      marking_.mark_step(nodes, file, step);
+      const double marking = stage.seconds();
+      files_.write(piece, step, file);
+      seconds_[step] += marking;
+      report_.seconds.search += marking;
+      report_.seconds.write += stage.seconds() - marking;
+      if (mesh_.is_whole()) finish_step(step);
+      if (pictures) pictures->draw(step, valves_, report_);
+    }
+  }
+
+  // Prints the estimated size of all files. The estimate comes from the first step's file.
+  void announce(FileNodes &nodes, riis_vtk_mesh *file, std::int64_t n_nodes_of_mesh) {
+    if (!files_.has_list()) return;
+    if (!all_.options.series.all_cells) report_.n_written = nodes.n();
+    if (all_.options.quiet) return;
+    marking_.mark_step(nodes, file, 0);
+    std::int64_t n_bytes = 0;
+    check(riis_vtk_mesh_get_file_size(file, &n_bytes));
+    const auto n = static_cast<double>(times_.size());
+    std::fprintf(stderr, "riis: writing %s with %s of %s nodes, %s in all, to %s\n",
+                 counted(view(times_).size(), "file").c_str(), grouped(nodes.n()).c_str(),
+                 grouped(n_nodes_of_mesh).c_str(), bytes_text(n * static_cast<double>(n_bytes)).c_str(),
+                 files_.folder().c_str());
+  }
+
+  // Writes the surfaces of a step, at which the valves are, and notes that the step is complete.
+  void finish_step(std::size_t step) {
+    for (std::size_t i = 0; surfaces_.is_wanted() && i < valves_.size(); ++i)
+      if (ranks::is_first())
+        check(riis_vtk_surface_write(valves_[i].surface(), surfaces_.path_of(step, all_.part_of(i)).c_str()));
+    const auto note = [&] {
+      files_.add(step);
+      for (std::size_t i = 0; i < valves_.size(); ++i) {
+        if (surfaces_.is_wanted()) surfaces_.add(times_[step], i, surfaces_.path_of(step, all_.part_of(i)));
+        report_.valves[i].times.push_back(
+            {times_[step], valves_[i].opening(), marking_.n_marked(step, i), valves_[i].largest_speed()});
+      }
+      report_.seconds_of_steps.push_back(seconds_[step]);
+    };
+    if (lists_)
+      lists_->add(note);
+    else
+      note();
+    ++n_done_;
+  }
+
+  void write_lists(bool is_last) const {
+    files_.write_list();
+    surfaces_.write_list();
+    const std::string &table = all_.options.series.table;
+    if (!table.empty() && (is_last || can_be_replaced(table))) write_text(table, csv_of(report_));
+  }
+
+  // Judges and lists the files, after all ranks have written their pieces. Returns whether all pieces are written.
+  bool finish_pieces() {
+    const std::vector<int> stopped = ranks::gather(std::vector<int>{UnbrokenWrite::has_signal() ? 1 : 0});
+    const bool is_stopped = std::find(stopped.begin(), stopped.end(), 1) != stopped.end();
+    if (!is_stopped) marking_.judge();
+    const Stage stage("writing", all_.options.quiet);
+    files_.list_pieces();
+    report_.seconds.write += stage.seconds();
+    if (is_stopped) {
+      files_.write_list();
+      return false;
+    }
+    if (!all_.is_series()) {
+      write_surface();
+      files_.report(report_);
+      return true;
+    }
+    for (std::size_t step = 0; step < times_.size(); ++step) {
+      marking_.move_to_step(step);
+      finish_step(step);
+    }
+    ranks::agree();
+    write_lists(true);
+    report_files();
+    return true;
+  }
+
+  void report_files() {
+    files_.report(report_);
+    surfaces_.report(report_);
+    if (!all_.options.series.table.empty()) report_.written.push_back(all_.options.series.table);
+  }
+
+  Case &all_;
+  const MeshPieces &mesh_;
+  Marking marking_;
+  const std::vector<double> &times_;
+  std::vector<MovingValve> &valves_;
+  Report &report_;
+  std::optional<UnbrokenWrite> unbroken_;  // lives until the summary is printed
+  MarkedFiles files_;
+  SeriesFiles surfaces_;  // of a series
+  std::optional<SeriesLists> lists_;
+  std::vector<double> seconds_;  // of marking, by step
+  std::size_t n_done_ = 0;       // number of complete steps
+};
+
+void write_report(const MarkOptions &options, const Report &report) {
+  write_stats(options, report);
+  if (!options.quiet && options.stats != "-") write_text("-", take_notes() + table_of(report));
+}
+
+}  // namespace
+
+Report mark_case(Case &all, const MeshPieces &mesh) {
+  MarkingRun run(all, mesh);
+  run.run();
+  return run.report();
+}
+
+namespace {
+
+ExitCode run_case(Case &all) {
+  MarkOptions &options = all.options;
+  if (!all.is_series()) check_one_time(options);
+  check_first_passage(all);
+  if (is_in_pieces(options.mesh)) check_options_of_pieces(options);
+  const MeshPieces mesh(options);
+  std::optional<ranks::Alone> alone;  // only a mesh in pieces gives work to more than one rank
+  if (mesh.is_whole()) {
+    if (!ranks::is_first()) return exit_fine;
+    alone.emplace();
+  } else {
+    options.pieces = mesh.files();
+  }
+  check_views(options, all.valves.size(), all.valves[0].options);
+  const OutputLocks locks = check_outputs(options, all.files);
+  read_surfaces(all);
+  MarkingRun run(all, mesh);
+  if (run.run()) {
+    write_report(options, run.report());
+  } else if (ranks::is_first()) {
+    if (mesh.is_whole())
+      std::fprintf(stderr, "riis: interrupted: %zu of %zu written\n", run.n_done(), all.times().size());
+    else
+      std::fprintf(stderr, "riis: interrupted: not all pieces are written\n");
+  }
+  return options.mesh.empty() || options.allow_none || run.has_marks() ? exit_fine : exit_none_marked;
+}
+
+}  // namespace
+
+ExitCode run_mark(const MarkOptions &options) {
+  // The movie is checked before the case is read, because a case may have many files.
+  check_movie(options.series.movie);
+  Case all = options.series.case_file.empty() ? case_of_command_line(options) : read_case(options);
+  return run_case(all);
+}
+
+}  // namespace riis::program

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/mesh_marking.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/file_nodes.hpp"
+#include "program/mark/warnings.hpp"
+
+namespace riis::program {
+
+Marks new_result() {
+  riis_marks *result = nullptr;
+  check(riis_marks_create(&result));
+  return Marks(result);
+}
+
+bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
+
+void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
+  const double origin[3] = {0, 0, 0};
+  riis_mesh *mesh_handle = nullptr;
+  check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
+  const Mesh mesh(mesh_handle);
+  const Marks result = new_result();
+  riis_mark_options mark_options = options.mark_options;
+  if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
+  check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
+  riis_dense_arrays dense;
+  check(riis_dense_arrays_init(&dense, sizeof dense));
+  dense.n_nodes = 1;
+  dense.far_distance = options.far_distance;
+  check(riis_marks_get_dense(result.get(), &dense));
+  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result.get());
+}
+
+void warn_of_incomplete_marks() {
+  warn(
+      "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
+      "neighbor finds them");
+}
+
+void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
+  if (options.output.empty() || options.replace) return;
+  for (const std::string &name : names) {
+    int32_t has = 0;
+    check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
+    if (!has) continue;
+    throw Refusal{exit_wrong_usage, options.mesh + " already has an array " + name +
+                                        ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
+  }
+}
+
+std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields) {
+  std::vector<std::string> names = {prefix + "_marked", prefix + "_distance", prefix + "_leaflet"};
+  if (fields & RIIS_FIELD_NORMAL) names.push_back(prefix + "_normal");
+  if (fields & RIIS_FIELD_SIDE) names.push_back(prefix + "_side");
+  if (fields & RIIS_FIELD_VELOCITY) names.push_back(prefix + "_velocity");
+  return names;
+}
+
+void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
+  check(riis_vtk_mesh_set_marks(file, result, options.far_distance, options.prefix.c_str()));
+  check(riis_vtk_mesh_set_fields(file, result, fields, options.prefix.c_str()));
+}
+
+ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
+    : n_nodes_(n_nodes),
+      K_(static_cast<std::size_t>(n_nodes), 0.0),
+      K_u_surface_(with_velocity == WithVelocity::yes ? 3 * static_cast<std::size_t>(n_nodes) : 0, 0.0) {}
+
+void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
+  if (!options.resistance) return;
+  has_any_ = true;
+  riis_resistance how;
+  check(riis_resistance_init(&how, sizeof how));
+  how.R = *options.resistance;
+  riis_resistance_arrays to;
+  check(riis_resistance_arrays_init(&to, sizeof to));
+  to.n_nodes = n_nodes_;
+  to.K = K_.data();
+  for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
+  to.K_u_surface_stride = 3;
+  check(riis_marks_add_resistance(result, &how, &to), "--resistance");
+}
+
+void ResistanceSum::set_arrays(const std::string &prefix, riis_vtk_mesh *file) const {
+  if (!has_any_) return;
+  const std::string K = prefix + "_K", K_u_surface = prefix + "_K_u_surface";
+  check(riis_vtk_mesh_set_point_array(file, K.c_str(), n_nodes_, 1, K_.data()));
+  if (!K_u_surface_.empty())
+    check(riis_vtk_mesh_set_point_array(file, K_u_surface.c_str(), n_nodes_, 3, K_u_surface_.data()));
+}
+
+// ---- Steps ----
+
+namespace {
+
+// The times of the first steps do not count, because these steps sort the mesh's nodes and allocate memory that later steps
+// reuse.
+constexpr int n_first_steps = 2;
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file) {
+  const Stage stage("timing " + std::to_string(options.n_steps) + " steps", options.quiet);
+  const riis_mark_options &how = options.mark_options;
+  FileNodes nodes(file, options.mesh);
+  std::optional<FileNodes::Lent> lent;
+  if (needs_adjacency(how.search)) {
+    nodes.find_neighbors(how.n_threads);
+    lent.emplace(nodes);
+  }
+  const Valve moved = copy_of(valve);
+  riis_surface *handle = nullptr;
+  check(riis_surface_create(moved.get(), &options.surface_options, &handle));
+  const Surface surface(handle);
+  const Marks result = new_result();
+  std::vector<double> of_surface, of_marking;
+  // The opening goes up to 1, then down to 0, and so on.
+  double opening = opening_of(valve), change = opening_of_step;
+  for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
+    if (opening + change > 1 || opening + change < 0) change = -change;
+    opening = std::clamp(opening + change, 0.0, 1.0);
+    const auto begin = std::chrono::steady_clock::now();
+    check(riis_valve_set_scalar(moved.get(), "opening", opening), "--steps");
+    check(riis_surface_update(handle, moved.get(), nullptr), "--steps");
+    const double updated = seconds_since(begin);
+    check(riis_mark_nodes(handle, nodes.mesh(), &how, result.get()), options.mesh);
+    const double marked = seconds_since(begin);
+    if (i < n_first_steps) continue;
+    of_surface.push_back(updated);
+    of_marking.push_back(marked - updated);
+  }
+  riis_mark_stats stats{};
+  check(riis_marks_get_stats(result.get(), &stats, sizeof stats));
+  return {options.n_steps, stats.search, median(of_surface), median(of_marking)};
+}
+
+}  // namespace riis::program

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of a marking, and the arrays of a marked mesh.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/base/options.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+Marks new_result();
+
+// Marks a single node. So the library refuses bad options before a large mesh is read and marked.
+void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
+bool needs_adjacency(int32_t search);
+// Warns that some marks may be missing. --quiet does not silence this warning.
+void warn_of_incomplete_marks();
+
+// Refuses to replace an array of the mesh unless the user gave --replace.
+void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
+
+// Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
+std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
+void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
+
+// K and K u_surface at every node, summed over the valves that have a resistance.
+class ResistanceSum {
+ public:
+  enum class WithVelocity { no, yes };
+  ResistanceSum(int64_t n_nodes, WithVelocity with_velocity);
+  void add(const MarkOptions &options, const riis_marks *result);
+  // Sets PREFIX_K and PREFIX_K_u_surface. Sets no array if no valve had a resistance.
+  void set_arrays(const std::string &prefix, riis_vtk_mesh *file) const;
+
+ private:
+  int64_t n_nodes_;
+  std::vector<double> K_, K_u_surface_;
+  bool has_any_ = false;
+};
+
+// Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings.
+
+// Moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
+// Throws a Refusal for a valve that cannot move.
+StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file);
+
+}  // namespace riis::program

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/mesh_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "common/array_view.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/ranks.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/mesh_reading.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+
+bool is_in_pieces(const std::string &mesh) { return has_ending(mesh, ".pvtu"); }
+
+MeshPieces::MeshPieces(const MarkOptions &options) : options_(options), is_whole_(!is_in_pieces(options.mesh)) {
+  if (is_whole_) {
+    files_.push_back(options.mesh);
+    return;
+  }
+  riis_vtk_pieces *list = nullptr;
+  check(riis_vtk_pieces_read(path().c_str(), &list));
+  list_.reset(list);
+  std::int64_t n = 0;
+  const char *const *files = nullptr;
+  check(riis_vtk_pieces_get_files(list, &n, &files));
+  files_.assign(files, files + n);
+}
+
+MeshPieces::~MeshPieces() = default;
+
+MeshFile MeshPieces::read(std::int64_t piece) const {
+  if (is_whole_) {
+    MeshFile mesh = read_mesh_file(path());
+    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), path());
+    return mesh;
+  }
+  riis_vtk_mesh *mesh = nullptr;
+  check(riis_vtk_pieces_read_mesh(list_.get(), piece, &mesh));
+  return MeshFile(mesh);
+}
+
+void MeshPieces::finished(std::int64_t) const {}
+
+void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds) const {
+  for_wanted([](std::int64_t) { return true; }, work, seconds);
+}
+
+void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
+                            const std::function<void(Piece &)> &work, Seconds *seconds) const {
+  const auto read_piece = [&](std::int64_t number) {
+    const std::string &file_path = view(files_)[number];
+    const Stage stage("reading " + file_path, options_.quiet);
+    MeshFile file = read(number);
+    const double reading = stage.seconds();
+    auto piece = std::make_unique<Piece>(number, file_path, std::move(file), options_, is_whole_);
+    if (seconds) {
+      seconds->read += reading;
+      seconds->mesh += stage.seconds() - reading;
+    }
+    return piece;
+  };
+  try {
+    for (std::int64_t number = ranks::rank(); number < view(files_).size(); number += ranks::n_ranks()) {
+      if (!is_wanted(number)) continue;
+      if (is_whole_) {
+        if (!held_) held_ = read_piece(number);
+        work(*held_);
+        continue;
+      }
+      work(*read_piece(number));
+      if (seconds) finished(number);
+      release_free_memory();
+    }
+  } catch (const Refusal &refusal) {
+    if (ranks::n_ranks() > 1) ranks::agree(&refusal);
+    throw;
+  }
+}
+
+// ---- Nodes ----
+
+namespace {
+
+std::uint64_t mixed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+std::uint64_t hash_of(const double *point, std::uint64_t seed) {
+  std::uint64_t hash = seed;
+  for (int k = 0; k < 3; ++k) {
+    const double x = point[k] + 0.0;  // -0 becomes 0
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    hash = mixed(hash ^ bits);
+  }
+  return hash;
+}
+
+}  // namespace
+
+PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const MarkOptions &how, bool is_whole)
+    : is_whole_(is_whole) {
+  check(riis_vtk_mesh_get_nodes(file, &n_, &counts_.n_cells, &xyz_));
+  if (is_whole_) {
+    // The neighbours of all centres are known.
+    std::int64_t *const n_left_out = how.at_cells ? nullptr : &counts_.n_cells_left_out;
+    check(riis_vtk_mesh_get_volume_cells(file, &counts_.n_volume_cells, n_left_out));
+    find_box();
+    return;
+  }
+  role_.resize(static_cast<std::size_t>(n_));
+  riis_status status = riis_vtk_mesh_get_sharing(file, n_, role_.data(), nullptr, &counts_, sizeof counts_);
+  if (status == RIIS_FILE_ERROR) throw Refusal{exit_bad_data, path + ": " + riis_last_error()};
+  check(status);
+  if (has_ids()) {
+    ids_.resize(role_.size());
+    check(riis_vtk_mesh_get_sharing(file, n_, role_.data(), ids_.data(), &counts_, sizeof counts_));
+  }
+  find_box();
+  if (std::find(role_.begin(), role_.end(), RIIS_VTK_NODE_GHOST) == role_.end()) return;
+  mask_.resize(role_.size());
+  std::transform(role_.begin(), role_.end(), mask_.begin(),
+                 [](std::uint8_t role) { return static_cast<std::uint8_t>(role != RIIS_VTK_NODE_GHOST); });
+}
+
+void PieceNodes::find_box() {
+  for (std::int64_t i = 0; i < n_; ++i)
+    if (!is_ghost(i)) box_.grow(point(i));
+}
+
+NodeKey PieceNodes::key(std::int64_t node) const {
+  if (is_whole_) return {static_cast<std::uint64_t>(node), 0};
+  const std::uint64_t first = hash_of(point(node), 0x243f6a8885a308d3);
+  if (has_ids()) return {static_cast<std::uint64_t>(id(node)), first};
+  return {first, hash_of(point(node), 0x13198a2e03707344)};
+}
+
+Piece::Piece(std::int64_t its_number, std::string its_path, MeshFile its_file, const MarkOptions &how, bool is_whole)
+    : number(its_number), path(std::move(its_path)), file(std::move(its_file)), nodes(file.get(), path, how, is_whole) {
+  if (is_whole || nodes.n() > 0) mesh.emplace(file.get(), path);
+}
+
+// ---- Counts ----
+
+void MeshCounts::add(const Piece &piece) {
+  const PieceNodes &nodes = piece.nodes;
+  n_cells += nodes.counts().n_cells;
+  n_volume_cells += nodes.counts().n_volume_cells;
+  n_cells_left_out += nodes.counts().n_cells_left_out;
+  if (nodes.n() == 0) return;
+  ++n_with_nodes;
+  n_with_ids += nodes.has_ids();
+  for (std::int64_t i = 0; i < nodes.n(); ++i) n_nodes += nodes.is_inside(i);
+  box.grow(nodes.box());
+  MeshCounts edges;
+  check(riis_vtk_mesh_get_median_edge(piece.file.get(), &edges.median_edge));
+  if (edges.median_edge > 0) edges.n_edge_cells = static_cast<double>(nodes.counts().n_cells);
+  add(edges);
+}
+
+void MeshCounts::add(const MeshCounts &other) {
+  n_nodes += other.n_nodes;
+  n_cells += other.n_cells;
+  n_volume_cells += other.n_volume_cells;
+  n_cells_left_out += other.n_cells_left_out;
+  n_with_nodes += other.n_with_nodes;
+  n_with_ids += other.n_with_ids;
+  box.grow(other.box);
+  if (other.n_edge_cells == 0) return;
+  n_edge_cells += other.n_edge_cells;
+  median_edge += (other.median_edge - median_edge) * (other.n_edge_cells / n_edge_cells);
+}
+
+MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh) {
+  MeshCounts all;
+  for (const MeshCounts &counts : ranks::gather(std::vector<MeshCounts>{own})) all.add(counts);
+  if (all.n_with_nodes == 0) throw Refusal{exit_bad_data, mesh.path() + ": no piece holds points"};
+  if (all.n_with_ids != 0 && all.n_with_ids != all.n_with_nodes)
+    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " +
+                                     std::to_string(all.n_with_nodes) +
+                                     " pieces have global ids; all or none must have them"};
+  return all;
+}
+
+void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const MeshPieces &mesh) {
+  if (counts.n_with_nodes < 2 || matched.n_in_several > 0 || counts.n_volume_cells == 0) return;
+  warn("the pieces of " + mesh.path() +
+       " share no node, so nothing passes from one to another: nodes are the same if their global ids or all their "
+       "coordinates are equal");
+}
+
+// ---- Matching ----
+
+std::vector<SharedNode> shared_nodes_of(const Piece &piece, const std::vector<std::int64_t> &regions) {
+  const PieceNodes &nodes = piece.nodes;
+  std::vector<SharedNode> shared;
+  if (nodes.is_whole()) return shared;
+  std::int64_t n_shared = 0;
+  for (std::int64_t i = 0; i < nodes.n(); ++i) n_shared += nodes.is_shared(i);
+  shared.reserve(static_cast<std::size_t>(n_shared));
+  for (std::int64_t i = 0; i < nodes.n(); ++i) {
+    const std::int64_t region = regions.empty() ? -1 : view(regions)[i];
+    if (nodes.is_shared(i))
+      shared.push_back({nodes.key(i), static_cast<std::int32_t>(region), static_cast<std::int32_t>(piece.number)});
+  }
+  return shared;
+}
+
+namespace {
+
+std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piece) {
+  std::size_t n = 0;
+  for (const auto &nodes : by_piece) n += nodes.size();
+  std::vector<SharedNode> all;
+  all.reserve(n);
+  for (auto &nodes : by_piece) {
+    all.insert(all.end(), nodes.begin(), nodes.end());
+    nodes = {};
+    release_free_memory();
+  }
+  return all;
+}
+
+template <class T>
+void sort_unique(std::vector<T> &values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
+                         const std::vector<std::string> &files) {
+  constexpr std::size_t few = 1 << 16;
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  // Global ids are dense, so they are mixed to share them out evenly.
+  std::vector<SharedNode> nodes = ranks::exchange(in_one_list(std::move(by_piece)), [&](const SharedNode &node) {
+    return static_cast<std::size_t>(mixed(node.key.a) % n_ranks);
+  });
+  std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
+    return std::tie(p.key, p.piece) < std::tie(q.key, q.piece);
+  });
+  MatchedNodes own;
+  std::size_t n_kept = few;
+  for (std::size_t begin = 0, end = 0; begin < nodes.size(); begin = end) {
+    const SharedNode &first = nodes[begin];
+    bool in_several = false;
+    for (end = begin + 1; end < nodes.size() && nodes[end].key == first.key; ++end) {
+      const SharedNode &before = nodes[end - 1], &node = nodes[end];
+      in_several |= node.piece != before.piece;
+      if (node.region < 0 || before.region < 0) continue;
+      const PieceRegion p{before.piece, before.region}, q{node.piece, node.region};
+      if (!(p == q) && (own.joined.empty() || own.joined.back() != std::pair(p, q))) own.joined.emplace_back(p, q);
+    }
+    if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
+      throw Refusal{exit_bad_data, "the node with the global id " +
+                                       std::to_string(static_cast<std::int64_t>(first.key.a)) + " is at one place in " +
+                                       view(files)[first.piece] + " and at another in " +
+                                       view(files)[nodes[end].piece]};
+    ++own.n_nodes;
+    own.n_in_several += in_several;
+    if (own.joined.size() > 2 * n_kept) {
+      sort_unique(own.joined);
+      n_kept = std::max(few, own.joined.size());
+    }
+  }
+  sort_unique(own.joined);
+  MatchedNodes all;
+  const std::vector<std::array<std::int64_t, 2>> counts{{own.n_nodes, own.n_in_several}};
+  for (const auto &[n_nodes, n_in_several] : ranks::gather(counts)) {
+    all.n_nodes += n_nodes;
+    all.n_in_several += n_in_several;
+  }
+  struct Pair {
+    PieceRegion p, q;
+  };
+  std::vector<Pair> pairs;
+  for (const auto &[p, q] : own.joined) pairs.push_back({p, q});
+  for (const Pair &pair : ranks::gather(pairs)) all.joined.emplace_back(pair.p, pair.q);
+  sort_unique(all.joined);
+  return all;
+}
+
+std::int64_t MatchedNodes::n_joins() const {
+  std::vector<PieceRegion> regions;
+  for (const auto &[p, q] : joined) regions.insert(regions.end(), {p, q});
+  sort_unique(regions);
+  const auto at = [&](const PieceRegion &region) {
+    return std::lower_bound(regions.begin(), regions.end(), region) - regions.begin();
+  };
+  DisjointSets sets(view(regions).size());
+  std::int64_t n = 0;
+  for (const auto &[p, q] : joined) n += sets.unite(at(p), at(q));
+  return n;
+}
+
+void LooseNodes::add(const PieceNodes &nodes) {
+  if (nodes.is_whole()) return;
+  for (std::int64_t i = 0; i < nodes.n(); ++i)
+    if (nodes.is_loose(i)) keys_.push_back(nodes.key(i));
+}
+
+void LooseNodes::check(const MeshPieces &mesh) const {
+  std::vector<NodeKey> keys = ranks::gather(keys_);
+  sort_unique(keys);
+  if (keys.empty()) return;
+  std::int64_t n = 0;
+  mesh.for_each_own([&](const Piece &piece) {
+    for (std::int64_t i = 0; i < piece.nodes.n(); ++i)
+      n += piece.nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), piece.nodes.key(i));
+  });
+  std::int64_t sum = 0;
+  for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
+  if (sum > 0)
+    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(sum) +
+                                     " points are inside one piece, and another piece has them without a cell; "
+                                     "write each piece with only the points of its own cells"};
+}
+
+void release_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::size_t kind) {
+  for (std::int64_t i = 0; i < list.n_nodes; ++i) {
+    const std::int64_t node = list.node_id[i];
+    n_inside_.at(kind) += nodes.is_inside(node);
+    if (nodes.is_shared(node)) shared_.push_back({nodes.key(node), kind});
+  }
+}
+
+std::vector<std::int64_t> NodeCounts::sums() const {
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  std::vector<SharedKind> shared = ranks::exchange(
+      shared_, [&](const SharedKind &node) { return static_cast<std::size_t>(mixed(node.key.a) % n_ranks); });
+  sort_unique(shared);
+  std::vector<std::int64_t> own = n_inside_, sums(n_inside_.size());
+  for (const SharedKind &node : shared) ++own.at(node.kind);
+  const std::vector<std::int64_t> all = ranks::gather(own);
+  for (std::size_t i = 0; i < all.size(); ++i) sums[i % sums.size()] += all[i];
+  return sums;
+}
+
+}  // namespace riis::program

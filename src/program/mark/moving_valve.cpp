@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/moving_valve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "common/array_view.hpp"
+#include "program/base/refusal.hpp"
+#include "program/mark/crossings.hpp"
+#include "program/mark/mesh_marking.hpp"
+
+namespace riis::program {
+
+MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_(source), result_(new_result()) {
+  is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
+  if (source.keyframes) source.options.time = time;
+  if (source.valve) {
+    if (moves) before_ = copy_of(source.valve.get());
+    opening_ = source.law.at(time);
+    set_time(time, source.valve.get());
+  }
+  has_velocities_ = source.file != nullptr;
+  surface_ = make_surface(source, moves ? FileVelocity::zero : FileVelocity::none);
+  source.file.reset();
+  if (!moves) source.keyframes.reset();
+}
+
+std::optional<double> MovingValve::opening() const { return source_.valve ? std::optional(opening_) : std::nullopt; }
+
+void MovingValve::set_time(double time, riis_valve *valve) {
+  check(riis_valve_set_scalar(valve, "opening", source_.law.at(time)), subject());
+  if (source_.warp.moves()) source_.warp.apply(time, valve);
+}
+
+void MovingValve::move_to(double time, std::optional<double> since) {
+  if (is_at_rest_ && (!since || has_velocities_)) return;
+  if (source_.keyframes) {
+    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time, time - since.value_or(time),
+                                             nullptr),
+          options().surface);
+    return;
+  }
+  if (since) set_time(*since, before_.get());
+  set_time(time, source_.valve.get());
+  opening_ = source_.law.at(time);
+  check(since ? riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - *since, nullptr,
+                                           nullptr)
+              : riis_surface_update(surface_.get(), source_.valve.get(), nullptr),
+        subject());
+  has_velocities_ = since.has_value();
+}
+
+void MovingValve::mark(FileNodes &nodes, int32_t fields) {
+  riis_mark_options how = options().mark_options;
+  how.fields = fields;
+  std::optional<FileNodes::Lent> lent;
+  if (needs_adjacency(how.search)) {
+    nodes.find_neighbors(how.n_threads);
+    lent.emplace(nodes);
+  }
+  check(riis_mark_nodes(surface_.get(), nodes.mesh(), &how, result_.get()), options().mesh);
+}
+
+double MovingValve::largest_speed() const {
+  const riis_triangles triangles = triangles_of(surface_.get());
+  const double *velocity = triangles.velocity;
+  double largest = 0;
+  for (int64_t i = 0; velocity && i < triangles.n_vertices; ++i)
+    largest = std::max(largest, std::hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]));
+  return largest;
+}
+
+riis_mark_stats MovingValve::stats() const {
+  riis_mark_stats stats{};
+  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
+  return stats;
+}
+
+std::vector<MovingValve> moving_valves(Case &all) {
+  std::vector<MovingValve> valves;
+  valves.reserve(all.valves.size());
+  for (ValveSource &source : all.valves) {
+    try {
+      valves.emplace_back(source, all.times()[0], all.is_series());
+      MovingValve &made = valves.back();
+      const std::string part = all.part_of(valves.size() - 1);
+      if (all.options.check_crossing)
+        made.crossings = look_for_crossings(source.options, source.valve.get(), made.surface(), part);
+      else if (source.valve)
+        made.crossings = check_shape(source.options, source.valve.get(), source.has_open_state, part);
+      if (!all.options.mesh.empty()) rehearse_marking(source.options, made.surface());
+    } catch (Refusal &refusal) {
+      if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)
+        refusal = {exit_bad_data, source.subject + ": " + refusal.text};
+      throw;
+    }
+  }
+  return valves;
+}
+
+// ---- Joined surface ----
+
+int32_t n_leaflets_of(const riis_surface *surface) {
+  const riis_triangles triangles = triangles_of(surface);
+  const int32_t *const end = triangles.leaflet_id + triangles.n_triangles;
+  return triangles.n_triangles > 0 ? *std::max_element(triangles.leaflet_id, end) + 1 : 0;
+}
+
+std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves) {
+  std::vector<int32_t> first = {0};
+  for (const MovingValve &valve : valves) first.push_back(first.back() + n_leaflets_of(valve.surface()));
+  return first;
+}
+
+Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options) {
+  std::vector<double> xyz;
+  std::vector<int64_t> corners;
+  std::vector<int32_t> leaflets;
+  const std::vector<int32_t> first = first_leaflets(valves);
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
+    const riis_triangles triangles = triangles_of(valves[valve].surface());
+    const int64_t before = view(xyz).size() / 3;
+    xyz.insert(xyz.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+    for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(before + triangles.vertex_id[i]);
+    for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first[valve] + triangles.leaflet_id[i]);
+  }
+  riis_surface_arrays arrays = arrays_of(xyz, corners);
+  arrays.leaflet_id = leaflets.data();
+  riis_surface *surface = nullptr;
+  check(riis_surface_create_from_arrays(&arrays, options, &surface));
+  return Surface(surface);
+}
+
+}  // namespace riis::program

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// One valve of a run: its surface at the present time, with or without velocities, and its marks.
+#pragma once
+
+#include <riis/riis.h>
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/input/case.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/file_nodes.hpp"
+#include "program/mark/mesh_marking.hpp"
+
+namespace riis::program {
+
+class MovingValve {
+ public:
+  // Borrows the source, and makes the surface at the given time. `moves` says whether it will have other times, and velocities.
+  MovingValve(ValveSource &source, double time, bool moves);
+
+  // Moves the surface to a time. If an earlier time is given, also computes the mean velocities since then.
+  void move_to(double time, std::optional<double> since = std::nullopt);
+  // Marks with `fields`, a sum of RIIS_FIELD_*. Velocities need a last move with an earlier time.
+  void mark(FileNodes &nodes, int32_t fields);
+  // Forgets the last marks. Otherwise a search in another mesh would begin at their nodes.
+  void forget_marks() { result_ = new_result(); }
+
+  const MarkOptions &options() const { return source_.options; }
+  const ValveSource &source() const { return source_; }
+  const riis_surface *surface() const { return surface_.get(); }
+  riis_marks *result() const { return result_.get(); }
+  std::optional<double> opening() const;  // nothing for a surface from a file
+  double largest_speed() const;           // the largest speed of a vertex
+  riis_mark_stats stats() const;
+
+  std::optional<CrossingReport> crossings{};  // set if crossings were looked for
+
+ private:
+  // Sets the opening and the warp of a time.
+  void set_time(double time, riis_valve *valve);
+  // Returns the name for refusals.
+  const std::string &subject() const { return source_.subject.empty() ? options().valve : source_.subject; }
+
+  ValveSource &source_;
+  Valve before_;
+  Surface surface_;
+  Marks result_;
+  double opening_ = 0;
+  bool is_at_rest_ = false, has_velocities_ = false;
+};
+
+// Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
+// node, so that bad ones are refused early.
+std::vector<MovingValve> moving_valves(Case &all);
+
+// In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those
+// of the previous valve.
+
+// Returns the largest leaflet id plus one.
+int32_t n_leaflets_of(const riis_surface *surface);
+// Returns the number of each valve's first leaflet among the leaflets of all valves. The last entry is the number of all
+// leaflets.
+std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves);
+// `options` may be NULL. Then the defaults apply.
+Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options = nullptr);
+
+}  // namespace riis::program

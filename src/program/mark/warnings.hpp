@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// All warnings of the program.
+// In: the number of marks, and all sizes. Out: lines that name the suspicious values and the options to use instead.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/base/box.hpp"
+#include "program/base/options.hpp"
+#include "program/base/sizes.hpp"
+
+namespace riis::program {
+
+// The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
+struct Situation {
+  const MarkOptions &options;
+  int64_t n_nodes, n_marked;
+  Box mesh, surface;
+  double median_edge;  // 0 if unknown
+  double area;         // area of the surface
+  double half_thickness;
+};
+
+// The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
+// cause leaks.
+enum class Cause { units, half_thickness, place, leaks };
+
+// The texts of a warning, without line breaks. The advice begins with the punctuation that joins it to the text, such as ":
+// write --unit m".
+struct Warning {
+  Cause cause;
+  std::string text, advice;
+};
+
+// Returns a warning, or nothing if the marks look right.
+std::optional<Warning> warning_of(const Situation &situation);
+
+// Prints the line on stderr, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
+void warn(const std::string &text);
+// Prints the texts of all warnings, but the advice only for the first cause. Later calls omit the advice for later causes. The
+// first advice may correct everything, and a second one could contradict it.
+void warn(std::vector<Warning> warnings);
+std::int64_t n_warnings();
+
+// Returns a position as text for a warning, with its unit if the user named it. Coordinates are rounded to a tenth of the edge's
+// length or finer, so the two ends of the edge differ. If the length is 0, coordinates have six digits.
+std::string place_text(const ValveOptions &options, const double *point, double edge);
+
+// In: sizes that do not fit together. Out: the units that they suggest, and the options that make them fit.
+
+// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
+// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
+std::optional<Warning> warning_of_units(const Situation &situation);
+
+// Returns a warning if the half thickness is too large or too small. It names the option to write.
+std::optional<Warning> warning_of_half_thickness(const Situation &situation);
+
+// Returns a number as a user would write it.
+std::string shown(double number);
+
+}  // namespace riis::program

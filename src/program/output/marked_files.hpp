@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a run: the marked mesh and the surfaces, at one time or at many, whole or in pieces, and the lists of these files.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "program/input/case.hpp"
+#include "program/mark/mesh_pieces.hpp"
+#include "program/mark/moving_valve.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+// The files of the series cycle.pvd are cycle.pvd, cycle/cycle_0000.vtu, cycle/cycle_0001.vtu, ...
+class SeriesFiles {
+ public:
+  // `ending` is the ending of the steps' files, such as ".vtu".
+  SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times);
+
+  const std::string &pvd() const { return pvd_; }
+  const std::string &folder() const { return folder_; }
+  bool is_wanted() const { return !pvd_.empty(); }
+  // Refuses a folder that cannot be written to, and a path that is a file.
+  void check_folder() const;
+  // Makes the folder if it is wanted and does not exist.
+  void make_folder() const;
+  // Returns the path of a step's file. If a step has several files, `part`, a valve's name, distinguishes them. Otherwise it is
+  // "".
+  std::string path_of(std::size_t step, const std::string &part) const;
+  // Adds a file to the list, once the file is complete.
+  void add(double time, std::size_t part_number, const std::string &path);
+  std::size_t n_written() const { return entries_.size(); }
+  // Writes the list of all complete files, if there are some.
+  void write_list() const;
+  // Adds the list to the report, if it is wanted.
+  void report(Report &report) const;
+
+ private:
+  struct Entry {
+    double time;
+    std::size_t part_number;
+    std::string name;  // the path relative to the .pvd
+  };
+  std::string pvd_, folder_, stem_, ending_;
+  std::size_t n_digits_;
+  std::vector<Entry> entries_;
+};
+
+// Writes the lists of a series within half a second after its files, even during a long step. So a killed process leaves lists
+// of nearly all its files. The lists are not written after every file, because writing a long list takes longer than writing a
+// file.
+
+class SeriesLists {
+ public:
+  // `write` must write all lists. The object's thread calls it with false, and end() calls it with true.
+  explicit SeriesLists(std::function<void(bool is_last)> write);
+  ~SeriesLists();
+  SeriesLists(const SeriesLists &) = delete;
+  SeriesLists &operator=(const SeriesLists &) = delete;
+
+  // Calls `note`, which adds to the lists, while the thread does not write them. Rethrows an exception of `write`.
+  void add(const std::function<void()> &note);
+  // Ends the thread, and writes the lists for the last time.
+  void end();
+
+ private:
+  void follow();
+  void stop();
+
+  const std::function<void(bool)> write_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool has_news_ = false, has_ended_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+// The files of the marked mesh. In a series, there is a file for each time. A mesh in pieces has a file for each piece, and a
+// .pvtu that lists those of a time.
+class MarkedFiles {
+ public:
+  MarkedFiles(const Case &all, const MeshPieces &mesh);
+
+  bool is_wanted() const { return !path_.empty(); }
+  // Returns whether the files of a series are in a list.
+  bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
+  // Makes the folder of the files, if there is more than one file.
+  void make_folder() const;
+  void write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file);
+  // Adds a complete file of a whole mesh to the list of the series.
+  void add(std::size_t step);
+  // Writes a .pvtu for each time, after all ranks have written their pieces.
+  void list_pieces();
+  void write_list() const;
+  const std::string &folder() const { return steps_.folder(); }
+  // Adds what is written to the report.
+  void report(Report &report) const;
+
+ private:
+  // A file that a rank has written.
+  struct Written {
+    std::int64_t step, piece;
+    bool operator<(const Written &other) const { return std::tie(step, piece) < std::tie(other.step, other.piece); }
+  };
+  std::string path_of(std::int64_t piece, std::size_t step) const;
+
+  const std::string path_;
+  const std::vector<double> times_;
+  const bool is_series_, is_whole_, is_foam_case_;
+  SeriesFiles steps_, pieces_;
+  std::vector<Written> written_;
+  PieceList sample_;  // with the arrays of this rank's first file that has nodes, if there is one
+};
+
+}  // namespace riis::program

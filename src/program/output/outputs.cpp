@@ -1,0 +1,487 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/output/outputs.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "program/base/ranks.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/mesh_reading.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/marked_files.hpp"
+#include "program/output/pictures.hpp"
+
+namespace riis::program {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_ending(const std::string &path, const std::string &ending, const std::string &option) {
+  if (!has_ending(path, ending)) throw Refusal{exit_wrong_usage, option + ": " + path + " must end in " + ending};
+}
+
+std::string system_text(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void cannot_be_written(const std::string &path, const std::string &reason) {
+  throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
+}
+
+// Returns whether the path is a device or a pipe. The program writes into these, and replaces any other file as a whole.
+bool is_special(const std::string &path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
+void check_place(const std::string &path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
+  const fs::path folder = folder_of(place_of(path));
+  if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
+  // A new file is written next to the old one and then replaces it.
+  if (!is_special(path) && access(folder.c_str(), W_OK | X_OK) != 0) {
+    cannot_be_written(path, "the folder " + folder.string() + ": " + system_text(errno));
+  }
+  if (fs::exists(path, error) && access(path.c_str(), W_OK) != 0) cannot_be_written(path, system_text(errno));
+}
+
+struct NamedFile {
+  std::string option, path;
+};
+
+using NamedFiles = std::vector<NamedFile>;
+
+NamedFiles inputs_of(const ValveOptions &options) {
+  return {{"--surface", options.surface},
+          {"--params", options.params},
+          {"--params-open", options.params_open},
+          {"--wall", options.wall},
+          {"--warp", options.warp},
+          {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
+}
+
+NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
+  NamedFiles inputs = inputs_of(static_cast<const ValveOptions &>(options));
+  const SeriesOptions &series = options.series;
+  for (const NamedFile &input :
+       {NamedFile{"MESH", options.mesh}, {"--cycle", series.cycle}, {"--case", series.case_file}})
+    inputs.push_back(input);
+  for (const std::string &path : more_inputs)
+    inputs.push_back({series.case_file.empty() ? "--surface" : "--case", path});
+  for (const std::string &path : options.pieces) inputs.push_back({"MESH", path});
+  for (const std::string &path : data_files_of(options.mesh)) inputs.push_back({"MESH", path});
+  return inputs;
+}
+
+// Returns the file of an .xdmf file's numbers.
+std::string numbers_of(const std::string &xdmf) { return fs::path(xdmf).replace_extension("h5").string(); }
+
+NamedFiles outputs_of(const MarkOptions &options) {
+  // Fields of OpenFOAM go into a folder.
+  const bool is_folder = is_foam_case(options.output) || is_foam_time(options.output);
+  NamedFiles outputs = {{"--output", is_folder ? "" : options.output},
+                        {options.surface_output_option, options.surface_output}};
+  if (has_ending(options.output, ".xdmf")) outputs.push_back({"--output", numbers_of(options.output)});
+  for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
+  if (options.stats != "-") outputs.push_back({"--stats", options.stats});
+  outputs.push_back({"--movie", options.series.movie});
+  outputs.push_back({"--series-table", options.series.table});
+  return outputs;
+}
+
+// Returns a text that is the same for all paths to one file. It consists of the device and the inode, or of the path to the file
+// if the file does not exist.
+std::string identity_of(const std::string &path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+  std::error_code error;
+  const fs::path place = fs::weakly_canonical(fs::absolute(path), error);
+  return error ? path : place.string();
+}
+
+// Maps the identity of a file to the option that named the file.
+using KnownFiles = std::map<std::string, std::string>;
+
+KnownFiles known(const NamedFiles &files) {
+  KnownFiles known;
+  for (const NamedFile &file : files)
+    if (!file.path.empty()) known.emplace(identity_of(file.path), file.option);
+  return known;
+}
+
+// Refuses a folder for the steps' files that contains an input or a link to one, because a step's file could replace it.
+void check_folder_of_steps(const std::string &option, const std::string &folder, const KnownFiles &inputs) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const auto input = inputs.find(identity_of(at->path().string()));
+    if (input == inputs.end()) continue;
+    throw Refusal{exit_wrong_usage,
+                  option + ": the folder of its files, " + folder + ", holds the file of " + input->second};
+  }
+  if (error == std::errc::permission_denied)
+    throw Refusal{exit_bad_data, folder + ": the folder cannot be read: " + error.message()};
+}
+
+void check_distinct(const KnownFiles &inputs, const NamedFiles &files) {
+  KnownFiles outputs;
+  for (const NamedFile &output : files) {
+    if (output.path.empty()) continue;
+    const std::string identity = identity_of(output.path);
+    const auto input = inputs.find(identity);
+    const auto [other, is_new] = outputs.emplace(identity, output.option);
+    if (input == inputs.end() && is_new) continue;
+    throw Refusal{exit_wrong_usage,
+                  output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second};
+  }
+}
+
+OutputLocks locks_of(const NamedFiles &outputs) {
+  std::vector<std::string> written;
+  for (const NamedFile &output : outputs)
+    if (!output.path.empty() && !is_special(output.path)) written.push_back(output.path);
+  return OutputLocks(written);
+}
+
+// Checks the display early. riis_vtk also refuses a picture without a display, but only when it draws, after all other work.
+void check_display() {
+  const char *display = std::getenv("DISPLAY");
+  if (display && *display) return;
+  throw Refusal{exit_bad_data,
+                "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
+                "xvfb-run -a PROGRAM"};
+}
+
+// Writes the text to a file. Returns the system's error, or 0 if there is none.
+int write_through(const std::string &path, const char *mode, const std::string &text) {
+  std::FILE *file = std::fopen(path.c_str(), mode);
+  if (!file) return errno;
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
+  const int error = written ? 0 : errno;
+  return std::fclose(file) == 0 || error ? error : errno;
+}
+
+int replace_file(const std::string &path, const std::string &text) {
+  const UnbrokenWrite unbroken;
+  const fs::path place = place_of(path);
+  const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-text.tmp")).string();
+  std::remove(temporary.c_str());  // removes a file with this name that an ended process left behind
+  int error = write_through(temporary, "wx", text);
+  if (!error && std::rename(temporary.c_str(), place.c_str()) != 0) error = errno;
+  if (error) std::remove(temporary.c_str());
+  return error;
+}
+
+}  // namespace
+
+fs::path place_of(const std::string &path) {
+  std::error_code error;
+  const fs::path place = fs::canonical(path, error);
+  return error ? fs::path(path) : place;
+}
+
+fs::path folder_of(const fs::path &place) { return place.has_parent_path() ? place.parent_path() : fs::path("."); }
+
+namespace {
+
+// Checks --output: a file, a time of a case of OpenFOAM or, for a series, the case itself.
+void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
+  const std::string &path = options.output;
+  if (path.empty()) return;
+  if (!has_pieces && (is_series ? is_foam_case(path) : is_foam_time(path))) {
+    if (!options.at_cells) refuse_usage("--output: " + path + " takes fields of cells: write --cells");
+    const fs::path folder = is_series ? fs::path(path) : folder_of(place_of(path));
+    if (access(folder.c_str(), W_OK | X_OK) != 0) cannot_be_written(path, system_text(errno));
+    return;
+  }
+  if (is_series)
+    check_ending(path, ".pvd", "--output");
+  else if (has_pieces || !has_ending(path, ".xdmf"))
+    check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
+  check_place(path);
+  if (has_ending(path, ".xdmf")) check_place(numbers_of(path));
+}
+
+}  // namespace
+
+OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
+  // The ranks of a run share their outputs. The first one checks and locks these.
+  if (!ranks::is_first()) return OutputLocks({});
+  const KnownFiles inputs = known(inputs_of(options, more_inputs));
+  const NamedFiles outputs = outputs_of(options);
+  const bool is_series = !options.series.times.empty();
+  const bool has_pieces = !options.pieces.empty();  // then the pieces are written to a folder, as the steps of a series
+  check_distinct(inputs, outputs);
+  const std::vector<NamedFile> lists = {{"--output", options.output}, {"--surface-output", options.surface_output}};
+  for (const NamedFile &list : lists)
+    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
+      check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
+  const auto check_file = [](const std::string &path, const char *ending, const std::string &option) {
+    if (path.empty()) return;
+    check_ending(path, ending, option);
+    check_place(path);
+  };
+  check_output(options, is_series, has_pieces);
+  check_file(options.surface_output, is_series ? ".pvd" : ".vtp", options.surface_output_option);
+  for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
+  if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
+  if (!options.series.table.empty()) check_place(options.series.table);
+  for (const NamedFile &list : lists)
+    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
+      SeriesFiles(list.path, "", 1).check_folder();
+  check_movie(options.series.movie);
+  if (!options.series.movie.empty()) check_place(options.series.movie);
+  if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
+  return locks_of(outputs);
+}
+
+namespace {
+
+// Checks the only output of a command, its positional argument OUT.
+OutputLocks check_out(const std::string &path, const NamedFiles &inputs) {
+  const NamedFiles outputs = {{"OUT", path == "-" ? "" : path}};
+  check_distinct(known(inputs), outputs);
+  if (path != "-") check_place(path);
+  return locks_of(outputs);
+}
+
+}  // namespace
+
+OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs) {
+  return check_out(options.field, inputs_of(options, more_inputs));
+}
+
+OutputLocks check_outputs(const StatesOptions &options) { return check_out(options.output, inputs_of(options)); }
+
+OutputLocks check_outputs(const PlaceOptions &options) {
+  NamedFiles inputs = inputs_of(options), outputs;
+  inputs.push_back({"LANDMARKS", options.landmarks});
+  inputs.push_back({"--mesh", options.mesh});
+  const NamedFile named[] = {{"--output", options.output},
+                             {"--foam", options.foam_output},
+                             {"--c", options.c_output},
+                             {"--fortran", options.fortran_output}};
+  std::string on_stdout;
+  for (const NamedFile &output : named) {
+    if (output.path.empty()) continue;
+    if (output.path != "-") {
+      check_place(output.path);
+      outputs.push_back(output);
+      continue;
+    }
+    if (!on_stdout.empty()) refuse_usage(output.option + " and " + on_stdout + " cannot both be on standard output");
+    on_stdout = output.option;
+  }
+  check_distinct(known(inputs), outputs);
+  return locks_of(outputs);
+}
+
+void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options) {
+  std::set<std::string> identities;
+  for (const std::string &file : files) identities.insert(identity_of(file));
+  for (const NamedFile &output : outputs_of(options)) {
+    if (!output.path.empty() && identities.count(identity_of(output.path)) != 0)
+      throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is " + what};
+  }
+}
+
+bool can_be_replaced(const std::string &path) { return path != "-" && !is_special(path); }
+
+void write_text(const std::string &path, const std::string &text) {
+  if (!ranks::is_first()) return;
+  if (path == "-") {
+    if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};
+    return;
+  }
+  if (const int error = is_special(path) ? write_through(path, "w", text) : replace_file(path, text)) {
+    cannot_be_written(path, system_text(error));
+  }
+}
+
+// ---- Output locks ----
+
+namespace {
+
+// The lock files of this process. Only the process's first OutputLocks object has lock files. It fills this list before it sets
+// the signal handlers.
+std::vector<std::string> held_locks;
+
+constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
+
+// A file of this process and its folder, which a signal that ends the process removes. Empty names stand for none.
+char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
+
+void remove_held() {
+  for (const std::string &path : held_locks) unlink(path.c_str());
+}
+
+// Removes the locks and raises the signal again. The signal is blocked until the handler returns, and then its default action
+// follows.
+void remove_and_end(int signal) {
+  remove_held();
+  unlink(scratch_file);
+  rmdir(scratch_folder);
+  std::raise(signal);
+}
+
+void set_handlers(void (*from)(int), void (*to)(int)) {
+  struct sigaction action {};
+  action.sa_handler = to;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : ending_signals) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler == from) sigaction(signal, &action, nullptr);
+  }
+}
+
+// While an object of this type lives, signals that end the process are blocked. So no signal can come between the making of a
+// lock file and the setting of the handlers.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : ending_signals) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait &) = delete;
+  SignalsWait &operator=(const SignalsWait &) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+// Returns the path of an output's lock. If the output's name is too long, only its end is used.
+std::string lock_of(const std::string &output) {
+  constexpr std::size_t longest = 200;
+  const std::filesystem::path place = std::filesystem::absolute(place_of(output));
+  const std::string name = place.filename().string();
+  return (place.parent_path() / (".riis-" + name.substr(name.size() - std::min(name.size(), longest)) + ".lock"))
+      .string();
+}
+
+[[noreturn]] void refuse_lock(const std::string &output, const std::string &reason) {
+  throw Refusal{exit_bad_data, output + ": " + reason};
+}
+
+bool is_at(int file, const std::string &path) {
+  struct stat opened {};
+  struct stat there {};
+  return fstat(file, &opened) == 0 && stat(path.c_str(), &there) == 0 && opened.st_ino == there.st_ino &&
+         opened.st_dev == there.st_dev;
+}
+
+// Takes the lock, and returns its file. Returns -1 on a file system without locks.
+int take(const std::string &output, const std::string &lock) {
+  for (;;) {
+    int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // The lock file may be left from a killed run of another user. Then this user may only read it, which suffices for a lock.
+    if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+      refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) {
+      if (is_at(file, lock)) return file;
+      close(file);  // the run that held the lock has just removed its file, so this run makes a new one
+      continue;
+    }
+    const int error = errno;
+    close(file);
+    if (error == EINTR) continue;
+    if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis is writing it, and holds " + lock);
+    warn(output +
+         ": it cannot be locked, so other runs may write it meanwhile: " + std::generic_category().message(error));
+    unlink(lock.c_str());
+    return -1;
+  }
+}
+
+}  // namespace
+
+void remove_if_ended(const std::string &folder, const std::string &file) {
+  if (folder.size() >= PATH_MAX || file.size() >= PATH_MAX) return;
+  const SignalsWait wait;
+  std::strcpy(scratch_folder, folder.c_str());
+  std::strcpy(scratch_file, file.c_str());
+}
+
+OutputLocks::OutputLocks(const std::vector<std::string> &paths) {
+  const SignalsWait wait;
+  try {
+    for (const std::string &path : paths) {
+      const std::string lock = lock_of(path);
+      // A lock may serve several outputs with long names, because only the ends of such names are used.
+      if (std::find(held_locks.begin(), held_locks.end(), lock) != held_locks.end()) continue;
+      const int file = take(path, lock);
+      if (file < 0) continue;
+      files_.push_back(file);
+      held_locks.push_back(lock);
+    }
+  } catch (...) {
+    release();
+    throw;
+  }
+  set_handlers(SIG_DFL, remove_and_end);
+}
+
+OutputLocks::~OutputLocks() { release(); }
+
+void OutputLocks::release() {
+  if (files_.empty()) return;
+  remove_held();  // the files are removed before the locks are released, because afterwards another run could hold them
+  set_handlers(remove_and_end, SIG_DFL);
+  for (const int file : files_) close(file);
+  files_.clear();
+  held_locks.clear();
+}
+
+// ---- Interruption ----
+
+namespace {
+
+volatile std::sig_atomic_t waiting_signal = 0;
+std::atomic<int> n_alive{0};
+
+void keep_for_later(int signal) { waiting_signal = signal; }
+
+}  // namespace
+
+UnbrokenWrite::UnbrokenWrite() {
+  if (n_alive++ > 0) return;
+  struct sigaction keep {};
+  keep.sa_handler = keep_for_later;
+  keep.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  for (int i = 0; i < 3; ++i) {
+    sigaction(signals_[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(signals_[i], &keep, nullptr);
+  }
+}
+
+UnbrokenWrite::~UnbrokenWrite() {
+  if (--n_alive > 0) return;
+  for (int i = 0; i < 3; ++i) sigaction(signals_[i], &before_[i], nullptr);
+  if (waiting_signal != 0) std::raise(waiting_signal);
+}
+
+bool UnbrokenWrite::has_signal() { return waiting_signal != 0; }
+
+}  // namespace riis::program

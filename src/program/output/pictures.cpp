@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/output/pictures.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/other_program.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/mark/mesh_marking.hpp"
+#include "program/mark/moving_valve.hpp"
+#include "program/output/outputs.hpp"
+
+namespace riis::program {
+
+namespace {
+
+// Returns whether the valve is the paper's aortic valve. The picture's title then says that this valve does not close
+// (docs/meshes.md).
+bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
+  if (!valve || options.valve != "aortic") return false;
+  int64_t n_parameters = 0;
+  check(riis_valve_get_n_parameters(valve, &n_parameters));
+  for (int64_t i = 0; i < n_parameters; ++i) {
+    riis_parameter parameter;
+    double values[3] = {0, 0, 0};
+    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+    // Skips the two parameters of the open state, because they have no effect at opening 0.
+    const std::string_view name = parameter.name;
+    if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
+    if (!std::equal(values, values + 3, parameter.default_values)) return false;
+  }
+  return true;
+}
+
+// Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
+// scale of its placement tell the unit of the mesh. If two valves tell different units, the unit is not known.
+const char *unit_of_mesh(const std::optional<Unit> &given, const std::vector<MovingValve> &valves) {
+  if (given) return name_of(*given);
+  std::optional<Unit> told;
+  for (const MovingValve &valve : valves) {
+    if (!valve.options().surface.empty() || is_valve_file(valve.options().valve)) continue;
+    const std::optional<Unit> reached = unit_reached(Unit::centimetre, valve.options().surface_options.scale);
+    if (!reached || (told && *told != *reached)) return nullptr;
+    told = reached;
+  }
+  return told ? name_of(*told) : nullptr;
+}
+
+void check_view(const std::string &option, std::int32_t view, std::size_t n_valves, const ValveOptions &valve) {
+  if (view < RIIS_VTK_VIEW_VALVE_SIDE) return;
+  const std::string name = option + " " + view_names[static_cast<std::size_t>(view)];
+  const std::string advice =
+      "; " + view_names[static_cast<std::size_t>(view - RIIS_VTK_VIEW_VALVE_SIDE)] + " looks by the mesh's axes";
+  if (n_valves > 1)
+    refuse_usage(name + ": there are " + std::to_string(n_valves) + " valves, each with axes of its own" + advice);
+  if (!valve.surface.empty())
+    refuse_usage(name + ": " + valve.surface + " has triangles, but no axes of a valve" + advice);
+}
+
+}  // namespace
+
+void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve) {
+  for (const Picture &picture : options.pictures) check_view("--view", picture.view, n_valves, valve);
+  check_view("--movie-view", options.series.movie_view, n_valves, valve);
+}
+
+std::vector<const char *> leaflet_names(const ValveOptions &options) {
+  if (!options.surface.empty()) return {};
+  if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
+    return {"right", "left", "non-coronary", "skirt"};
+  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
+  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
+  return {};
+}
+
+std::string title_of_valve(const ValveOptions &options) {
+  const std::string name = options.surface.empty() ? options.valve : options.surface;
+  if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
+  std::string title = name + " valve";
+  title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  return title;
+}
+
+std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
+  std::string title = surface_title(report);
+  title.erase(0, report.surface_name.rfind('/') + 1);
+  if (report.opening && !is_valve_file(report.surface_name)) title[0] = static_cast<char>(title[0] - 'a' + 'A');
+  if (is_papers_aortic_valve(options, valve)) title += " (the paper's, not closed)";
+  return title;
+}
+
+// ---- Pictures of a run ----
+
+namespace {
+
+// Returns the largest number of decimals of the times. All times in a movie are shown with this number, so their texts have the
+// same length.
+int decimals_of(const std::vector<double> &times) {
+  constexpr std::size_t most = 6;
+  std::size_t n = 0;
+  for (const double time : times) {
+    const std::string text = shortest(time);
+    const std::size_t point = text.find('.');
+    if (point != std::string::npos) n = std::max(n, text.size() - point - 1);
+  }
+  return static_cast<int>(std::min(n, most));
+}
+
+std::string fixed(double number, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, number);
+  return text;
+}
+
+// The marks of several valves together. A node gets the leaflet of its nearest valve.
+struct JoinedMarks {
+  explicit JoinedMarks(std::size_t n) : marked(n, 0.0), distance(n, RIIS_FAR_DISTANCE), leaflet(n, -1.0) {}
+
+  void add(const riis_marks *result, int32_t first_leaflet) {
+    const riis_mark_list list = list_of(result, RIIS_LIST_MARKED);
+    for (int64_t i = 0; i < list.n_nodes; ++i) {
+      const int64_t node = list.node_id[i];
+      if (view(distance)[node] <= list.distance[i]) continue;
+      view(marked)[node] = 1;
+      view(distance)[node] = list.distance[i];
+      view(leaflet)[node] = first_leaflet + list.leaflet_id[i];
+    }
+  }
+
+  std::vector<double> marked, distance, leaflet;
+};
+
+// Returns the names of all leaflets. Leaflets without names get their numbers, except those of a single file at one time.
+std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
+  std::vector<std::string> texts;
+  if (valves.size() == 1 && !all.is_series()) {
+    for (const char *name : leaflet_names(valves[0].options())) texts.emplace_back(name);
+    return texts;
+  }
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
+    const std::vector<const char *> names = leaflet_names(valves[valve].options());
+    const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
+    const int32_t n = n_leaflets_of(valves[valve].surface());
+    for (int32_t leaflet = 0; leaflet < n; ++leaflet) {
+      const bool named = leaflet < view(names).size();
+      texts.push_back(prefix + (named ? view(names)[leaflet] : "leaflet " + std::to_string(leaflet)));
+    }
+  }
+  return texts;
+}
+
+}  // namespace
+
+RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box)
+    : all_(all), mesh_(std::move(mesh)), box_(box) {
+  if (all.is_series()) nodes_.emplace(mesh_.get(), all.options.mesh);
+  if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
+}
+
+bool RunPictures::are_wanted(const MarkOptions &options) {
+  return !options.pictures.empty() || !options.series.movie.empty();
+}
+
+// riis_vtk draws the arrays with the default names. The output, which may have other names, has its arrays in another mesh, or is
+// already written.
+void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
+  if (!mesh_) return;
+  if (all_.is_series())
+    for (MovingValve &valve : valves) valve.mark(*nodes_, 0);
+  if (valves.size() == 1) {
+    check(riis_vtk_mesh_set_marks(mesh_.get(), valves[0].result(), all_.options.far_distance, nullptr));
+    return;
+  }
+  const std::int64_t n = valves[0].stats().n_nodes;
+  JoinedMarks marks(static_cast<std::size_t>(n));
+  const std::vector<int32_t> first = first_leaflets(valves);
+  for (std::size_t valve = 0; valve < valves.size(); ++valve) marks.add(valves[valve].result(), first[valve]);
+  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_marked", n, 1, marks.marked.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_distance", n, 1, marks.distance.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_leaflet", n, 1, marks.leaflet.data()));
+}
+
+std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const {
+  const MovingValve &first = valves[0];
+  if (valves.size() == 1 && !all_.is_series())
+    return picture_title(first.options(), first.source().valve.get(), report.valves[0]);
+  const std::vector<double> &times = all_.options.series.times;
+  const std::string time = times.empty() ? "" : fixed(times[step], decimals_of(times));
+  if (valves.size() > 1) {
+    std::string text = time.empty() ? "" : "Time " + time + ": ";
+    for (std::size_t valve = 0; valve < valves.size(); ++valve)
+      text += (valve > 0 ? ", " : "") + all_.part_of(valve) +
+              (valves[valve].opening() ? " " + fixed(*valves[valve].opening(), 2) : "");
+    return text;
+  }
+  const std::string text = title_of_valve(first.options()) + ", time " + time;
+  return first.opening() ? text + ", opening " + fixed(*first.opening(), 2) : text;
+}
+
+// Only a single valve has views by its axes, which the placement of the first valve gives.
+riis_vtk_picture_options RunPictures::how(const std::vector<MovingValve> &valves) const {
+  const riis_surface_options &placement = valves[0].options().surface_options;
+  riis_vtk_picture_options how;
+  check(riis_vtk_picture_options_init(&how, sizeof how));
+  how.leaflet_names = leaflet_names_.data();
+  how.n_leaflet_names = view(leaflet_names_).size();
+  how.unit = unit_of_mesh(all_.options.unit, valves);
+  std::copy_n(placement.rotation_axis, 3, how.rotation_axis);
+  how.rotation_angle = placement.rotation_angle;
+  return how;
+}
+
+void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const std::string &title,
+                                const riis_surface *surface, Report &report) {
+  std::vector<int32_t> views;
+  std::vector<const char *> paths;
+  for (const Picture &picture : all_.options.pictures) {
+    views.push_back(picture.view);
+    paths.push_back(picture.path.c_str());
+  }
+  if (paths.empty()) return;
+  const Stage stage(std::string("drawing ") + paths[0] + (paths.size() > 1 ? ", ..." : ""), all_.options.quiet);
+  const UnbrokenWrite unbroken;
+  riis_vtk_picture_options options = how(valves);
+  options.title = title.c_str();
+  // Draws the leaking edges of a single valve in red. If there are none, and the edges of all cells are known, the picture says
+  // so.
+  static constexpr int64_t none = 0;
+  const LeakReport &leaks = report.valves[0].leaks;
+  if (valves.size() == 1 && mesh_ && !all_.is_series()) {
+    options.n_leaking_edges = leaks.found.n_edges;
+    options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
+    if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
+  }
+  check(riis_vtk_draw_views(surface, mesh_.get(), &options, view(paths).size(), views.data(), paths.data()));
+  report.written.insert(report.written.end(), paths.begin(), paths.end());
+  report.seconds.picture = stage.seconds();
+}
+
+riis_vtk_film *RunPictures::film(const std::vector<MovingValve> &valves) {
+  if (film_) return film_.get();
+  riis_vtk_picture_options options = how(valves);
+  options.view = all_.options.series.movie_view;
+  riis_vtk_film *film = nullptr;
+  check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &options, &film));
+  film_.reset(film);
+  return film;
+}
+
+void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Report &report) {
+  if (step > 0 && !movie_) return;
+  if (leaflet_names_.empty()) {
+    leaflet_texts_ = leaflet_texts_of(all_, valves);
+    for (const std::string &text : leaflet_texts_) leaflet_names_.push_back(text.c_str());
+  }
+  set_marks_of(valves);
+  const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
+  const riis_surface *surface = joined ? joined.get() : valves[0].surface();
+  const std::string text = title(step, valves, report);
+  if (step == 0) draw_pictures(valves, text, surface, report);
+  if (movie_) check(riis_vtk_film_draw(film(valves), surface, text.c_str(), movie_->next_frame().c_str()));
+}
+
+void RunPictures::encode(Report &report) {
+  if (!movie_) return;
+  const Stage stage("making " + all_.options.series.movie, all_.options.quiet);
+  movie_->encode();
+  report.written.push_back(all_.options.series.movie);
+}
+
+// ---- Movie ----
+
+namespace {
+
+// Returns the path of the program with that name on the PATH, or "" if there is none.
+std::string program_on_path(const std::string &name) {
+  const char *path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  for (std::size_t begin = 0; begin <= folders.size();) {
+    const std::size_t end = std::min(folders.find(':', begin), folders.size());
+    const std::string program = folders.substr(begin, end - begin) + "/" + name;
+    std::error_code error;
+    if (end > begin && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
+      return program;
+    begin = end + 1;
+  }
+  return "";
+}
+
+[[noreturn]] void refuse_movie(const std::string &path, const std::string &reason) {
+  throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
+}
+
+// Returns the name of a frame's file. It contains the frame's number in the form that ffmpeg reads.
+std::string frame_name(std::size_t number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "frame_%06zu.png", number);
+  return text;
+}
+
+// Returns ffmpeg's pattern for the frames. A % in the folder's name is doubled, because % has a meaning in the pattern.
+std::string frame_pattern(const std::string &folder) {
+  std::string pattern;
+  for (const char c : folder) pattern += c == '%' ? std::string("%%") : std::string(1, c);
+  return pattern + "/frame_%06d.png";
+}
+
+std::vector<std::string> encoding_of(const std::string &path) {
+  if (has_ending(path, ".gif")) {
+    // The movie repeats for ever, and all its frames share one palette of colours.
+    return {
+        "-filter_complex",
+        "scale='min(800,iw)':-2:flags=lanczos,split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=5",
+        "-loop",
+        "0",
+        "-f",
+        "gif"};
+  }
+  // This kind of H.264 plays in every player.
+  return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
+}
+
+// Runs a program that must be there. Returns its exit status, or -1 if a signal ended it.
+int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
+  const ProgramEnd end = run_program(words, log);
+  if (end.error != 0)
+    throw Refusal{exit_bad_data, words[0] + ": cannot be run: " + std::generic_category().message(end.error)};
+  return end.status;
+}
+
+std::string last_line_of(const std::string &path) {
+  std::ifstream file(path);
+  std::string last, line;
+  while (std::getline(file, line))
+    if (!line.empty()) last = line;
+  return last.substr(0, 200);
+}
+
+}  // namespace
+
+void check_movie(const std::string &path) {
+  if (path.empty()) return;
+  if (!has_ending(path, ".mp4") && !has_ending(path, ".gif"))
+    throw Refusal{exit_wrong_usage, "--movie: " + path + " must end in .mp4 or .gif"};
+  if (program_on_path("ffmpeg").empty())
+    throw Refusal{exit_bad_data,
+                  "--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it"};
+}
+
+Movie::Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {
+  std::string folder = (std::filesystem::temp_directory_path() / "riis-XXXXXX").string();
+  if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + std::generic_category().message(errno));
+  folder_ = folder;
+}
+
+Movie::~Movie() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string Movie::next_frame() { return folder_ + "/" + frame_name(n_frames_++); }
+
+void Movie::encode() const {
+  const UnbrokenWrite unbroken;
+  const std::filesystem::path place = place_of(path_);
+  const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-movie.tmp")).string();
+  const std::string log = folder_ + "/ffmpeg.log";
+  std::vector<std::string> words = {
+      program_on_path("ffmpeg"), "-nostdin", "-loglevel",           "error", "-y", "-framerate",
+      shortest(frame_rate_),     "-i",       frame_pattern(folder_)};
+  const std::vector<std::string> encoding = encoding_of(path_);
+  words.insert(words.end(), encoding.begin(), encoding.end());
+  words.push_back(temporary);
+  const int status = run_program_to_log(words, log);
+  if (status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
+  const int error = errno;
+  std::remove(temporary.c_str());
+  // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
+  if (UnbrokenWrite::has_signal()) return;
+  if (status == 0) refuse_movie(path_, std::generic_category().message(error));
+  refuse_movie(path_, "ffmpeg ends with status " + std::to_string(status) + ": " + last_line_of(log));
+}
+
+}  // namespace riis::program

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the pictures and the movie of a run, with their titles.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/base/options.hpp"
+#include "program/input/case.hpp"
+#include "program/mark/moving_valve.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
+std::vector<const char *> leaflet_names(const ValveOptions &options);
+
+// Returns a title such as "Mitral valve". For a file, the title is the base name.
+std::string title_of_valve(const ValveOptions &options);
+
+// Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
+// other captions do.
+std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report);
+
+// Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
+// `valve` has the options of the first valve.
+void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);
+
+// In: frames, which are files in a folder of their own. Out: a movie, made by the program ffmpeg.
+
+// Refuses a movie that is neither .mp4 nor .gif. Refuses any movie if ffmpeg is missing. Does nothing if the path is "".
+void check_movie(const std::string &path);
+
+class Movie {
+ public:
+  // Makes a temporary folder, which the destructor removes.
+  Movie(const std::string &path, double frame_rate);
+  ~Movie();
+  Movie(const Movie &) = delete;
+  Movie &operator=(const Movie &) = delete;
+
+  // Returns the path of the next frame. The caller must write a .png file there.
+  std::string next_frame();
+  // Makes the movie from the frames. Afterwards the movie's file is complete or, after a failure, unchanged.
+  void encode() const;
+
+ private:
+  std::string path_, folder_;
+  double frame_rate_;
+  std::size_t n_frames_ = 0;
+};
+
+// Draws the pictures of a run at its first time, and the movie of a series. Both show all valves as one surface, and their marks
+// in the whole mesh.
+
+class RunPictures {
+ public:
+  // The mesh gets the arrays that pictures show, so it must not be written to a file. It may be null. `box` must contain the
+  // surfaces at all times.
+  RunPictures(const Case &all, MeshFile mesh, const Box &box);
+  // Returns whether the user wants a picture or a movie.
+  static bool are_wanted(const MarkOptions &options);
+  // Draws the pictures at the first step, and a frame of the movie at each step. The valves must be at the step's time. In a
+  // series, the call changes their marks.
+  void draw(std::size_t step, std::vector<MovingValve> &valves, Report &report);
+  void encode(Report &report);
+
+ private:
+  void set_marks_of(std::vector<MovingValve> &valves);
+  std::string title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const;
+  riis_vtk_picture_options how(const std::vector<MovingValve> &valves) const;
+  void draw_pictures(const std::vector<MovingValve> &valves, const std::string &title, const riis_surface *surface,
+                     Report &report);
+  riis_vtk_film *film(const std::vector<MovingValve> &valves);
+
+  const Case &all_;
+  MeshFile mesh_;
+  std::optional<FileNodes> nodes_;
+  Box box_;
+  std::vector<std::string> leaflet_texts_;
+  std::vector<const char *> leaflet_names_;  // point into leaflet_texts_
+  std::optional<Movie> movie_;
+  Film film_;
+};
+
+}  // namespace riis::program

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/output/report.hpp"
+
+#include <algorithm>
+#include <iomanip>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "common/array_view.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/mark/warnings.hpp"
+
+namespace riis::program {
+namespace {
+
+const char *search_name(int32_t search) {
+  switch (search) {
+    case RIIS_SEARCH_EXHAUSTIVE:
+      return "exhaustive";
+    case RIIS_SEARCH_NEIGHBOR:
+      return "neighbor";
+    case RIIS_SEARCH_PAPER:
+      return "paper";
+    case RIIS_SEARCH_CLUSTERS:
+      return "clusters";
+    default:
+      return "unknown";
+  }
+}
+
+const char *distance_name(int32_t distance) {
+  switch (distance) {
+    case RIIS_MEASURE_SAMPLING:
+      return "sampling";
+    case RIIS_MEASURE_MINIMIZATION:
+      return "minimization";
+    default:
+      return "triangles";
+  }
+}
+
+std::ostringstream table_stream() {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  return out;
+}
+
+// Returns the beginning of a line of the table. `name` may be "".
+std::string line(std::string label, const std::string &name) {
+  label.resize(10, ' ');
+  return label + (name.empty() ? "" : name + ": ");
+}
+
+void add_surface(const ValveReport &valve, std::ostringstream &out) {
+  out << line("surface", valve.name) << surface_title(valve) << ": " << counted(valve.surface.n_triangles, "triangle");
+  if (valve.n_leaflets > 0) out << ", " << counted(valve.n_leaflets, "leaflet");
+  out << ", area " << valve.surface.area;
+  // Triangles without area are mentioned only for a surface from a file, which should have none. A valve has them at every
+  // collapsed side.
+  if (!valve.opening && valve.surface.n_zero_area > 0)
+    out << ", " << grouped(valve.surface.n_zero_area) << " without area left out";
+  out << "\n";
+  if (valve.gap)
+    out << line("skirt", valve.name) << "to the wall, " << valve.gap->least << " to " << valve.gap->most << " away, "
+        << valve.gap->mean << " on average\n";
+}
+
+void add_marks(const ValveReport &valve, std::ostringstream &out) {
+  out << line("marked", valve.name) << counted(valve.marks.n_marked, "node") << " within the half thickness "
+      << valve.surface.half_thickness;
+  if (valve.distance_limit > valve.surface.half_thickness) {
+    out << ", " << grouped(valve.marks.n_within_limit) << " within " << valve.distance_limit;
+  }
+  out << "\n";
+}
+
+std::string from_to(const std::string &least, const std::string &most) {
+  return least == most ? least : least + " to " + most;
+}
+
+// Adds the line of a series: openings, marked nodes and speed.
+void add_times(const ValveReport &valve, std::ostringstream &out) {
+  TimeReport least = valve.times.front(), most = least;
+  for (const TimeReport &time : valve.times) {
+    least.opening = std::min(least.opening, time.opening);
+    most.opening = std::max(most.opening, time.opening);
+    least.n_marked = std::min(least.n_marked, time.n_marked);
+    most.n_marked = std::max(most.n_marked, time.n_marked);
+    most.largest_speed = std::max(most.largest_speed, time.largest_speed);
+  }
+  out << line("valve", valve.name.empty() ? valve.surface_name : valve.name);
+  if (least.opening) out << "opening " << from_to(shown(*least.opening), shown(*most.opening)) << ", ";
+  out << from_to(grouped(least.n_marked), grouped(most.n_marked)) << " nodes marked, largest speed "
+      << shown(most.largest_speed) << "\n";
+}
+
+void add_search(const ValveReport &valve, std::ostringstream &out) {
+  const riis_mark_stats &marks = valve.marks;
+  out << line("search", valve.name) << search_name(marks.search) << ", " << counted(marks.n_threads, "thread");
+  if (valve.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << distance_name(valve.distance);
+  if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
+  out << "\n";
+  if (!marks.complete)
+    out << line("complete", valve.name) << "unknown: the search misses nodes that are not connected to its start\n";
+}
+
+void add_leaks(const ValveReport &valve, std::ostringstream &out) {
+  const LeakReport &leaks = valve.leaks;
+  const std::string unknown = why_unknown(leaks, "the mesh");
+  out << line("leaks", valve.name);
+  if (leaks.found.n_edges > 0)
+    out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
+        << leaks.found.longest_length << (unknown.empty() ? "" : "; more are unknown: ") << unknown;
+  else if (unknown.empty())
+    out << "none: no edge crosses the surface between unmarked nodes";
+  else
+    out << "unknown: " << unknown;
+  out << "\n";
+}
+
+void add_crossings(const ValveReport &valve, std::ostringstream &out) {
+  if (!valve.crossings) return;
+  const CrossingReport &report = *valve.crossings;
+  out << line("crossing", valve.name);
+  if (report.found.n_pairs == 0) {
+    out << "none: no triangles go through each other";
+    if (report.n_openings > 0) out << " at " << counted(report.n_openings, "opening") << " from 0 to 1";
+  } else {
+    out << counted(report.found.n_pairs, "pair") << " of triangles go through each other";
+    if (report.opening) out << " at opening " << *report.opening;
+    out << ", along a length of " << report.found.total_length << ", up to " << report.found.deepest_depth << " deep";
+  }
+  out << "\n";
+}
+
+const char *state_name(int32_t state) {
+  return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
+}
+
+nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
+  const riis_passage &found = passage.found;
+  return {{"state", passage.is_unknown ? "unknown" : state_name(found.state)},
+          {"node_id", found.node_id},
+          {"distance", found.distance},
+          {"point", found.point},
+          {"closing_half_thickness", passage.closing_half_thickness > 0
+                                         ? nlohmann::ordered_json(passage.closing_half_thickness)
+                                         : nlohmann::ordered_json()}};
+}
+
+// Adds the lines about the flow to the table. A measure that is not set has no line.
+void add_flow(const ValveReport &valve, std::ostringstream &out) {
+  const FlowReport &flow = valve.flow;
+  if (flow.cells && flow.cells->n_edges > 0)
+    out << line("across", valve.name) << flow.cells->mean << " mesh edges of mean length in the band, "
+        << flow.cells->least << " to " << flow.cells->most << " by " << counted(flow.cells->n_edges, "edge") << "\n";
+  if (flow.orifice) {
+    std::ostringstream state = table_stream();
+    state << valve.name;
+    if (flow.orifice_opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *flow.orifice_opening;
+    out << line("orifice", state.str()) << flow.orifice->area << " open, " << flow.orifice->effective_area
+        << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
+        << flow.orifice->perimeter
+        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is the longest open boundary" : "") << "\n";
+  }
+  if (flow.first) {
+    out << line("opens", valve.name);
+    if (flow.first->state == RIIS_FIRST_PASSAGE_FOUND)
+      out << "for the mesh at opening " << flow.first->opening << ", closed at " << flow.first->closed_opening;
+    else if (flow.first->state == RIIS_FIRST_PASSAGE_ALWAYS)
+      out << "always: the mesh has a passage at opening 0";
+    else
+      out << (flow.first->state == RIIS_FIRST_PASSAGE_NEVER ? "never: the mesh has no passage at any opening tried"
+                                                            : "unknown: the mesh itself has no path");
+    out << "\n";
+  }
+  if (flow.leak_per_drop && flow.drop)
+    out << line("leak", valve.name) << *flow.leak_per_drop * *flow.drop << " at the drop " << *flow.drop
+        << ", through an ideal closed valve\n";
+}
+
+nlohmann::ordered_json json_of_first(const riis_first_passage &first) {
+  static const char *const states[] = {"found", "always", "never", "none"};
+  return {{"state", states[first.state]},  {"opening", first.opening},   {"closed_opening", first.closed_opening},
+          {"node_id", first.node_id},      {"distance", first.distance}, {"point", first.point},
+          {"n_openings", first.n_openings}};
+}
+
+void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
+  if (flow.orifice)
+    json["orifice"] = {{"outline", outline_name(flow.orifice->outline)}, {"area", flow.orifice->area},
+                       {"outline_area", flow.orifice->outline_area},     {"perimeter", flow.orifice->perimeter},
+                       {"effective_area", flow.orifice->effective_area}, {"rim_reach", flow.orifice->rim_reach}};
+  if (flow.cells)
+    json["cells_across"] = {{"least", flow.cells->least},
+                            {"mean", flow.cells->mean},
+                            {"most", flow.cells->most},
+                            {"mean_edge", flow.cells->mean_edge},
+                            {"n_edges", flow.cells->n_edges}};
+  if (flow.n_open_regions) json["n_open_regions"] = *flow.n_open_regions;
+  if (flow.first) json["first_passage"] = json_of_first(*flow.first);
+  if (flow.leak_per_drop) json["leak_per_drop"] = *flow.leak_per_drop;
+  if (flow.leak_per_drop && flow.drop) json["leak"] = *flow.leak_per_drop * *flow.drop;
+}
+
+void add_seconds(const Seconds &seconds, std::ostringstream &out) {
+  out << std::fixed << std::setprecision(3) << line("seconds", "") << "read " << seconds.read << ", surface "
+      << seconds.surface << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency "
+      << seconds.adjacency << ", search " << seconds.search << ", leaks " << seconds.leaks << ", write "
+      << seconds.write << ", picture " << seconds.picture << "\n";
+}
+
+void add_step(const StepTimes &step, std::ostringstream &out) {
+  out << std::setprecision(6) << line("step", "") << step.surface + step.marking << " s: surface " << step.surface
+      << ", search " << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat
+      << opening_of_step << " in opening, search " << search_name(step.search) << "\n";
+}
+
+}  // namespace
+
+std::string grouped(int64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
+  return digits;
+}
+
+const char *outline_name(int32_t outline) {
+  static const char *const names[] = {"none", "disc", "attachment", "boundary"};
+  return view(names)[outline];
+}
+
+std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
+
+std::string surface_title(const ValveReport &valve) {
+  std::ostringstream out = table_stream();
+  out << valve.surface_name;
+  if (valve.opening) out << (is_valve_file(valve.surface_name) ? "" : " valve") << ", opening " << *valve.opening;
+  if (valve.time) out << ", time " << *valve.time;
+  return out.str();
+}
+
+std::string why_unknown(const LeakReport &leaks, const std::string &mesh) {
+  if (leaks.has_all_edges()) return "";
+  if (leaks.n_volume_cells == 0) return mesh + " has no volume cells";
+  return "riis does not know the edges of " + grouped(leaks.n_cells_left_out) + " of " +
+         counted(leaks.n_volume_cells, "volume cell") + " in " + mesh;
+}
+
+std::string line_of_passage(const Report &report) {
+  if (!report.passage) return "";
+  const riis_passage &found = report.passage->found;
+  std::ostringstream out = table_stream();
+  out << line("passage", "") << (report.passage->is_unknown ? "unknown; along the known edges " : "");
+  if (found.state == RIIS_PASSAGE_NONE)
+    out << "none: the mesh itself does not join the two points";
+  else
+    out << (found.state == RIIS_PASSAGE_OPEN ? "open" : "closed") << ": at " << report.passage->place << ", "
+        << found.distance << " from the surface" << (report.passage->is_end ? ", an end" : "");
+  out << "\n";
+  return out.str();
+}
+
+namespace {
+
+nlohmann::ordered_json json_of_seconds(const Seconds &seconds) {
+  return {{"read", seconds.read},   {"surface", seconds.surface},     {"scene", seconds.scene},
+          {"mesh", seconds.mesh},   {"adjacency", seconds.adjacency}, {"search", seconds.search},
+          {"leaks", seconds.leaks}, {"write", seconds.write},         {"picture", seconds.picture}};
+}
+
+void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
+  const riis_mark_stats &marks = valve.marks;
+  const LeakReport &leaks = valve.leaks;
+  const bool are_unknown = leaks.found.n_edges == 0 && !leaks.has_all_edges();
+  const auto if_known = [&](const nlohmann::ordered_json &value) {
+    return are_unknown ? nlohmann::ordered_json() : value;
+  };
+  json.update({{"distance_limit", valve.distance_limit},
+               {"search", search_name(marks.search)},
+               {"distance", distance_name(valve.distance)},
+               {"threads", marks.n_threads},
+               {"complete", marks.complete != 0},
+               {"n_unreached", marks.n_unreached},
+               {"n_leaking_edges", if_known(leaks.found.n_edges)},
+               {"longest_leaking_edge", if_known(leaks.found.longest_length)},
+               {"longest_leaking_edge_middle", if_known(leaks.found.longest_middle)},
+               {"closing_half_thickness", leaks.closing_half_thickness > 0
+                                              ? nlohmann::ordered_json(leaks.closing_half_thickness)
+                                              : nlohmann::ordered_json()},
+               {"n_volume_cells", leaks.n_volume_cells},
+               {"n_cells_without_known_edges", leaks.n_cells_left_out}});
+}
+
+// Returns the keys of a valve. If it is the only one, the keys of the run are among them.
+nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
+  nlohmann::ordered_json json;
+  if (is_only) json["version"] = riis_version_string();
+  if (!valve.name.empty()) json["name"] = valve.name;
+  json[valve.opening ? "valve" : "surface"] = valve.surface_name;
+  if (valve.opening) json["opening"] = *valve.opening;
+  if (valve.time) json["time"] = *valve.time;
+  if (valve.n_leaflets > 0) json["n_leaflets"] = valve.n_leaflets;
+  const bool has_mesh = !report.mesh_name.empty();
+  if (has_mesh)
+    json.update({{"n_nodes", valve.marks.n_nodes},
+                 {"n_cells", report.n_cells},
+                 {"n_marked", valve.marks.n_marked},
+                 {"n_within_limit", valve.marks.n_within_limit}});
+  json.update({{"n_triangles", valve.surface.n_triangles},
+               {"n_zero_area", valve.surface.n_zero_area},
+               {"area", valve.surface.area},
+               {"half_thickness", valve.surface.half_thickness}});
+  if (has_mesh) add_marks(valve, json);
+  if (is_only) json["seconds"] = json_of_seconds(report.seconds);
+  if (valve.gap)
+    json["gap"] = {{"least", valve.gap->least},   {"mean", valve.gap->mean},
+                   {"most", valve.gap->most},     {"widest_point", valve.gap->widest_point},
+                   {"n_ends", valve.gap->n_ends}, {"n_without_wall", valve.gap->n_without_wall}};
+  if (is_only && report.passage) json["passage"] = json_of_passage(*report.passage);
+  add_flow(valve.flow, json);
+  if (is_only && report.step) {
+    json["step"] = {{"n_steps", report.step->n_steps},
+                    {"search", search_name(report.step->search)},
+                    {"seconds_surface", report.step->surface},
+                    {"seconds_search", report.step->marking}};
+  }
+  if (valve.crossings) {
+    const riis_crossing_list &found = valve.crossings->found;
+    json["crossings"] = {{"n_openings", valve.crossings->n_openings},
+                         {"n_pairs", found.n_pairs},
+                         {"length", found.total_length},
+                         {"depth", found.deepest_depth},
+                         {"point", found.deepest_point},
+                         {"leaflets", found.deepest_leaflet_id}};
+    if (valve.crossings->opening) json["crossings"]["opening"] = *valve.crossings->opening;
+  }
+  for (const TimeReport &time : valve.times) {
+    nlohmann::ordered_json made = {{"time", time.time}};
+    if (time.opening) made["opening"] = *time.opening;
+    made.update({{"n_marked", time.n_marked}, {"largest_speed", time.largest_speed}});
+    json["times"].push_back(made);
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string json_of(const Report &report) {
+  if (report.valves.size() == 1) return json_of_valve(report, report.valves[0], true).dump(2) + "\n";
+  nlohmann::ordered_json json = {{"version", riis_version_string()}, {"seconds", json_of_seconds(report.seconds)}};
+  if (report.passage) json["passage"] = json_of_passage(*report.passage);
+  for (const ValveReport &valve : report.valves) json["valves"].push_back(json_of_valve(report, valve, false));
+  return json.dump(2) + "\n";
+}
+
+// A series has a line for the times of each valve, and one state has lines for its surface and its marks.
+std::string table_of(const Report &report) {
+  std::ostringstream out = table_stream();
+  const bool is_series = !report.times.empty(), has_mesh = !report.mesh_name.empty();
+  if (is_series)
+    out << line("times", "") << counted(view(report.times).size(), "time") << " from " << shown(report.times.front())
+        << " to " << shown(report.times.back()) << "\n";
+  for (const ValveReport &valve : report.valves)
+    if (!is_series) add_surface(valve, out);
+  if (has_mesh) {
+    out << line("mesh", "") << report.mesh_name << ": " << counted(report.valves[0].marks.n_nodes, "node") << ", "
+        << counted(report.n_cells, "cell");
+    if (report.n_written) out << "; " << counted(*report.n_written, "node") << " written";
+    out << "\n";
+    for (const ValveReport &valve : report.valves) {
+      if (is_series)
+        add_times(valve, out);
+      else
+        add_marks(valve, out);
+      add_search(valve, out);
+    }
+    for (const ValveReport &valve : report.valves) add_leaks(valve, out);
+    out << line_of_passage(report);
+    for (const ValveReport &valve : report.valves)
+      if (report.prints_flow) add_flow(valve, out);
+  }
+  for (const ValveReport &valve : report.valves) add_crossings(valve, out);
+  add_seconds(report.seconds, out);
+  if (report.step) add_step(*report.step, out);
+  for (const std::string &path : report.written) out << line("written", "") << path << "\n";
+  return out.str();
+}
+
+std::string csv_of(const Report &report) {
+  std::string text = "time";
+  for (const ValveReport &valve : report.valves) {
+    const std::string prefix = valve.name.empty() ? "" : valve.name + "_";
+    text += "," + prefix + "opening," + prefix + "n_marked," + prefix + "largest_speed";
+  }
+  text += ",seconds\n";
+  for (std::size_t step = 0; step < report.seconds_of_steps.size(); ++step) {
+    text += shortest(report.times[step]);
+    for (const ValveReport &valve : report.valves) {
+      const TimeReport &time = valve.times[step];
+      text += "," + (time.opening ? shortest(*time.opening) : "") + "," + std::to_string(time.n_marked) + "," +
+              shortest(time.largest_speed);
+    }
+    text += "," + shortest(report.seconds_of_steps[step]) + "\n";
+  }
+  return text;
+}
+
+}  // namespace riis::program

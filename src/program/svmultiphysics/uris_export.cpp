@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/svmultiphysics/uris_export.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "common/xml_text.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/mark/crossings.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
+#include "program/output/report.hpp"
+#include "program/svmultiphysics/uris_forecast.hpp"
+#include "program/svmultiphysics/uris_leaflets.hpp"
+#include "program/svmultiphysics/uris_motion.hpp"
+
+namespace riis::program {
+
+namespace {
+
+// The longest edge, in half thicknesses, up to which the solver's sum of delta is within 1 % of the exact sum (docs/export.md).
+constexpr double fine_edges = 0.15;
+
+// A file that is written piece by piece, because a long motion does not fit in memory.
+class TextFile {
+ public:
+  explicit TextFile(std::string path) : path_(std::move(path)), file_(path_) { check_written(); }
+
+  void add(const std::string &text) {
+    file_ << text;
+    check_written();
+  }
+  void close() {
+    file_.close();
+    check_written();
+  }
+
+ private:
+  void check_written() {
+    if (file_) return;
+    throw Refusal{exit_bad_data, path_ + ": cannot be written: " + std::generic_category().message(errno)};
+  }
+
+  std::string path_;
+  std::ofstream file_;
+};
+
+void append_point(const std::vector<double> &xyz, std::int64_t vertex, std::string &text) {
+  char digits[32];
+  for (std::int64_t k = 0; k < 3; ++k) {
+    // to_chars gives the shortest text that reads back as the same double.
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, view(xyz)[3 * vertex + k]).ptr);
+    text += k < 2 ? ' ' : '\n';
+  }
+}
+
+std::string text_of_points(const std::vector<double> &xyz, const UrisLeaflet &leaflet) {
+  std::string text;
+  for (const std::int64_t vertex : leaflet.nodes) append_point(xyz, vertex, text);
+  return text;
+}
+
+std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet) {
+  const std::string n_nodes = std::to_string(leaflet.nodes.size()), n = std::to_string(leaflet.triangles.size());
+  std::string connectivity, offsets, types;
+  for (std::size_t i = 0; i < leaflet.triangles.size(); ++i) {
+    const Corners &c = leaflet.triangles[i];
+    connectivity += std::to_string(c[0]) + ' ' + std::to_string(c[1]) + ' ' + std::to_string(c[2]) + '\n';
+    offsets += std::to_string(3 * (i + 1)) + '\n';
+    types += "5\n";  // VTK_TRIANGLE
+  }
+  const auto array = [](const std::string &head, const std::string &numbers) {
+    return "<DataArray " + head + " format=\"ascii\">\n" + numbers + "</DataArray>\n";
+  };
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+         "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+         n_nodes + "\" NumberOfCells=\"" + n + "\">\n<Points>\n" +
+         array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", text_of_points(xyz, leaflet)) +
+         "</Points>\n<Cells>\n" + array("type=\"Int64\" Name=\"connectivity\"", connectivity) +
+         array("type=\"Int64\" Name=\"offsets\"", offsets) + array("type=\"UInt8\" Name=\"types\"", types) +
+         "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+// Stops the export between two frames if a signal waits. The signal ends the process once the files are removed, so the message
+// is never printed.
+void stop_if_interrupted() {
+  if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "riis export: interrupted, and nothing is left"};
+}
+
+void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, const std::string &ending,
+                  WholeFolder &folder, StepProgress &progress, std::size_t &step) {
+  std::vector<const UrisLeaflet *> moving;
+  std::vector<TextFile> files;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
+    if (leaflet.is_scaffold) continue;
+    moving.push_back(&leaflet);
+    files.emplace_back(folder.new_file(leaflet.name + ending));
+    files.back().add(std::to_string(openings.size()) + ' ' + std::to_string(leaflet.nodes.size()) + '\n');
+  }
+  for (const double opening : openings) {
+    progress.begin(step++);
+    stop_if_interrupted();
+    const std::vector<double> xyz = leaflets.vertices_at(opening);
+    for (std::size_t i = 0; i < files.size(); ++i) files[i].add(text_of_points(xyz, *moving[i]));
+  }
+  for (TextFile &file : files) file.close();
+}
+
+void write_export(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets,
+                  const UrisForecast &forecast) {
+  const UnbrokenWrite unbroken;
+  WholeFolder folder(options.folder, "FOLDER");
+  StepProgress progress("writing", motion.opening.size() + motion.closing.size(), options.quiet);
+  const auto write_small = [&](const std::string &name, const std::string &text) {
+    TextFile file(folder.new_file(name));
+    file.add(text);
+    file.close();
+  };
+  const std::vector<double> first = leaflets.vertices_at(motion.opening[0]);
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) write_small(leaflet.name + ".vtu", vtu_text(first, leaflet));
+  std::string normal;
+  append_point({leaflets.forward().begin(), leaflets.forward().end()}, 0, normal);
+  write_small("normal.dat", normal);
+  if (!forecast.table.empty()) write_small("forecast.csv", forecast.table);
+  std::size_t step = 0;
+  write_frames(leaflets, motion.opening, "_open.dat", folder, progress, step);
+  write_frames(leaflets, motion.closing, "_close.dat", folder, progress, step);
+  stop_if_interrupted();
+  folder.take_place();
+}
+
+// Returns the name of the valve in the solver's input. The solver also uses it in names of files.
+std::string block_name(const ExportOptions &options) {
+  if (!is_valve_file(options.valve)) return options.valve;
+  std::string name = std::filesystem::path(options.valve).stem().string();
+  // A dash is also replaced, because two dashes in a row would end the comment in the XML.
+  for (char &c : name) c = c != '-' && is_prefix(std::string(1, c)) ? c : '_';
+  return name;
+}
+
+std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
+                       const UrisForecast &forecast) {
+  const std::string folder = in_xml(options.folder) + (options.folder.back() == '/' ? "" : "/");
+  const auto element = [](const std::string &name, const std::string &value) {
+    return "<" + name + "> " + value + " </" + name + ">\n";
+  };
+  const auto frames = [](const std::vector<double> &openings) {
+    return std::to_string(openings.size()) + " frames, from opening " + shortest(openings.front()) + " to " +
+           shortest(openings.back());
+  };
+  const std::string half_thickness = shortest(leaflets.half_thickness());
+  const double edges = leaflets.longest_edge() / leaflets.half_thickness();
+  std::string text =
+      "<!-- riis, " + block_name(options) + " valve\n     opening: " + frames(motion.opening) +
+      "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
+      shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
+      shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor must stay 1";
+  if (edges > fine_edges) {
+    text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
+            shown(fine_edges * leaflets.half_thickness());
+  }
+  for (const std::string &line : forecast.lines) text += "\n     " + line;
+  text += " -->\n";
+  text += "<Add_URIS_mesh name=\"" + block_name(options) + "\">\n";
+  std::string scaffold;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
+    if (leaflet.is_scaffold) {
+      scaffold = "  " + element("Scaffold_file_path", folder + leaflet.name + ".vtu");
+      continue;
+    }
+    text += "  <Add_URIS_face name=\"" + leaflet.name + "\">\n";
+    text += "    " + element("Face_file_path", folder + leaflet.name + ".vtu");
+    text += "    " + element("Open_motion_file_path", folder + leaflet.name + "_open.dat");
+    text += "    " + element("Close_motion_file_path", folder + leaflet.name + "_close.dat");
+    text += "  </Add_URIS_face>\n";
+  }
+  text += "  " + element("Mesh_scale_factor", "1.0");
+  text += "  " + element("Thickness", half_thickness);
+  text += "  " + element("Closed_thickness", half_thickness);
+  text += "  " + element("Resistance", shortest(options.resistance));
+  text += "  " + element("Valve_starts_as_closed", "true");
+  text += "  " + element("Invert_normal", "false");
+  text += "  " + element("Include_URIS_velocity", "true");
+  text += "  " + element("Positive_flow_normal_file_path", folder + "normal.dat");
+  return text + scaffold + "</Add_URIS_mesh>\n";
+}
+
+}  // namespace
+
+void export_uris(const ExportOptions &options) {
+  check_whole_folder(options.folder, "FOLDER");
+  const UrisMotion motion = uris_motion_of(options);
+  UrisLeaflets leaflets(options, motion);
+  if (leaflets.n_left_out() > 0) {
+    warn(counted(leaflets.n_left_out(), "triangle") +
+         " left out, because the area is 0 in some frames and svMultiPhysics would divide by it");
+  }
+  check_shape(options, leaflets.valve(), !options.params_open.empty());
+  const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);
+  write_export(options, motion, leaflets, forecast);
+  if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets, forecast));
+}
+
+// ---- Uris files ----
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string without_last_slashes(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
+[[noreturn]] void refuse_folder(const std::string &option, const std::string &path, const std::string &reason) {
+  throw Refusal{exit_bad_data, option + ": " + path + ": " + reason};
+}
+
+void check_writable(const std::string &option, const std::string &path, const std::string &folder) {
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return;
+  refuse_folder(option, path,
+                "the folder " + folder + " cannot be written to: " + std::generic_category().message(errno));
+}
+
+}  // namespace
+
+void check_whole_folder(const std::string &given, const std::string &option) {
+  const std::string path = without_last_slashes(given);
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    const std::string parent = folder_of(path).string();
+    if (!fs::is_directory(parent, error)) refuse_folder(option, path, "the folder " + parent + " does not exist");
+    return check_writable(option, path, parent);
+  }
+  if (!fs::is_directory(status)) refuse_folder(option, path, "is a file, not a folder");
+  const bool is_empty = fs::is_empty(path, error);
+  if (error) refuse_folder(option, path, "cannot be read: " + error.message());
+  if (!is_empty) refuse_folder(option, path, "the folder is not empty");
+  check_writable(option, path, path);
+}
+
+WholeFolder::WholeFolder(const std::string &path, const std::string &option)
+    : path_(without_last_slashes(path)), unfinished_(path_ + "/.riis-" + std::to_string(getpid()) + ".tmp") {
+  check_whole_folder(path_, option);
+  std::error_code error;
+  was_made_ = fs::create_directory(path_, error);
+  if (!error) fs::create_directory(unfinished_, error);
+  if (!error) return;
+  if (was_made_) fs::remove(path_, error);
+  refuse_folder(option, path_, "cannot be made: " + error.message());
+}
+
+WholeFolder::~WholeFolder() {
+  if (is_whole_) return;
+  std::error_code error;
+  for (const std::string &name : names_) fs::remove(path_ + "/" + name, error);
+  fs::remove_all(unfinished_, error);
+  if (was_made_) fs::remove(path_, error);
+}
+
+std::string WholeFolder::new_file(const std::string &name) {
+  names_.push_back(name);
+  return unfinished_ + "/" + name;
+}
+
+void WholeFolder::take_place() {
+  for (const std::string &name : names_) {
+    std::error_code error;
+    fs::rename(unfinished_ + "/" + name, path_ + "/" + name, error);
+    if (error) throw Refusal{exit_bad_data, path_ + "/" + name + ": cannot be written: " + error.message()};
+  }
+  std::error_code error;
+  fs::remove(unfinished_, error);
+  is_whole_ = true;
+}
+
+}  // namespace riis::program

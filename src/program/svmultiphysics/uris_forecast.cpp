@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/svmultiphysics/uris_forecast.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "common/array_view.hpp"
+#include "program/base/progress.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/mesh_reading.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/report.hpp"
+#include "program/svmultiphysics/uris_flow.hpp"
+#include "program/svmultiphysics/uris_solver.hpp"
+
+namespace riis::program {
+namespace {
+
+// The solver's bands of pressure end at this many half thicknesses.
+constexpr double band_end = 5;
+// The share of (R / eps) u that counts as enough, and the largest half thickness, over the given one, that is tried for it.
+constexpr double enough = 0.95, most_thickness = 2;
+
+class Forecaster {
+ public:
+  Forecaster(const ExportOptions &options, UrisLeaflets &leaflets)
+      : options_(options),
+        leaflets_(leaflets),
+        file_(read_mesh_file(options.mesh)),
+        mesh_(solver_mesh_of(file_.get(), options.mesh)),
+        half_thickness_(leaflets.half_thickness()) {
+    check(riis_vtk_mesh_get_median_edge(file_.get(), &median_edge_));
+  }
+
+  UrisForecast forecast(const UrisMotion &motion) {
+    say("svMultiPhysics in this mesh: " + counted(mesh_.n_nodes, "node") + ", elements " + mesh_.element->name +
+        ", median edge " + shown(median_edge_));
+    check_closed(motion.closing.back());
+    check_open(motion.opening.back());
+    try {
+      find_drop(motion.closing.back());
+    } catch (const NoFlow &no_flow) {
+      say("expected drop: not computed, because " + no_flow.reason);
+      warn("the drop across the closed valve was not computed, nor whether the leaflets separate two sides of " +
+           options_.mesh + ", because " + no_flow.reason +
+           "; it needs NumPy and SciPy (Debian: python3-scipy), and RIIS_PYTHON names the Python that has them");
+    }
+    const std::size_t n = motion.opening.size() + motion.closing.size();
+    StepProgress progress("reading frames as the solver does", n, options_.quiet);
+    std::string &table = forecast_.table;
+    table =
+        "motion,frame,opening,lower_x,lower_y,lower_z,upper_x,upper_y,upper_z,nodes_in_box,solver_area,library_area,"
+        "nodes_before,volume_before,nodes_behind,volume_behind,leaflet_speed,node_speed\n";
+    for (std::size_t i = 0; i < n; ++i) {
+      progress.begin(i);
+      const bool is_closing = i >= motion.opening.size();
+      const std::size_t frame = is_closing ? i - motion.opening.size() : i;
+      add_row(is_closing, frame, (is_closing ? motion.closing : motion.opening)[frame]);
+    }
+    say("largest speed of a leaflet " + shown(fastest_.of_leaflets) + ", and of a node that the solver moves with it " +
+        shown(fastest_.of_nodes));
+    return std::move(forecast_);
+  }
+
+ private:
+  void say(const std::string &line) { forecast_.lines.push_back(line); }
+
+  SolverDistances distances_at(double opening, bool is_closing) {
+    vertices_ = leaflets_.vertices_at(opening);
+    return solver_distances(mesh_, leaflets_, vertices_, is_closing, half_thickness_);
+  }
+  std::vector<double> near_nodes(double limit) const {
+    return exact_distances(mesh_.n_nodes, mesh_.xyz, leaflets_.surface(), limit, options_.n_threads);
+  }
+  SolverBand band_before(const SolverDistances &distances, bool is_closing) const {
+    const double far = is_closing ? band_end * half_thickness_ : std::numeric_limits<double>::infinity();
+    return solver_band(mesh_, distances, -far, -half_thickness_, leaflets_.forward());
+  }
+  SolverBand band_behind(const SolverDistances &distances) const {
+    return solver_band(mesh_, distances, half_thickness_, band_end * half_thickness_, leaflets_.forward());
+  }
+
+  static std::string text_of(const SolverBand &band) {
+    return counted(band.n_nodes, "node") + ", volume " + shown(band.volume) + ", from " + shown(band.from) + " to " +
+           shown(band.to) + " along the flow";
+  }
+
+  [[noreturn]] void refuse_motion(const std::string &verb, const std::string &reason) const {
+    throw Refusal{exit_bad_data, options_.mesh + ": svMultiPhysics would never " + verb + " the valve: " + reason};
+  }
+
+  static std::string printed(const char *format, double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, format, number);
+    return text;
+  }
+
+  void check_closed(double opening) {
+    const SolverDistances distances = distances_at(opening, true);
+    const SolverBand before = band_before(distances, true), behind = band_behind(distances);
+    const std::string from_to = " from " + shown(half_thickness_) + " to " + shown(band_end * half_thickness_);
+    if (before.n_nodes == 0)
+      refuse_motion("open", "no node is before the closed leaflets at a distance" + from_to +
+                                ", where the solver takes the pressure");
+    if (behind.n_nodes == 0)
+      refuse_motion("open", "no node is behind the closed leaflets at a distance" + from_to +
+                                ", where the solver takes the pressure");
+    std::int64_t n_triangles = 0;
+    for (const UrisLeaflet &leaflet : leaflets_.leaflets())
+      if (!leaflet.is_scaffold) n_triangles += view(leaflet.triangles).size();
+    say("each marking of the closed valve measures " +
+        shown(static_cast<double>(distances.n_in_box) * static_cast<double>(n_triangles)) + " distances, from " +
+        counted(distances.n_in_box, "node") + " of its box to every triangle");
+    say("it opens once the pressure before it exceeds the pressure behind it");
+    say("  before: " + text_of(before));
+    say("  behind: " + text_of(behind));
+  }
+
+  void check_open(double opening) {
+    const SolverBand before = band_before(distances_at(opening, false), false);
+    if (before.n_nodes == 0)
+      refuse_motion("close", "no node of the solver's box is before the open leaflets at a distance of " +
+                                 shown(half_thickness_) + " or more, where the solver takes the mean flow");
+    say("it closes once the mean flow before the open leaflets reverses");
+    say("  before: " + text_of(before));
+  }
+
+  // The expected drop over (R / eps) u.
+  struct Expected {
+    enum { separated, let_past, not_found } state = separated;
+    double drop = 0, area = 0;
+  };
+  Expected expected_at(double half_thickness, const SolverDistances &distances, const SolverDistances &wide,
+                       const std::vector<double> &near) const {
+    const double reach = std::max(2.5 * half_thickness, half_thickness + 2 * median_edge_);
+    const ClosedDrop drop =
+        closed_drop(mesh_, distances, wide, near, reach, half_thickness,
+                    {options_.resistance, options_.density, options_.viscosity, options_.time_step}, options_.quiet);
+    Expected expected;
+    expected.state = !drop.is_separated ? Expected::let_past
+                     : drop.is_solved   ? Expected::separated
+                                        : Expected::not_found;
+    if (expected.state != Expected::separated) return expected;
+    expected.area = exact_area(mesh_, leaflets_.surface(), near, half_thickness, options_.n_threads, false);
+    expected.drop = expected.area / drop.flow;
+    return expected;
+  }
+
+  void find_drop(double opening) {
+    const SolverDistances distances = distances_at(opening, true);
+    warn_of_negative_shapes(distances);
+    const std::vector<double> near =
+        near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
+    // The export of a larger half thickness has a larger box, and the sides must be known up to the reach.
+    const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
+                                                  band_end * most_thickness * half_thickness_ + 4 * median_edge_);
+    const Expected expected = expected_at(half_thickness_, distances, wide, near);
+    if (expected.state == Expected::let_past) {
+      say("expected drop: none, because the closed leaflets do not separate two sides of this mesh");
+      warn("svMultiPhysics will not hold the pressure: the closed leaflets do not separate two sides of " +
+           options_.mesh);
+      return;
+    }
+    if (expected.state == Expected::not_found) {
+      say("expected drop: not found, because the equations were not solved");
+      warn("the drop across the closed valve was not found, because the equations were not solved");
+      return;
+    }
+    say("expected drop of the closed valve: " + printed("%.4f", expected.drop) + " of (R/eps) u, with eps = " +
+        shown(half_thickness_) + ", " + shown(half_thickness_ / median_edge_) + " edges");
+    say("  u is the flow over the area of the leaflets in the mesh, " + printed("%.5g", expected.area) +
+        "; the solver's sum of delta is " + shown(solver_area(mesh_, distances, half_thickness_) / expected.area) +
+        " of the exact sum");
+    if (expected.drop > 1 / enough) {
+      warn("svMultiPhysics will drop " + shown(expected.drop) +
+           " of (R/eps) u across the closed valve: its stabilisation needs a density of about 1, as in grams and cm");
+    }
+    if (expected.drop >= enough) return;
+    std::string needed;
+    try {
+      needed = thickness_for(wide, near);
+    } catch (const NoFlow &no_flow) {
+      needed = "the half thickness that the mesh needs was not computed, because " + no_flow.reason;
+    }
+    say("  " + needed);
+    warn("svMultiPhysics will drop " + shown(expected.drop) + " of (R/eps) u across the closed valve; " + needed);
+  }
+
+  // Finds the half thickness by steps of a quarter, and then by halving the last step twice.
+  std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
+    const auto is_enough = [&](double factor) {
+      const Expected expected = expected_at(factor * half_thickness_, wide, wide, near);
+      return expected.state == Expected::separated && expected.drop >= enough;
+    };
+    double below = 1, above = 1;
+    do {
+      below = above;
+      above += 0.25;
+      if (above > most_thickness)
+        return "even a half thickness of " + shown(most_thickness * half_thickness_) + " does not drop " +
+               shown(enough) + "; the mesh needs shorter edges, or the export finer triangles";
+    } while (!is_enough(above));
+    for (int i = 0; i < 2; ++i) {
+      const double middle = (below + above) / 2;
+      (is_enough(middle) ? above : below) = middle;
+    }
+    return "a drop of " + shown(enough) + " needs a half thickness of " + shown(above * half_thickness_) + ", " +
+           shown(above * half_thickness_ / median_edge_) + " edges";
+  }
+
+  // Warns of resistance far from the valve, where interpolated distances are negative.
+  void warn_of_negative_shapes(const SolverDistances &distances) {
+    const SolverElement &element = *mesh_.element;
+    if (element.n_nodes == element.n_corners) return;
+    std::int64_t n = 0;
+    for (std::int64_t e = 0; e < mesh_.n_elements(); ++e)
+      for (const ShapeFunctions &at : element.at_gauss)
+        n += interpolated_distance(mesh_, e, at, distances.to_leaflets) < -half_thickness_;
+    if (n == 0) return;
+    say("WRONG: resistance at " + counted(n, "Gauss point") + " on the border of the solver's box, far from the valve");
+    warn("svMultiPhysics will put resistance at " + counted(n, "Gauss point") +
+         " on the border of its box, because quadratic elements make distances negative there; use linear elements");
+  }
+
+  void add_row(bool is_closing, std::size_t frame, double opening) {
+    const std::vector<double> vertices_before = vertices_;
+    const SolverDistances distances = distances_at(opening, is_closing);
+    const SolverBand before = band_before(distances, is_closing), behind = band_behind(distances);
+    const std::vector<double> near = near_nodes(3 * half_thickness_ + 2 * median_edge_);
+    std::string &row = forecast_.table;
+    row += (is_closing ? "close," : "open,") + std::to_string(frame) + ',' + shortest(opening);
+    for (const std::array<double, 3> *corner : {&distances.lower, &distances.upper})
+      for (const double x : *corner) row += ',' + shortest(x);
+    row += ',' + std::to_string(distances.n_in_box) + ',' + shortest(solver_area(mesh_, distances, half_thickness_)) +
+           ',' + shortest(exact_area(mesh_, leaflets_.surface(), near, half_thickness_, options_.n_threads, true));
+    for (const SolverBand *band : {&before, &behind})
+      row += ',' + std::to_string(band->n_nodes) + ',' + shortest(band->volume);
+    // The first frame of a motion is at rest.
+    const SolverSpeeds speeds = frame == 0 ? SolverSpeeds{}
+                                           : solver_speeds(mesh_, leaflets_, distances, vertices_, vertices_before,
+                                                           options_.time_step, half_thickness_);
+    row += ',' + shortest(speeds.of_leaflets) + ',' + shortest(speeds.of_nodes) + '\n';
+    fastest_.of_leaflets = std::max(fastest_.of_leaflets, speeds.of_leaflets);
+    fastest_.of_nodes = std::max(fastest_.of_nodes, speeds.of_nodes);
+  }
+
+  const ExportOptions &options_;
+  UrisLeaflets &leaflets_;
+  MeshFile file_;
+  SolverMesh mesh_;
+  double half_thickness_, median_edge_ = 0;
+  std::vector<double> vertices_;  // of the last frame that was read
+  SolverSpeeds fastest_;
+  UrisForecast forecast_;
+};
+
+}  // namespace
+
+UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets) {
+  return Forecaster(options, leaflets).forecast(motion);
+}
+
+}  // namespace riis::program

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/svmultiphysics/uris_leaflets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
+
+namespace riis::program {
+
+namespace {
+
+// The largest number of triangles. With more, a text file is too large to be useful, even with few frames.
+constexpr std::int64_t most_triangles = 2000000;
+
+std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
+  static const std::map<std::string, std::vector<const char *>> known = {
+      {"aortic", {"right", "left", "non_coronary"}},
+      {"coapting", {"right", "left", "non_coronary"}},
+      {"trileaflet", {"right", "left", "non_coronary"}},
+      {"mitral", {"anterior", "posterior"}},
+      {"bileaflet", {"positive", "negative", "housing"}}};
+  const auto of_kind = known.find(valve);
+  const auto i = static_cast<std::size_t>(id);
+  if (of_kind != known.end() && i < of_kind->second.size()) return of_kind->second[i];
+  return "leaflet_" + std::to_string(id);
+}
+
+std::array<double, 3> twice_area(const double *xyz, const Corners &corners) {
+  const double *a = xyz + 3 * corners[0], *b = xyz + 3 * corners[1], *c = xyz + 3 * corners[2];
+  const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Surface fixed_surface(const ExportOptions &options, const riis_valve *valve, const std::string &subject) {
+  riis_surface_options how = options.surface_options;
+  how.triangulation = RIIS_TRIANGULATION_FIXED;
+  riis_surface *surface = nullptr;
+  check(riis_surface_create(valve, &how, &surface), subject);
+  return Surface(surface);
+}
+
+template <class Use>
+void for_all_frames(const UrisMotion &motion, const Use &use) {
+  for (const std::vector<double> *openings : {&motion.opening, &motion.closing})
+    for (const double opening : *openings) use(opening);
+}
+
+}  // namespace
+
+UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motion)
+    : subject_(is_valve_file(options.valve) ? options.valve : ""), valve_(make_valve(options)), net_(0, {}) {
+  check(riis_valve_set_scalar(valve_.get(), "opening", motion.opening[0]), subject_);
+  surface_ = fixed_surface(options, valve_.get(), subject_);
+  riis_surface_info info;
+  check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+  half_thickness_ = info.half_thickness;
+  double largest = half_thickness_;
+  for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});
+  grid_ = uris_grid(largest);
+  if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
+  std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
+  net_ = FinerTriangles(info.n_vertices, std::move(lasting));
+  refine(motion, options.largest_edge);
+  find_forward(motion.opening[0]);
+  part(options);
+  add_boxes(motion);
+}
+
+std::vector<double> UrisLeaflets::vertices_at(double opening) {
+  open_to(opening);
+  const riis_triangles triangles = triangles_of(surface_.get());
+  std::vector<double> all(triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+  net_.append_middles(all);
+  for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
+  for (const UrisBox &box : boxes_) box.append_nodes(all);
+  return all;
+}
+
+std::int64_t UrisLeaflets::n_triangles() const { return view(net_.triangles()).size(); }
+
+void UrisLeaflets::open_to(double opening) {
+  check(riis_valve_set_scalar(valve_.get(), "opening", opening), subject_);
+  check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject_);
+}
+
+// Returns the triangles that have an area in all frames. A triangle without area has no normal, so the solver would divide by
+// zero.
+std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const UrisMotion &motion) {
+  struct Seen {
+    FinerTriangles::Triangle triangle;
+    std::size_t n_frames = 0;
+  };
+  std::vector<Seen> seen;  // by triangle_id
+  std::size_t n_frames = 0;
+  for_all_frames(motion, [&](double opening) {
+    open_to(opening);
+    const riis_triangles triangles = triangles_of(surface_.get());
+    const std::int64_t n = triangles.n_triangles;
+    const std::int64_t *const vertex = triangles.vertex_id, *const id = triangles.triangle_id;
+    if (n > 0 && id[n - 1] >= view(seen).size()) resize(seen, id[n - 1] + 1);
+    for (std::int64_t i = 0; i < n; ++i) {
+      Seen &of = view(seen)[id[i]];
+      of.triangle = {{vertex[3 * i], vertex[3 * i + 1], vertex[3 * i + 2]}, triangles.leaflet_id[i]};
+      ++of.n_frames;
+    }
+    ++n_frames;
+  });
+  std::vector<FinerTriangles::Triangle> lasting;
+  for (const Seen &of : seen) {
+    if (of.n_frames == n_frames) lasting.push_back(of.triangle);
+    n_left_out_ += of.n_frames > 0 && of.n_frames < n_frames;
+  }
+  return lasting;
+}
+
+void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
+  do {
+    if (n_triangles() > most_triangles) {
+      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest_edge) + " makes more than " +
+                                          std::to_string(most_triangles) + " triangles"};
+    }
+    for_all_frames(motion, [&](double opening) { net_.measure(vertices_at(opening)); });
+    longest_edge_ = net_.longest_edge();
+  } while (largest_edge > 0 && net_.halve_longer(largest_edge));
+}
+
+void UrisLeaflets::find_forward(double opening) {
+  const std::vector<double> xyz = vertices_at(opening);
+  for (const auto &[corners, leaflet] : net_.triangles()) {
+    if (leaflet == housing_) continue;
+    const std::array<double, 3> area = twice_area(xyz.data(), corners);
+    for (std::size_t k = 0; k < 3; ++k) forward_[k] += area[k];
+  }
+  const double length = std::hypot(forward_[0], forward_[1], forward_[2]);
+  if (!(length > 0))
+    throw Refusal{exit_bad_data, (subject_.empty() ? "" : subject_ + ": ") +
+                                     "the leaflets' normals cancel, so they tell no direction of forward flow"};
+  for (double &x : forward_) x /= length;
+}
+
+void UrisLeaflets::part(const ExportOptions &options) {
+  std::map<std::int32_t, std::vector<Corners>> by_leaflet;
+  for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
+  for (auto &[id, triangles] : by_leaflet) {
+    UrisLeaflet leaflet{name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_};
+    for (const Corners &corners : leaflet.triangles)
+      leaflet.nodes.insert(leaflet.nodes.end(), corners.begin(), corners.end());
+    std::sort(leaflet.nodes.begin(), leaflet.nodes.end());
+    leaflet.nodes.erase(std::unique(leaflet.nodes.begin(), leaflet.nodes.end()), leaflet.nodes.end());
+    for (Corners &corners : leaflet.triangles)
+      for (std::int64_t &vertex : corners)
+        vertex = std::lower_bound(leaflet.nodes.begin(), leaflet.nodes.end(), vertex) - leaflet.nodes.begin();
+    leaflets_.push_back(std::move(leaflet));
+  }
+}
+
+// Adds the triangles that widen the boxes. A housing gets its own, because the solver uses a separate box for it.
+void UrisLeaflets::add_boxes(const UrisMotion &motion) {
+  std::vector<Corners> moving, resting;
+  for (const auto &[corners, leaflet] : net_.triangles()) (leaflet == housing_ ? resting : moving).push_back(corners);
+  const std::vector<double> first = vertices_at(motion.opening.front()), last = vertices_at(motion.opening.back());
+  const auto add = [&](const std::vector<Corners> &triangles, UrisLeaflet &face) {
+    boxes_.emplace_back(triangles, first, last, half_thickness_, grid_);
+    const std::int64_t vertex =
+                           static_cast<std::int64_t>(first.size()) / 3 + UrisBox::n_nodes * (view(boxes_).size() - 1),
+                       node = view(face.nodes).size();
+    for (std::int64_t i = 0; i < UrisBox::n_nodes; ++i) face.nodes.push_back(vertex + i);
+    for (std::int64_t i = 0; i < UrisBox::n_nodes; i += 3)
+      face.triangles.push_back({node + i, node + i + 1, node + i + 2});
+  };
+  for (UrisLeaflet &leaflet : leaflets_)
+    if (leaflet.is_scaffold) add(resting, leaflet);
+  // The face "box" must be the last: if several triangles are equally near, the solver takes the first.
+  leaflets_.push_back({"box", {}, {}, false});
+  add(moving, leaflets_.back());
+}
+
+// ---- Uris box ----
+
+namespace {
+
+// The solver widens its box by solver_share. Its pressure bands end at end_of_bands half thicknesses. The additional 1e-6 keeps
+// a node at the very end of the bands inside the box.
+constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
+
+struct Side {
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  double middle() const { return (lower + upper) / 2; }
+};
+
+std::array<Side, 3> box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
+  std::array<Side, 3> box;
+  for (const Corners &corners : triangles)
+    for (const std::int64_t vertex : corners)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = view(xyz)[3 * vertex + static_cast<std::int64_t>(k)];
+        box[k].lower = std::min(box[k].lower, x);
+        box[k].upper = std::max(box[k].upper, x);
+      }
+  return box;
+}
+
+double sum_of(const Corners &corners, const std::vector<double> &xyz, std::size_t k) {
+  double sum = 0;
+  for (const std::int64_t vertex : corners) sum += view(xyz)[3 * vertex + static_cast<std::int64_t>(k)];
+  return sum;
+}
+
+}  // namespace
+
+double uris_grid(double largest) {
+  constexpr int free_bits = 7;
+  return std::ldexp(1, std::ilogb(largest) + 1 + free_bits - std::numeric_limits<double>::digits);
+}
+
+UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
+                 double half_thickness, double grid)
+    : triangles_(std::move(triangles)), half_thickness_(half_thickness), grid_(grid) {
+  const std::array<Side, 3> at_first = box_of(triangles_, first), at_last = box_of(triangles_, last);
+  for (std::size_t k = 0; k < 3; ++k) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const double off = std::max(std::abs(sum_of(triangles_[i], first, k) / 3 - at_first[k].middle()),
+                                  std::abs(sum_of(triangles_[i], last, k) / 3 - at_last[k].middle()));
+      if (!(off < least)) continue;
+      least = off;
+      chosen_[k] = i;
+    }
+  }
+}
+
+void UrisBox::append_nodes(std::vector<double> &xyz) const {
+  const std::array<Side, 3> box = box_of(triangles_, xyz);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double nodes[3][3];  // first index: corner; second index: coordinate
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), middle = sum / 3;
+      const double half = (box[k].upper - box[k].lower) / 2,
+                   wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
+      // The triangle extends equally far in both directions along its axis. It also has a width across the axis, so that it has
+      // an area.
+      const double reach = wanted + std::abs(middle - box[k].middle());
+      const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
+      const double offsets[2] = {is_along    ? reach
+                                 : is_across ? half_thickness_
+                                             : 0,
+                                 is_along    ? -reach
+                                 : is_across ? half_thickness_
+                                             : 0};
+      for (std::size_t c = 0; c < 2; ++c) nodes[c][k] = std::nearbyint((middle + offsets[c]) / grid_) * grid_;
+      nodes[2][k] = sum - nodes[0][k] - nodes[1][k];
+    }
+    for (const auto &node : nodes) xyz.insert(xyz.end(), node, node + 3);
+  }
+}
+
+// ---- Finer triangles ----
+
+FinerTriangles::FinerTriangles(std::int64_t n_given, std::vector<Triangle> triangles)
+    : n_given_(n_given), triangles_(std::move(triangles)) {
+  find_edges();
+}
+
+double FinerTriangles::longest_edge() const {
+  double longest = 0;
+  for (const Edge &edge : edges_) longest = std::max(longest, edge.length);
+  return longest;
+}
+
+void FinerTriangles::append_middles(std::vector<double> &xyz) const {
+  xyz.reserve(xyz.size() + 3 * middles_.size());
+  for (const Ends &ends : middles_) {
+    for (std::int64_t k = 0; k < 3; ++k) xyz.push_back(0.5 * (view(xyz)[3 * ends.a + k] + view(xyz)[3 * ends.b + k]));
+  }
+}
+
+void FinerTriangles::measure(const std::vector<double> &xyz) {
+  const auto at = view(xyz);
+  for (Edge &edge : edges_) {
+    const std::int64_t a = 3 * edge.ends.a, b = 3 * edge.ends.b;
+    edge.length = std::max(edge.length, std::hypot(at[a] - at[b], at[a + 1] - at[b + 1], at[a + 2] - at[b + 2]));
+  }
+}
+
+bool FinerTriangles::halve_longer(double length) {
+  // The vertex in the middle of each edge that is halved, or -1 for other edges.
+  std::vector<std::int64_t> middle;
+  for (const Edge &edge : edges_) {
+    middle.push_back(edge.length > length ? n_given_ + view(middles_).size() : -1);
+    if (edge.length > length) middles_.push_back(edge.ends);
+  }
+  std::vector<Triangle> cut;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const auto &[corners, leaflet] = triangles_[i];
+    const auto add = [&cut, id = leaflet](std::int64_t a, std::int64_t b, std::int64_t c) {
+      cut.push_back({{a, b, c}, id});
+    };
+    std::array<std::int64_t, 3> middles{};
+    std::size_t n_cut = 0, last_cut = 0, whole = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      middles[k] = view(middle)[edge_of(i, k)];
+      n_cut += middles[k] >= 0;
+      (middles[k] >= 0 ? last_cut : whole) = k;
+    }
+    if (n_cut == 0) {
+      add(corners[0], corners[1], corners[2]);
+    } else if (n_cut == 1) {
+      const std::size_t k = last_cut, next = (k + 1) % 3, other = (k + 2) % 3;
+      add(corners[k], middles[k], corners[other]);
+      add(middles[k], corners[next], corners[other]);
+    } else if (n_cut == 2) {
+      // The edge from a to b is not halved. There are two diagonals. The shorter one ends in the middle of the longer halved
+      // edge.
+      const std::size_t k = whole, next = (k + 1) % 3, other = (k + 2) % 3;
+      const std::int64_t a = corners[k], b = corners[next], c = corners[other], bc = middles[next], ca = middles[other];
+      add(ca, bc, c);
+      const bool bc_is_longer = view(edges_)[edge_of(i, next)].length > view(edges_)[edge_of(i, other)].length;
+      add(a, b, bc_is_longer ? bc : ca);
+      bc_is_longer ? add(a, bc, ca) : add(ca, b, bc);
+    } else {
+      for (std::size_t k = 0; k < 3; ++k) add(corners[k], middles[k], middles[(k + 2) % 3]);
+      add(middles[0], middles[1], middles[2]);
+    }
+  }
+  const bool was_cut = cut.size() > triangles_.size();
+  triangles_ = std::move(cut);
+  if (was_cut) find_edges();
+  return was_cut;
+}
+
+void FinerTriangles::find_edges() {
+  struct Side {
+    Ends ends;
+    std::size_t triangle, k;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(triangles_[i].corners[k], triangles_[i].corners[(k + 1) % 3]);
+      sides.push_back({{a, b}, i, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side &s, const Side &t) { return std::tie(s.ends.a, s.ends.b) < std::tie(t.ends.a, t.ends.b); });
+  edges_.clear();
+  triangle_edges_.assign(triangles_.size(), {});
+  for (const Side &side : sides) {
+    const bool is_known = !edges_.empty() && edges_.back().ends.a == side.ends.a && edges_.back().ends.b == side.ends.b;
+    if (!is_known) edges_.push_back({side.ends, 0});
+    triangle_edges_[side.triangle][side.k] = view(edges_).size() - 1;
+  }
+}
+
+}  // namespace riis::program

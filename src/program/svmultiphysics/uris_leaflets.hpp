@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a valve, and the openings of its frames. Out: leaflets whose nodes and triangles are the same in all frames, and a face
+// that widens the solver's box.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "program/base/handles.hpp"
+#include "program/base/options.hpp"
+#include "program/svmultiphysics/uris_motion.hpp"
+
+namespace riis::program {
+
+// Moving triangles that are cut into smaller ones. The cuts are the same at all times.
+
+using Corners = std::array<std::int64_t, 3>;
+
+// Triangles whose corners are given vertices and middles of edges. A middle moves with the two ends of its edge.
+class FinerTriangles {
+ public:
+  struct Triangle {
+    Corners corners;
+    std::int32_t leaflet;
+  };
+
+  FinerTriangles(std::int64_t n_given, std::vector<Triangle> triangles);
+
+  const std::vector<Triangle> &triangles() const { return triangles_; }
+  // Returns the length of the longest edge, from the measurements since the last cut.
+  double longest_edge() const;
+
+  // Appends the middles of edges to the given vertices xyz(3, n_given).
+  void append_middles(std::vector<double> &xyz) const;
+  // Measures all edges. `xyz` has all vertices at one time. The length of an edge is the largest one over all times.
+  void measure(const std::vector<double> &xyz);
+  // Halves once each edge whose measured length exceeds `length`. Returns true if there was one. Triangles that share an edge
+  // also share its middle, so no gap opens between them.
+  bool halve_longer(double length);
+
+ private:
+  struct Ends {
+    std::int64_t a, b;  // a < b
+  };
+  struct Edge {
+    Ends ends;
+    double length;  // the largest length measured so far
+  };
+
+  // Returns the number of the edge that begins at corner k of a triangle.
+  std::int64_t edge_of(std::size_t triangle, std::size_t k) const { return triangle_edges_[triangle][k]; }
+  void find_edges();
+
+  std::int64_t n_given_;
+  std::vector<Triangle> triangles_;
+  std::vector<Ends> middles_;  // the ends of the edge whose middle is vertex n_given_, n_given_ + 1, ...
+  std::vector<Edge> edges_;
+  std::vector<Corners> triangle_edges_;
+};
+
+// svMultiPhysics searches a mesh only in the box of the valve's nodes, widened by a tenth. The box of a flat valve is too thin:
+// it excludes nodes that should be marked, and parts of the bands in which the solver measures pressures.
+// In: the triangles. Out: three more triangles, which widen the box.
+
+// Returns a power of two to whose multiples coordinates are rounded. `largest` is the largest coordinate. The sum of three such
+// coordinates is exact, even in a box about ten times as large.
+double uris_grid(double largest);
+
+// Three triangles, one along each axis. The middle of each is exactly the middle of a triangle of the valve, so the solver never
+// finds it nearer than the valve. The corners extend beyond the valve's box at both ends.
+class UrisBox {
+ public:
+  static constexpr std::int64_t n_nodes = 9;
+
+  // For each axis, chooses a triangle of the valve near the middle of the box in the first and the last frame. Coordinates must
+  // be multiples of `grid`.
+  UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
+          double half_thickness, double grid);
+
+  // Appends to a frame the three corners of each axis's triangle.
+  void append_nodes(std::vector<double> &xyz) const;
+
+ private:
+  std::vector<Corners> triangles_;
+  double half_thickness_, grid_;
+  std::array<std::size_t, 3> chosen_{};
+};
+
+struct UrisLeaflet {
+  std::string name;                 // usable as a file's name
+  std::vector<std::int64_t> nodes;  // for each node, its vertex; ascending
+  std::vector<Corners> triangles;   // corners as numbers of the leaflet's own nodes, from 0
+  bool is_scaffold;                 // true for a housing, which does not move and has no flow through it
+};
+
+class UrisLeaflets {
+ public:
+  // Evaluates all frames, and cuts the triangles as the options require.
+  UrisLeaflets(const ExportOptions &options, const UrisMotion &motion);
+
+  const riis_valve *valve() const { return valve_.get(); }
+  // Returns the library's surface at the last opening of vertices_at.
+  const riis_surface *surface() const { return surface_.get(); }
+  const std::vector<UrisLeaflet> &leaflets() const { return leaflets_; }
+  // Returns all vertices at an opening, xyz(3, n). They are multiples of a power of two, so that the solver's sums of them are
+  // exact.
+  std::vector<double> vertices_at(double opening);
+  // Returns the direction of forward flow. It is the mean normal of the leaflets in the first frame, without the housing.
+  const std::array<double, 3> &forward() const { return forward_; }
+  double half_thickness() const { return half_thickness_; }
+  double longest_edge() const { return longest_edge_; }
+  std::int64_t n_triangles() const;
+  // Returns the number of triangles left out because they have no area in some frame.
+  std::int64_t n_left_out() const { return n_left_out_; }
+
+ private:
+  void open_to(double opening);
+  std::vector<FinerTriangles::Triangle> lasting_triangles(const UrisMotion &motion);
+  void refine(const UrisMotion &motion, double largest_edge);
+  void find_forward(double opening);
+  void part(const ExportOptions &options);
+  void add_boxes(const UrisMotion &motion);
+
+  std::string subject_;
+  Valve valve_;
+  Surface surface_;
+  FinerTriangles net_;
+  std::vector<UrisBox> boxes_;
+  std::vector<UrisLeaflet> leaflets_;
+  std::array<double, 3> forward_{};
+  double half_thickness_ = 0, longest_edge_ = 0, grid_ = 0;
+  std::int64_t housing_ = -1, n_left_out_ = 0;
+};
+
+}  // namespace riis::program

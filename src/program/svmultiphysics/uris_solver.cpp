@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/svmultiphysics/uris_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "common/array_view.hpp"
+#include "program/base/refusal.hpp"
+
+namespace riis::program {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity(), pi = 3.14159265358979323846;
+
+// The solver widens its box by this share on each side, and takes this many closed half thicknesses as the distance of nodes
+// outside it.
+constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
+
+using Point = std::array<double, 3>;
+
+double squared_distance(const Point &a, const Point &b) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return x * x + y * y + z * z;
+}
+
+// ---- The nearest middle of a triangle ----
+
+// A tree over points. It finds the nearest point, and of equally near ones the first.
+class PointTree {
+ public:
+  explicit PointTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
+    std::iota(order_.begin(), order_.end(), 0);
+    split(0, order_.size(), 0);
+  }
+
+  std::size_t nearest(const Point &to, double &distance) const {
+    Search search{to, infinity, 0};
+    visit(0, order_.size(), 0, search);
+    distance = std::sqrt(search.squared);
+    return search.found;
+  }
+
+ private:
+  struct Search {
+    Point to;
+    double squared;
+    std::size_t found;
+  };
+
+  void split(std::size_t begin, std::size_t end, std::size_t axis) {
+    if (end - begin < 2) return;
+    const std::size_t middle = (begin + end) / 2;
+    const auto at = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end),
+                     [this, axis](std::size_t a, std::size_t b) { return points_[a][axis] < points_[b][axis]; });
+    split(begin, middle, (axis + 1) % 3);
+    split(middle + 1, end, (axis + 1) % 3);
+  }
+
+  void visit(std::size_t begin, std::size_t end, std::size_t axis, Search &search) const {
+    if (begin == end) return;
+    const std::size_t middle = (begin + end) / 2, point = order_[middle], next = (axis + 1) % 3;
+    const double squared = squared_distance(search.to, points_[point]);
+    if (squared < search.squared || (squared == search.squared && point < search.found)) {
+      search.squared = squared;
+      search.found = point;
+    }
+    const double off = search.to[axis] - points_[point][axis];
+    const bool is_below = off < 0;
+    is_below ? visit(begin, middle, next, search) : visit(middle + 1, end, next, search);
+    if (off * off <= search.squared)
+      is_below ? visit(middle + 1, end, next, search) : visit(begin, middle, next, search);
+  }
+
+  std::vector<Point> points_;
+  std::vector<std::size_t> order_;
+};
+
+// ---- The triangles of a frame ----
+
+struct FrameTriangles {
+  Point lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  std::vector<Point> middles, normals;
+  std::vector<Corners> corners;  // as vertices of the frame
+};
+
+Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
+  return {view(xyz)[3 * vertex], view(xyz)[3 * vertex + 1], view(xyz)[3 * vertex + 2]};
+}
+
+FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<double> &xyz, bool of_scaffold) {
+  FrameTriangles frame;
+  for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
+    if (leaflet.is_scaffold != of_scaffold) continue;
+    for (const std::int64_t vertex : leaflet.nodes) {
+      const Point p = vertex_of(xyz, vertex);
+      for (std::size_t k = 0; k < 3; ++k) {
+        frame.lower[k] = std::min(frame.lower[k], p[k]);
+        frame.upper[k] = std::max(frame.upper[k], p[k]);
+      }
+    }
+    for (const Corners &corners : leaflet.triangles) {
+      const auto corner = [&](std::size_t c) { return vertex_of(xyz, view(leaflet.nodes)[corners[c]]); };
+      const Point a = corner(0), b = corner(1), c = corner(2);
+      Point middle, u, v;
+      for (std::size_t k = 0; k < 3; ++k) {
+        middle[k] = (a[k] + b[k] + c[k]) / 3;
+        u[k] = b[k] - a[k];
+        v[k] = c[k] - a[k];
+      }
+      frame.corners.push_back(
+          {view(leaflet.nodes)[corners[0]], view(leaflet.nodes)[corners[1]], view(leaflet.nodes)[corners[2]]});
+      frame.middles.push_back(middle);
+      frame.normals.push_back({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double more = (frame.upper[k] - frame.lower[k]) * widening;
+    frame.lower[k] -= more;
+    frame.upper[k] += more;
+  }
+  return frame;
+}
+
+bool is_within(const Point &p, const Point &lower, const Point &upper) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (p[k] < lower[k] || p[k] > upper[k]) return false;
+  return true;
+}
+
+double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+// ---- The mesh ----
+
+double determinant(const double m[3][3]) {
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+// The solver turns tetrahedra and wedges that are inside out by swapping nodes 0 and 1. A tetrahedron has the same points and
+// weights with and without that swap, so only the determinant's sign changes.
+void turn_elements(SolverMesh &mesh, const std::string &path) {
+  const SolverElement &element = *mesh.element;
+  for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
+    const double volume = determinant_at(mesh, e, element.at_gauss[0]);
+    if (volume > 0) continue;
+    const std::string subject = path + ": volume element " + std::to_string(e);
+    if (!(volume < 0)) throw Refusal{exit_bad_data, subject + " has no volume"};
+    std::int64_t *const nodes = mesh.nodes.data() + e * static_cast<std::int64_t>(element.n_nodes);
+    if (element.n_corners == 8)
+      throw Refusal{exit_bad_data, subject + " is inside out, and svMultiPhysics does not turn hexahedra"};
+    std::swap(nodes[0], nodes[1]);
+    if (element.n_nodes == 6) std::swap(nodes[3], nodes[4]);
+    if (element.n_nodes == 10) {
+      std::swap(nodes[5], nodes[6]);
+      std::swap(nodes[7], nodes[8]);
+    }
+  }
+}
+
+std::vector<double> node_volumes(const SolverMesh &mesh) {
+  const SolverElement &element = *mesh.element;
+  std::vector<double> volume;
+  resize(volume, mesh.n_nodes);
+  for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
+    double determinant = 0;
+    for (std::size_t g = 0; g < element.gauss.size(); ++g) {
+      if (g == 0 || !element.has_one_gradient) determinant = determinant_at(mesh, e, element.at_gauss[g]);
+      for (std::size_t a = 0; a < element.n_nodes; ++a)
+        view(volume)[mesh.nodes_of(e)[a]] += element.gauss[g].weight * determinant * element.at_gauss[g].values[a];
+    }
+  }
+  return volume;
+}
+
+}  // namespace
+
+SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path) {
+  SolverMesh mesh;
+  std::int64_t n_cells = 0;
+  check(riis_vtk_mesh_get_nodes(file, &mesh.n_nodes, &n_cells, &mesh.xyz));
+  std::vector<std::int64_t> offsets, nodes;
+  std::vector<std::uint8_t> types;
+  resize(offsets, n_cells + 1);
+  resize(types, n_cells);
+  check(riis_vtk_mesh_copy_cells(file, n_cells, offsets.data(), types.data(), 0, nullptr), path);
+  resize(nodes, offsets.back());
+  check(riis_vtk_mesh_copy_cells(file, n_cells, nullptr, nullptr, offsets.back(), nodes.data()), path);
+  // VTK's types of points, lines and faces. They bound the volume, and the solver has them in other files.
+  constexpr std::uint8_t without_volume[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 30, 34, 35, 36};
+  for (std::int64_t i = 0; i < n_cells; ++i) {
+    const std::uint8_t type = view(types)[i];
+    if (std::count(std::begin(without_volume), std::end(without_volume), type) > 0) continue;
+    const SolverElement *const element = solver_element_of(type);
+    if (!element)
+      throw Refusal{exit_bad_data, path + ": cell " + std::to_string(i) + " has VTK's type " + std::to_string(type) +
+                                       ", and svMultiPhysics has only " + solver_element_names()};
+    if (mesh.element && element != mesh.element)
+      throw Refusal{exit_bad_data, path + ": has " + mesh.element->name + " and " + element->name +
+                                       ", and svMultiPhysics takes one type of element in a mesh"};
+    mesh.element = element;
+    mesh.nodes.insert(mesh.nodes.end(), nodes.data() + view(offsets)[i], nodes.data() + view(offsets)[i + 1]);
+  }
+  if (!mesh.element) throw Refusal{exit_bad_data, path + ": has no volume cells, so nothing is computed in it"};
+  turn_elements(mesh, path);
+  mesh.node_volume = node_volumes(mesh);
+  return mesh;
+}
+
+double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions) {
+  const std::int64_t *const nodes = mesh.nodes_of(e);
+  double to[3][3] = {};  // first index: coordinate in space; second index: coordinate in the reference element
+  for (std::size_t a = 0; a < mesh.element->n_nodes; ++a)
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        to[i][k] += mesh.xyz[3 * nodes[a] + static_cast<std::int64_t>(i)] * functions.slopes[a][k];
+  return determinant(to);
+}
+
+SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
+                                 bool is_closing, double half_thickness, double margin) {
+  SolverDistances distances;
+  const double far = far_in_half_thicknesses * half_thickness;
+  const auto node = [&mesh](std::int64_t i) {
+    return Point{mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]};
+  };
+  const FrameTriangles frame = triangles_of(leaflets, xyz, false);
+  for (std::size_t k = 0; k < 3; ++k) {
+    distances.lower[k] = frame.lower[k] - margin;
+    distances.upper[k] = frame.upper[k] + margin;
+  }
+  distances.to_leaflets.assign(static_cast<std::size_t>(mesh.n_nodes), far);
+  distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
+  const PointTree middles(frame.middles);
+  for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
+    const Point p = node(i);
+    if (!is_within(p, distances.lower, distances.upper)) continue;
+    ++distances.n_in_box;
+    double distance = 0;
+    const std::size_t nearest = middles.nearest(p, distance);
+    const Point off = difference(p, frame.middles[nearest]);
+    const bool is_before =
+        product(off, frame.normals[nearest]) < 0 && (!is_closing || product(off, leaflets.forward()) < 0);
+    view(distances.to_leaflets)[i] = is_before ? -distance : distance;
+    view(distances.nearest)[i] = static_cast<std::int64_t>(nearest);
+  }
+  const FrameTriangles scaffold = triangles_of(leaflets, xyz, true);
+  if (scaffold.middles.empty()) return distances;
+  distances.to_scaffold.assign(static_cast<std::size_t>(mesh.n_nodes), far);
+  const PointTree scaffold_middles(scaffold.middles);
+  for (std::int64_t i = 0; i < mesh.n_nodes; ++i)
+    if (is_within(node(i), scaffold.lower, scaffold.upper))
+      scaffold_middles.nearest(node(i), view(distances.to_scaffold)[i]);
+  return distances;
+}
+
+double delta_of(double distance, double half_thickness) {
+  if (!(distance < half_thickness)) return 0;
+  return (1 + std::cos(pi * distance / half_thickness)) / (2 * half_thickness * half_thickness);
+}
+
+double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
+                             const std::vector<double> &distances) {
+  double distance = 0;
+  for (std::size_t a = 0; a < mesh.element->n_nodes; ++a)
+    distance += at.values[a] * std::abs(view(distances)[mesh.nodes_of(e)[a]]);
+  return distance;
+}
+
+double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
+                    double half_thickness) {
+  const double of_leaflets = delta_of(interpolated_distance(mesh, e, at, distances.to_leaflets), half_thickness);
+  if (distances.to_scaffold.empty()) return of_leaflets;
+  return of_leaflets + delta_of(interpolated_distance(mesh, e, at, distances.to_scaffold), half_thickness);
+}
+
+SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
+                       const std::array<double, 3> &forward) {
+  SolverBand band{0, 0, infinity, -infinity};
+  for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
+    const double distance = view(distances.to_leaflets)[i];
+    if (!(distance >= from && distance <= to)) continue;
+    const double place = product({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, forward);
+    ++band.n_nodes;
+    band.volume += view(mesh.node_volume)[i];
+    band.from = std::min(band.from, place);
+    band.to = std::max(band.to, place);
+  }
+  return band;
+}
+
+SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets, const SolverDistances &distances,
+                           const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
+                           double half_thickness) {
+  SolverSpeeds speeds;
+  const auto velocity_of = [&](std::int64_t vertex) {
+    Point v = difference(vertex_of(xyz, vertex), vertex_of(before, vertex));
+    for (double &x : v) x /= time_step;
+    return v;
+  };
+  const auto length = [](const Point &v) { return std::sqrt(product(v, v)); };
+  for (const UrisLeaflet &leaflet : leaflets.leaflets())
+    if (!leaflet.is_scaffold && leaflet.name != "box")
+      for (const std::int64_t vertex : leaflet.nodes)
+        speeds.of_leaflets = std::max(speeds.of_leaflets, length(velocity_of(vertex)));
+  const FrameTriangles frame = triangles_of(leaflets, xyz, false);
+  for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
+    if (!(std::abs(view(distances.to_leaflets)[i]) < half_thickness)) continue;
+    const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];
+    const Point a = vertex_of(xyz, corners[0]), u = difference(vertex_of(xyz, corners[1]), a),
+                v = difference(vertex_of(xyz, corners[2]), a),
+                p = difference({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, a);
+    // The part of p across the plane drops out of the products, so p needs no projection.
+    const double uu = product(u, u), uv = product(u, v), vv = product(v, v), pu = product(p, u), pv = product(p, v);
+    const double xi = (vv * pu - uv * pv) / (uu * vv - uv * uv), eta = (uu * pv - uv * pu) / (uu * vv - uv * uv);
+    const Point va = velocity_of(corners[0]), vb = velocity_of(corners[1]), vc = velocity_of(corners[2]);
+    Point velocity;
+    for (std::size_t k = 0; k < 3; ++k) velocity[k] = (1 - xi - eta) * va[k] + xi * vb[k] + eta * vc[k];
+    speeds.of_nodes = std::max(speeds.of_nodes, length(velocity));
+  }
+  return speeds;
+}
+
+double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness) {
+  const SolverElement &element = *mesh.element;
+  double integral = 0;
+  for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
+    double determinant = 0;
+    for (std::size_t g = 0; g < element.gauss.size(); ++g) {
+      const double delta = solver_delta(mesh, e, element.at_gauss[g], distances, half_thickness);
+      if (delta == 0) continue;
+      if (!element.has_one_gradient || determinant == 0)
+        determinant = determinant_at(mesh, e, element.at_gauss[element.has_one_gradient ? 0 : g]);
+      integral += element.gauss[g].weight * determinant * delta;
+    }
+  }
+  return half_thickness * integral;
+}
+
+std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,
+                                    std::int32_t n_threads) {
+  std::vector<double> distances(static_cast<std::size_t>(n_nodes), infinity);
+  riis_mesh *mesh_handle = nullptr;
+  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh_handle));
+  const Mesh mesh(mesh_handle);
+  riis_marks *marks_handle = nullptr;
+  check(riis_marks_create(&marks_handle));
+  const Marks marks(marks_handle);
+  riis_mark_options options;
+  check(riis_mark_options_init(&options, sizeof options));
+  options.distance_limit = limit;
+  options.n_threads = n_threads;
+  check(riis_mark_nodes(surface, mesh.get(), &options, marks.get()));
+  const riis_mark_list list = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+  for (std::int64_t i = 0; i < list.n_nodes; ++i) view(distances)[list.node_id[i]] = list.distance[i];
+  return distances;
+}
+
+double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
+                  double half_thickness, std::int32_t n_threads, bool at_solver_points) {
+  const SolverElement &element = *mesh.element;
+  const std::vector<ReferencePoint> &points = at_solver_points ? element.gauss : element.fine;
+  const std::vector<ShapeFunctions> &functions = at_solver_points ? element.at_gauss : element.at_fine;
+  std::vector<double> xyz, weights;
+  for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
+    double nearest = infinity, size = 0;
+    for (std::size_t a = 0; a < element.n_nodes; ++a) {
+      const std::int64_t node = mesh.nodes_of(e)[a], first = mesh.nodes_of(e)[0];
+      nearest = std::min(nearest, view(near)[node]);
+      size = std::max(
+          size, std::hypot(mesh.xyz[3 * node] - mesh.xyz[3 * first], mesh.xyz[3 * node + 1] - mesh.xyz[3 * first + 1],
+                           mesh.xyz[3 * node + 2] - mesh.xyz[3 * first + 2]));
+    }
+    if (!(nearest <= half_thickness + 2 * size)) continue;
+    for (std::size_t g = 0; g < points.size(); ++g) {
+      const ShapeFunctions &mapped = functions[at_solver_points && element.has_one_gradient ? 0 : g];
+      weights.push_back(points[g].weight * determinant_at(mesh, e, mapped));
+      for (std::int64_t k = 0; k < 3; ++k) {
+        double x = 0;
+        for (std::size_t a = 0; a < element.n_nodes; ++a)
+          x += functions[g].values[a] * mesh.xyz[3 * mesh.nodes_of(e)[a] + k];
+        xyz.push_back(x);
+      }
+    }
+  }
+  if (weights.empty()) return 0;
+  const std::vector<double> distances =
+      exact_distances(static_cast<std::int64_t>(weights.size()), xyz.data(), surface, half_thickness, n_threads);
+  double integral = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) integral += weights[i] * delta_of(distances[i], half_thickness);
+  return half_thickness * integral;
+}
+
+}  // namespace riis::program

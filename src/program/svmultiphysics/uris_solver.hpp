@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// What svMultiPhysics computes from exported leaflets in a mesh, by the rules of its own sources (docs/export.md).
+// In: a mesh, and the leaflets of a frame. Out: the solver's distances at nodes, its delta at Gauss points, and its bands.
+#pragma once
+
+#include <riis/riis_vtk.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "program/svmultiphysics/solver_elements.hpp"
+#include "program/svmultiphysics/uris_leaflets.hpp"
+
+namespace riis::program {
+
+// A mesh as the solver has it: volume elements of one type.
+struct SolverMesh {
+  const SolverElement *element = nullptr;
+  std::int64_t n_nodes = 0;
+  const double *xyz = nullptr;      // (3, n_nodes), borrowed
+  std::vector<std::int64_t> nodes;  // (element->n_nodes, n_elements), in the solver's order
+  std::vector<double> node_volume;  // (n_nodes): the integral of the node's shape function
+
+  std::int64_t n_elements() const {
+    return static_cast<std::int64_t>(nodes.size()) / static_cast<std::int64_t>(element->n_nodes);
+  }
+  const std::int64_t *nodes_of(std::int64_t e) const {
+    return nodes.data() + e * static_cast<std::int64_t>(element->n_nodes);
+  }
+};
+
+// Refuses meshes that the solver refuses. `path` names the mesh in refusals.
+SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path);
+
+// Returns the determinant of the map from the reference element at one point.
+double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &functions);
+
+// The distances of one frame.
+struct SolverDistances {
+  std::array<double, 3> lower{}, upper{};  // the solver's box
+  std::int64_t n_in_box = 0;
+  // (n_nodes): signed distances to the leaflets, and distances to the scaffold. Far nodes have the solver's large number. The
+  // list of the scaffold is empty if there is none.
+  std::vector<double> to_leaflets, to_scaffold;
+  std::vector<std::int64_t>
+      nearest;  // (n_nodes): the leaflets' triangle with the nearest middle, or -1 outside the box
+};
+// `xyz` has all vertices of the frame. A closing valve also uses the direction of forward flow for the sign. `margin` widens the
+// box on each side beyond the solver's own box.
+SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &leaflets, const std::vector<double> &xyz,
+                                 bool is_closing, double half_thickness, double margin = 0);
+
+// Returns the solver's distance at a point of element e: the absolute distances at its nodes, interpolated. Quadratic shape
+// functions have negative values. At the border of the box, where nodes are far by the solver's large number, they make negative
+// distances, and the solver's condition for the band accepts them.
+double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
+                             const std::vector<double> &distances);
+// Returns the solver's delta, which is K / R, at a point of element e.
+double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
+                    double half_thickness);
+// Returns (1 + cos(pi d / eps)) / (2 eps^2), or 0 beyond eps.
+double delta_of(double distance, double half_thickness);
+
+// The nodes whose signed distances lie in a range. Their places are measured along the direction of forward flow.
+struct SolverBand {
+  std::int64_t n_nodes = 0;
+  double volume = 0, from = 0, to = 0;
+};
+SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances, double from, double to,
+                       const std::array<double, 3> &forward);
+
+// The largest speeds of a frame, from the vertices of this frame and of the frame before.
+struct SolverSpeeds {
+  double of_leaflets = 0;  // of the leaflets' vertices
+  // The largest velocity that the solver gives to a node within the half thickness. It extrapolates the velocity in the plane of
+  // the nearest triangle.
+  double of_nodes = 0;
+};
+SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets, const SolverDistances &distances,
+                           const std::vector<double> &xyz, const std::vector<double> &before, double time_step,
+                           double half_thickness);
+
+// Returns half thickness times the integral of delta: the area of the leaflets as the flow meets it.
+double solver_area(const SolverMesh &mesh, const SolverDistances &distances, double half_thickness);
+// Returns the same area by the library's exact distances at many points in each element. `near` has a distance for each node.
+// Elements with all nodes farther than the half thickness and the element's size do not count.
+double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std::vector<double> &near,
+                  double half_thickness, std::int32_t n_threads, bool at_solver_points);
+
+// Returns the distance of each node to the surface, up to a limit, and infinity beyond it.
+std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,
+                                    std::int32_t n_threads);
+
+}  // namespace riis::program
