@@ -71,7 +71,7 @@ build() {
     options+=(-D "EMBREE_GEOMETRY_$kind=OFF")
   done
   rm -rf "$prefix"
-  # A static Embree would install the targets of a TBB that it built itself. Here TBB is installed already.
+  # The installation of a static Embree expects that Embree also built TBB. Here TBB is installed already.
   : >"$source/common/cmake/installTBB.cmake"
   # Debian's sources lack the manual, which the installation copies.
   [[ -e $source/readme.pdf ]] || : >"$source/readme.pdf"

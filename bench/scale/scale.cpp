@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "program/base/ranks.hpp"
-#include "program/mark/marking_run.hpp"
+#include "program/mark/marking.hpp"
 #include "program/output/report.hpp"
 
 namespace {

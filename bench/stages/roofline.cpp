@@ -3,7 +3,7 @@
 // that moved, and marks by the search over clusters, on one thread. First the search runs with kernels that read a clock. Then it
 // runs with kernels that count operations and pairs, and record which memory they use.
 //   argv[1]  the file for counts, times and peaks as JSON
-//   argv[2]  thousands of nodes instead of a million
+//   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 #include <time.h>
 

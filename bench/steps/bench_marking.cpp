@@ -3,7 +3,7 @@
 // surface of a valve that moved and its scene, marks nodes, and reads the list of marked nodes with distances and triangles
 // (time_steps.hpp). The program prints the times and the bars. It fails if a competitor marks other nodes or makes other rows.
 //   argv[1]  a file for the times and bars as JSON, optional
-//   argv[2]  thousands of nodes instead of a million, for a quick look
+//   argv[2]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 // times and bars.
 // Beside busy processes the mean counts, and a few waits of milliseconds decide about it. So blocks of calls with 1 and with 2
 // threads take turns for a long time. The table gives the ratio of their mean times, with its standard error.
-//   argv[1]  thousands of nodes instead of a million, for a quick look
+//   argv[1]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 #include <sched.h>
 #include <signal.h>

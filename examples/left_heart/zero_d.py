@@ -99,8 +99,8 @@ class Valve:
     def pushed(self):
         """Returns the flow that the leaflets displace in the step.
 
-        In space the openings lag by half a time step (write_tables). The leaflets move there at their place of the step's end,
-        which lies half a step after the middle of their motion.
+        OpenFOAM takes the leaflets' flow as a mean over the step, and their place from the end of the step. So the openings
+        lag by half a time step in space (write_tables).
         """
         now = self.opening()
         self.lagged.append(now)

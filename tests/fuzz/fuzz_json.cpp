@@ -8,7 +8,7 @@
 
 #include "input.hpp"
 #include "program/base/refusal.hpp"
-#include "program/input/case_file.hpp"
+#include "program/input/case.hpp"
 #include "program/input/json.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"

@@ -8,8 +8,8 @@
 #include "test_support.h"
 
 #include "cell_edges.h"
-#include "internals.h"
 #include "handles.h"
+#include "internals.h"
 
 static random_source rng;
 

@@ -411,7 +411,7 @@ TEST(valves_have_a_rim_all_around_and_none_inside) {
   }
 }
 
-/* No triangle of another patch touches the middle of a rim edge of a valve at a random opening. */
+/* The middle of a rim edge touches no other patch of its leaflet. Mitral valves are opened at random. */
 TEST(no_other_patch_touches_the_rim) {
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
     int64_t n = 0;

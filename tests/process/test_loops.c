@@ -112,7 +112,8 @@ TEST(the_choice_lasts_for_a_while) {
   assert_false(takes_team_at(12401, 8, waits, ends));
 }
 
-/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait. A loop with a wait ends the row at 1000. */
+/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait, and last a loop with a
+ * wait. All of these end at 1000 ms. */
 static int takes_team_after_calm(double now, int n_calm) {
   double waits[40] = {10, 5}, ended[40] = {100, 400};
   for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks that the options of a command fit together. See command_options.hpp.
-#include "program/cli/command_options.hpp"
+#include "program/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 
-#include "program/input/placed_valve.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 

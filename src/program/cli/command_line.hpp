@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: argc and argv. Out: the command and its options.
+// The command line, from argc and argv to the command and its options, and the texts of help.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "program/base/options.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace riis::program {
 
@@ -15,5 +24,87 @@ using Request = std::variant<MarkOptions, SizeFieldOptions, StatesOptions, Expor
 // Parses the command line. If the user requests only help or the version, prints this text and returns nothing. Throws a Refusal
 // for wrong usage.
 std::optional<Request> parse_command_line(int argc, char **argv);
+
+// Declares options of a command. CLI11 passes on each value as text. This program parses the numbers itself, so that they do not
+// depend on the locale.
+class Command {
+ public:
+  explicit Command(CLI::App *app) : app_(app) {}
+
+  bool parsed() const;
+  bool has(const std::string &name) const;    // whether the user gave the option
+  bool knows(const std::string &name) const;  // whether the command has this option
+  CLI::Option *option(const std::string &name) const;
+  // Sets the heading in the help for the options declared next.
+  void group(const char *title) { group_ = title; }
+
+  using Take = std::function<void(const std::string &)>;
+  // Each of the next functions declares an option by its names, a word for its value, and a help text. A positional argument has
+  // a name such as "OUT".
+  CLI::Option *value(const std::string &names, const char *type, const char *help, const Take &take);
+  CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);
+  using TakeAll = std::function<void(const std::vector<std::string> &)>;
+  CLI::Option *values(const std::string &names, const char *type, const char *help, const TakeAll &take);
+  CLI::Option *number(const std::string &names, const char *type, const char *help, double &to);
+  CLI::Option *positive(const std::string &names, const char *type, const char *help, double &to);
+  // Sets `to` to the position of the given word in `words`.
+  CLI::Option *choice(const std::string &names, const char *help, const std::vector<std::string> &words,
+                      std::int32_t &to, const char *type = "HOW");
+  CLI::Option *flag(const std::string &names, const char *help, bool &to);
+
+ private:
+  CLI::Option *finished(CLI::Option *option, const char *type) const;
+
+  CLI::App *app_;
+  const char *group_ = "Options";
+};
+
+[[noreturn]] void refuse_empty(const std::string &name);
+
+// Returns the position of a word in a list, or the list's length if it is not there.
+std::int32_t position_of(const std::string &name, const std::vector<std::string> &names);
+
+// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
+double parse_positive(const std::string &text, const std::string &subject);
+
+// Declares the options of each command, and checks that they fit together.
+
+// The largest number of openings that riis states accepts.
+inline constexpr std::int32_t most_states = 100001;
+
+void declare_mark(Command command, MarkOptions &options);
+void declare_surface(Command command, MarkOptions &options);
+void declare_crossings(Command command, MarkOptions &options);
+void declare_leaks(Command command, MarkOptions &options);
+void declare_size_field(Command command, SizeFieldOptions &options);
+void declare_states(Command command, StatesOptions &options);
+void declare_export(Command command, ExportOptions &options);
+void declare_params(Command command, ParamsOptions &options);
+void declare_place(Command command, PlaceOptions &options);
+
+// Each finish_* function refuses options that contradict each other or have no effect, and derives the remaining values.
+MarkOptions finish_mark(const Command &command, MarkOptions options);
+MarkOptions finish_surface(const Command &command, MarkOptions options);
+MarkOptions finish_crossings(const Command &command, MarkOptions options);
+MarkOptions finish_leaks(const Command &command, MarkOptions options);
+SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options);
+StatesOptions finish_states(const Command &command, StatesOptions options);
+ExportOptions finish_export(const Command &command, ExportOptions options);
+ParamsOptions finish_params(const Command &command, ParamsOptions options);
+PlaceOptions finish_place(const Command &command, PlaceOptions options);
+
+// The texts of the program's help.
+
+extern const char *const description;
+
+// Returns the text that follows the options in a command's help: examples, and topics to read. The name "riis" stands for the
+// program's own help.
+std::string help_of(const std::string &command);
+
+// Returns the text of a topic, or the list of topics if the name is "". Throws a Refusal for an unknown name.
+std::string text_of_topic(const std::string &name);
+
+// Returns the lines that are printed for a command line without arguments.
+std::string short_help();
 
 }  // namespace riis::program

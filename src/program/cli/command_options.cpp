@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/cli/command_options.hpp"
+#include "program/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "program/input/opening_law.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/passage.hpp"
+#include "program/mark/leaks.hpp"
 
 namespace riis::program {
 namespace {

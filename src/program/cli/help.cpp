@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/cli/help.hpp"
+#include "program/cli/command_line.hpp"
 
 #include "common/nearest_name.hpp"
 #include "program/base/refusal.hpp"

@@ -12,8 +12,7 @@
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/cli/command_line.hpp"
-#include "program/cli/help.hpp"
-#include "program/commands/run.hpp"
+#include "program/commands/commands.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/commands/place.hpp"
+#include "program/commands/commands.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/commands/run.hpp"
+#include "program/commands/commands.hpp"
 
 #include <variant>
 
 #include "program/base/ranks.hpp"
-#include "program/commands/place.hpp"
-#include "program/commands/size_field.hpp"
-#include "program/commands/states.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/marking_run.hpp"
+#include "program/mark/marking.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/commands/size_field.hpp"
+#include "program/commands/commands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,6 @@
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/input/case.hpp"
-#include "program/input/case_file.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/moving_valve.hpp"

@@ -2,10 +2,13 @@
 // A case: one or several valves in one mesh, at one time or at many. The valve of the command line is a case of one.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "program/base/options.hpp"
+#include "program/input/json.hpp"
+#include "program/input/opening_law.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/output/report.hpp"
 
@@ -32,5 +35,24 @@ struct Case {
 Case case_of_command_line(const MarkOptions &options);
 // Reads the surfaces of the valves that are in files, as far as they are not read.
 void read_surfaces(Case &all);
+
+// In: a case file in JSON, which describes the valves of a mesh with their placements and motions. Out: the case. Paths in the
+// file are relative to the file's folder. Refusals name the file, the valve and the key.
+
+// Reads the case file of --case. A mesh, times, a distance limit, a resistance and the points of --between on the command line
+// replace those in the file.
+Case read_case(const MarkOptions &options);
+
+// In: the opening of a valve in a case. Out: its law.
+
+struct CaseOpening {
+  OpeningLaw law;
+  std::string file;  // the file that was read, or "" if there was none
+};
+
+// Reads a number or an object. An object is {"file"} or {"times", "openings"}, each with "period" and "interpolation", or it is
+// {"opening_start", "opening_duration", "closing_start", "closing_duration", "closed", "open", "period"}. in_folder turns a path
+// of the case file into a path relative to the working folder.
+CaseOpening case_opening(const CaseValues &valve, const std::function<std::string(const std::string &)> &in_folder);
 
 }  // namespace riis::program

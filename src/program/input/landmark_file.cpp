@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/input/landmark_file.hpp"
+#include "program/input/placing.hpp"
 
 #include <riis/riis.h>
 

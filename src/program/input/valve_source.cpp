@@ -10,7 +10,6 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/parameters.hpp"
-#include "program/input/placed_valve.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/output/outputs.hpp"
 

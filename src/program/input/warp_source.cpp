@@ -8,7 +8,7 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/opening_law.hpp"
-#include "program/input/placed_valve.hpp"
+#include "program/input/valve_file.hpp"
 
 namespace riis::program {
 

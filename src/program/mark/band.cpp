@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/mark/band.hpp"
+#include "program/mark/leaks.hpp"
 
 #include <algorithm>
 #include <cmath>

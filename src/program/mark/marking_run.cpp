@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/mark/marking_run.hpp"
+#include "program/mark/marking.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -12,9 +12,8 @@
 #include "common/array_view.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
-#include "program/input/case_file.hpp"
+#include "program/input/case.hpp"
 #include "program/input/mesh_reading.hpp"
-#include "program/mark/marking.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/output/marked_files.hpp"
 #include "program/output/outputs.hpp"

@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "program/base/box.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
-#include "program/mark/file_nodes.hpp"
+#include "program/base/units.hpp"
+#include "program/mark/mesh_marking.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {

@@ -13,7 +13,6 @@
 #include "program/base/handles.hpp"
 #include "program/input/case.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/file_nodes.hpp"
 #include "program/mark/mesh_marking.hpp"
 
 namespace riis::program {

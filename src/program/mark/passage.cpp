@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/mark/passage.hpp"
+#include "program/mark/leaks.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -10,7 +10,6 @@
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/leaks.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {

@@ -13,8 +13,8 @@
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/mark/leaks.hpp"
 #include "program/mark/mesh_marking.hpp"
-#include "program/mark/passage.hpp"
 
 namespace riis::program {
 namespace {

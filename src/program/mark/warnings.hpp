@@ -10,9 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "program/base/box.hpp"
 #include "program/base/options.hpp"
-#include "program/base/sizes.hpp"
+#include "program/base/units.hpp"
 
 namespace riis::program {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/svmultiphysics/solver_elements.hpp"
+#include "program/svmultiphysics/uris_solver.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,7 +22,6 @@
 #include "program/output/report.hpp"
 #include "program/svmultiphysics/uris_forecast.hpp"
 #include "program/svmultiphysics/uris_leaflets.hpp"
-#include "program/svmultiphysics/uris_motion.hpp"
 
 namespace riis::program {
 

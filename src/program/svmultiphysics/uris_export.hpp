@@ -39,4 +39,15 @@ class WholeFolder {
 // Throws a Refusal for a folder that WholeFolder would refuse. Changes nothing.
 void check_whole_folder(const std::string &given, const std::string &option);
 
+// In: a valve's opening and closing, and the solver's time step. Out: the openings of the frames that the solver plays.
+
+// The openings of the frames. The solver plays the first list when the valve begins to open, and the second when it begins to
+// close. Each time step plays one frame.
+struct UrisMotion {
+  std::vector<double> opening, closing;
+};
+
+// Frames are one time step apart. The last frame is at the end of the span, so the last step may be shorter.
+UrisMotion uris_motion_of(const ExportOptions &options);
+
 }  // namespace riis::program

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/svmultiphysics/uris_flow.hpp"
+#include "program/svmultiphysics/uris_forecast.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -12,7 +12,6 @@
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/mark/warnings.hpp"
-#include "program/svmultiphysics/uris_flow_script.hpp"
 
 namespace riis::program {
 namespace {

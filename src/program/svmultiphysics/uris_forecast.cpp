@@ -12,7 +12,6 @@
 #include "program/input/mesh_reading.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
-#include "program/svmultiphysics/uris_flow.hpp"
 #include "program/svmultiphysics/uris_solver.hpp"
 
 namespace riis::program {

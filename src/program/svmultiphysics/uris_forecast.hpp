@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "program/base/options.hpp"
+#include "program/svmultiphysics/uris_export.hpp"
 #include "program/svmultiphysics/uris_leaflets.hpp"
-#include "program/svmultiphysics/uris_motion.hpp"
+#include "program/svmultiphysics/uris_solver.hpp"
 
 namespace riis::program {
 
@@ -19,5 +20,37 @@ struct UrisForecast {
 
 // Refuses an export whose valve can never open or never close in this mesh. Warns of a drop that is too small.
 UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion, UrisLeaflets &leaflets);
+
+// The drop across a closed valve as svMultiPhysics computes it (docs/export.md). A Python with NumPy and SciPy solves the
+// equations, by uris_flow.py, which the program has inside.
+// In: the solver's delta in a mesh. Out: the drop over (R / eps) u.
+
+// The numbers of the solver's input that the drop depends on, in the solver's units.
+struct SolverFluid {
+  double resistance, density, viscosity, time_step;
+};
+
+struct ClosedDrop {
+  bool is_separated = false;  // whether the leaflets separate the two sides in the mesh
+  bool is_solved = false;     // whether the equations were solved to a part in a million
+  double flow = 0;            // the flow for a drop of R / eps, which has the unit of an area
+};
+
+// Python could not compute the flow. `reason` says why, such as "python3 lacks scipy".
+struct NoFlow {
+  std::string reason;
+};
+
+// Solves the solver's own discrete equations for a slow and steady flow near the closed valve: equal-order elements, its
+// stabilisation, and no slip at the mesh's boundary. `near` has the exact distance of each node or infinity. Nodes up to `reach`
+// belong to the region. `sides` has distances with the right sign up to that reach, also outside the solver's box. Counts steps
+// on the terminal, unless `quiet`. Throws NoFlow.
+ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances, const SolverDistances &sides,
+                       const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
+                       bool quiet);
+
+// The text of uris_flow.py. CMake writes it into the program, which then finds it wherever it is installed.
+
+extern const char uris_flow_script[];
 
 }  // namespace riis::program

@@ -11,7 +11,7 @@
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
-#include "program/svmultiphysics/uris_motion.hpp"
+#include "program/svmultiphysics/uris_export.hpp"
 
 namespace riis::program {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "program/svmultiphysics/uris_motion.hpp"
+#include "program/svmultiphysics/uris_export.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,7 +18,7 @@ namespace riis {
 struct Tile {
   std::size_t patch;
   const PatchImage *image;
-  const PatchImage *twin;  // the image at the other side of the seam; null without a seam
+  const PatchImage *twin;  // the image on the other side of the seam; null without a seam
   const Seam *seam;
   std::int64_t first_vertex, first_triangle;
   std::int64_t first_id;         // the first triangle_id, which also counts triangles without area

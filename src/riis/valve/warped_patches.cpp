@@ -450,8 +450,8 @@ void map_outer_points(const PatchSet &made, const Patch &patch, const LabelGrid 
     }
 }
 
-// Fails if a part of the warped patch is turned over against the map of the patch. A cell that is a sliver before the warp, after
-// it, or as the map of its corners is not checked.
+// Fails if a part of the warped patch is turned over against the map of the patch. Slivers are not
+// checked: cells that are slivers before the warp, after it, or when only their corners are mapped.
 void check_turns(const LabelGrid &before, const PatchImage &image, const LabelGrid &now, const MappedGrid &mapped) {
   const auto at_mapped = [&](std::size_t i, std::size_t j) -> const Vec3 & {
     return mapped[j * (n_fold_cells + 1) + i];

@@ -71,8 +71,8 @@ auto naming(const std::string &path, const Work &work) {
 }
 // Throws if `status` is an error of the core. Keeps the core's message.
 void check_core(riis_status status);
-// Fails unless the size is a multiple of 8 from first_size to size_here. These are the struct's sizes in its first release and in
-// this release.
+// Fails unless the size is a multiple of 8 and lies between first_size and size_here, both included. These are the struct's sizes
+// in its first release and in this release.
 void check_struct_size(std::int64_t size, std::int64_t first_size, std::int64_t size_here, const char *name);
 
 template <class T>

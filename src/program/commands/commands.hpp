@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "program/base/options.hpp"
+#include "program/base/refusal.hpp"
+#include "program/cli/command_line.hpp"
 
 namespace riis::program {
 
@@ -60,5 +62,25 @@ void run_states(const StatesOptions &options);
 std::string csv_of(const States &states);
 
 std::string summary_of(const States &states, const StatesOptions &options);
+
+// riis place. In: landmarks of a patient. Out: the sizes and the placement of the valve, as a report, as a file that every
+// command takes, and as text for OpenFOAM, C and Fortran.
+
+void run_place(const PlaceOptions &options);
+
+// riis size-field. In: valves and their motion. Out: a grid of edge lengths, small near the valves, as gmsh reads it.
+
+// The largest number of points of the grid.
+inline constexpr std::int64_t most_field_points = 20'000'000;
+
+// Measures the distances of the grid's points to the valves at all times, and writes the edge lengths. Throws a Refusal.
+ExitCode run_size_field(const SizeFieldOptions &options);
+
+// In: the user's request. Out: the files, and the report on stdout. The stages of marking at one time are, in this order:
+// surface, mesh, marks, files, pictures, report. series.hpp and case.hpp describe the stages of series and cases.
+
+// Returns exit_fine, or exit_none_marked if no node was marked and the user did not allow that. With --strict, may return
+// exit_warned. Throws a Refusal.
+ExitCode run(const Request &request);
 
 }  // namespace riis::program
