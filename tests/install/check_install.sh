@@ -39,6 +39,14 @@ fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_fr
   riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis riis_f77 riisf)
 
 
+# Empties a consumer's build directory, except for CMake's knowledge of the compilers. To find out about three compilers takes
+# longer than to build a consumer.
+empty_but_compilers() { # argument: build directory
+  mkdir -p "$1/CMakeFiles"
+  find "$1" -mindepth 1 -maxdepth 1 ! -name CMakeFiles -exec rm -rf {} +
+  find "$1/CMakeFiles" -mindepth 1 -maxdepth 1 ! -name '[0-9]*' -exec rm -rf {} +
+}
+
 configure_consumer() { # arguments: source directory, build directory, prefix, more options
   local arguments=(-DCMAKE_PREFIX_PATH="$3" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX"
     -DCMAKE_C_FLAGS="${c_flags[*]}")
@@ -85,7 +93,7 @@ check_prosthesis_file() { # argument: the program
 }
 
 check_by_cmake() { # arguments: prefix, all|few
-  rm -rf "$work/cmake"
+  empty_but_compilers "$work/cmake"
   quietly configure_consumer "$source/examples" "$work/cmake" "$1"
   grep -q "^riis_DIR:PATH=$1/" "$work/cmake/CMakeCache.txt" || problem "another riis was found than that in $1"
   local example examples=("${all_examples[@]}") targets=()
@@ -102,7 +110,7 @@ check_by_cmake() { # arguments: prefix, all|few
   check_example first_marking "$work/cmake/first_marking_cpp"
 
   if has VTK; then
-    rm -rf "$work/cmake_vtk"
+    empty_but_compilers "$work/cmake_vtk"
     quietly configure_consumer "$source/tests/install/vtk_consumer" "$work/cmake_vtk" "$1"
     quietly "$CMAKE" --build "$work/cmake_vtk"
     quietly "$work/cmake_vtk/vtk_consumer"
@@ -121,7 +129,7 @@ check_by_cmake() { # arguments: prefix, all|few
 
 # find_package must fail and say why.
 refused() { # arguments: text, option, prefix
-  rm -rf "$work/refused"
+  empty_but_compilers "$work/refused"
   local consumer=$source/tests/install/refused_consumer
   if configure_consumer "$consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
     echo "find_package was not refused: $2"

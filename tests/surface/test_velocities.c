@@ -68,7 +68,7 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
 TEST(velocities_follow_the_smooth_valve) {
   static const int known[] = {957, 930, 950, 755, 1000};
   enum { n_known = sizeof known / sizeof *known };
-  const int is_long = is_long_test(), n_random = is_sanitized() ? 1 : 4;
+  const int is_long = is_long_test(), n_random = is_sanitized() ? 1 : trials_of(4);
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed)
       for (int fine = 0; fine < 2; ++fine) {
@@ -167,7 +167,7 @@ static double farthest_at_labels(const riis_surface *surface, const smooth_motio
 
 TEST(the_bound_holds_for_any_motion) {
   double least_ratio = INFINITY;
-  for (int trial = 0; trial < (is_sanitized() ? 16 : 80); ++trial) {
+  for (int trial = 0; trial < (is_sanitized() ? 16 : trials_of(80)); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = new_valve(kinds[kind]), *before = NULL;
     riis_surface_options options = surface_options(), then;
