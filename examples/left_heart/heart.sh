@@ -155,8 +155,8 @@ heart_diseased() {
 }
 
 # 40 steps from the start, with both valves closed at their end. The restart begins after 20 of them. There is no calibration,
-# because its factor differs between 1 and 2 ranks in the fourth digit (examples/openfoam/README.md). The heart is split
-# between the ranks along y. On one rank a band then ends in a cell whose neighbours are all on the other rank. Pressures are solved to
+# because its factor differs between 1 and 2 ranks in the fourth digit (examples/openfoam/README.md). The heart is split between
+# the ranks along y. On one rank a band then ends in a cell whose neighbours are all on the other rank. Pressures are solved to
 # 1e-10. With the tolerances of the beats, the flows of the first step differ by 1.3e-4 in the coarse mesh.
 heart_ranks() {
   local name

@@ -127,11 +127,11 @@
  *   riis_mark_nodes                      finds the nodes near a surface
  *   riis_marks_get_list                  these nodes, with distances, K and fields
  *   riis_dense_arrays_init
- *   riis_marks_get_dense                 the same for all nodes of the mesh
+ *   riis_marks_get_dense                 marks and distances of all nodes of the mesh
  *   riis_marks_get_stats                 counts and seconds of the marking
  * obstacle.h: K in the caller's arrays, forces of the flow
  *   riis_resistance_arrays_init
- *   riis_marks_add_resistance            adds K and K u_surface of each node
+ *   riis_marks_add_resistance            adds K and K u_surface to the caller's arrays
  *   riis_flow_arrays_init, riis_reaction_init
  *   riis_marks_add_reaction              adds the force of the flow on the surface
  *   riis_band_init

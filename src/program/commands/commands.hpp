@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Implements `riis states`: free edges, leaflet areas, the orifice and the coaptation. A valve is measured at openings from 0 to
+// The commands of the program. run.cpp calls them.
+//
+// riis states measures free edges, leaflet areas, the orifice and the coaptation. A valve is measured at openings from 0 to
 // 1, in its own frame. A surface from a file is measured as it is, or at the times of its frames.
 #pragma once
 

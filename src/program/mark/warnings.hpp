@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All warnings of the program.
+// Prints and counts all warnings of the program. Texts about leaks are in leaks.cpp.
 // In: the number of marks, and all sizes. Out: lines that name the suspicious values and the options to use instead.
 #pragma once
 

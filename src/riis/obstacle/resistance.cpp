@@ -28,7 +28,7 @@ double slope_at(const Resistance &resistance, double k) {
   return -(pi / resistance.half_thickness) * (std::sqrt(k) * std::sqrt(std::max(0.0, most - k)));
 }
 
-// Returns K at entry i of a list.
+// Returns K at entry i of a list. A cut rim ends the band: K is 0 at nodes whose closest point is on the rim.
 double coefficient_at(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
   if (resistance.cuts_rim && view(list.fields.rim)[i]) return 0;
   return coefficient_at(resistance, view(list.nodes.distance)[i]);

@@ -19,7 +19,7 @@ bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   return has_few_near(request) ? !is_first : are_enough_for_clusters(request.mesh.nodes().n, request.surface);
 }
 
-// Chooses the search.
+// Chooses the search. The limits of RIIS_SEARCH_AUTO are in search/cluster_search.cpp.
 std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   const PatchDistance *other = request.surface.other_distance();
   if (other && asked_for == RIIS_SEARCH_CLUSTERS)

@@ -78,7 +78,7 @@ struct HalfValve {
 
 Vec3 mirrored(Vec3 p) { return {-p.x, p.y, p.z}; }
 
-// The open annulus is flat.
+// Passes the valve's parameters on to riis::half_annulus, below. The open annulus is flat.
 std::array<Bezier, 3> half_annulus(const ParameterValues &values, bool flat) {
   const auto value = [&](Parameter parameter) { return values[parameter][0]; };
   return riis::half_annulus({value(AP_diameter), value(ALPM_diameter), value(ALPM_position_ratio), value(IT_distance),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The annulus of the mitral valve, from its sizes (docs/theory/mitral.md).
+// The annulus of the mitral valve, from its sizes (docs/theory/mitral.md). mitral.cpp makes it.
 #pragma once
 
 #include <array>
