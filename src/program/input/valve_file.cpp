@@ -40,9 +40,9 @@ struct Patches {
   std::vector<std::int32_t> curve_ids, reversed, leaflet_ids;
 };
 
-class Reader {
+class CurveFileReader {
  public:
-  explicit Reader(const std::string &path) : path_(path) {}
+  explicit CurveFileReader(const std::string &path) : path_(path) {}
 
   // `where`, "" or "open: ", precedes names in refusals.
   Curves curves_of(const Json &root, const std::string &where) const {
@@ -201,7 +201,8 @@ std::string with_names(std::string text, const Curves &curves, const Patches &pa
   return text;
 }
 
-Valve make_valve(const Reader &reader, const Curves &curves, const Patches &patches, const std::string &where) {
+Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patches &patches,
+                 const std::string &where) {
   riis_patches arrays;
   check(riis_patches_init(&arrays, sizeof arrays));
   arrays.n_curves = view(curves.degrees).size();
@@ -230,7 +231,7 @@ bool is_valve_file(const std::string &valve) {
 
 ValveFile::ValveFile(const std::string &path) : path_(path) {
   const Json root = parse_json_file(path, "curves and patches");
-  const Reader reader(path);
+  const CurveFileReader reader(path);
   reader.check_object(root, "the file", {"curves", "patches", "open"});
   const Curves curves = reader.curves_of(root, "");
   const Patches patches = reader.patches_of(root, curves);
