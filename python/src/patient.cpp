@@ -11,11 +11,11 @@
 #include "errors.hpp"
 #include "module.hpp"
 #include "program/base/refusal.hpp"
-#include "program/base/units.hpp"
 #include "program/base/text.hpp"
+#include "program/base/units.hpp"
 #include "program/input/parameters.hpp"
-#include "program/input/valve_file.hpp"
 #include "program/input/placing.hpp"
+#include "program/input/valve_file.hpp"
 #include "program/input/warp_source.hpp"
 
 namespace riis_python {

@@ -113,7 +113,7 @@ const char *outline_name(int32_t outline);
 // Returns a number with its noun in the singular or plural, such as "1 node".
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".
-std::string surface_title(const ValveReport &report);
+std::string surface_title(const ValveReport &valve);
 // Returns a reason why leaks are unknown, such as "MESH has no volume cells". Returns "" if all edges of the mesh are known.
 std::string why_unknown(const LeakReport &leaks, const std::string &mesh);
 // Returns the table's line about the passage, or "" if no points were checked.
