@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The units of length that --unit and --surface-unit accept.
+// Units of length, and sizes that suggest one: the units that --unit and --surface-unit accept, boxes, and the guess of a unit.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,6 @@ std::optional<UnitPair> units_of_factor(double factor);
 std::optional<Unit> unit_of_valve(double largest_side);
 
 // A box along the axes.
-
 struct Box {
   double lower[3], upper[3];
 
@@ -61,10 +60,8 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
-// In: the sizes of a mesh and of a valve in it. Out: whether they fit together, and the unit and the half thickness that would
-// fit.
-// The program's warnings and the lights of Python's view share these rules.
-
+// The sizes of a mesh and of a valve in it. The functions below tell whether they fit together, and which unit and which half
+// thickness would fit. The program's warnings and the lights of Python's view share these rules.
 struct Sizes {
   Box mesh, surface;
   double median_edge;  // of the mesh; 0 if unknown

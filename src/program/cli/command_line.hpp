@@ -93,8 +93,7 @@ ExportOptions finish_export(const Command &command, ExportOptions options);
 ParamsOptions finish_params(const Command &command, ParamsOptions options);
 PlaceOptions finish_place(const Command &command, PlaceOptions options);
 
-// The texts of the program's help.
-
+// The beginning of the program's help.
 extern const char *const description;
 
 // Returns the text that follows the options in a command's help: examples, and topics to read. The name "riis" stands for the

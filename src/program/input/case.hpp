@@ -36,15 +36,12 @@ Case case_of_command_line(const MarkOptions &options);
 // Reads the surfaces of the valves that are in files, as far as they are not read.
 void read_surfaces(Case &all);
 
-// In: a case file in JSON, which describes the valves of a mesh with their placements and motions. Out: the case. Paths in the
-// file are relative to the file's folder. Refusals name the file, the valve and the key.
-
-// Reads the case file of --case. A mesh, times, a distance limit, a resistance and the points of --between on the command line
-// replace those in the file.
+// Reads the case file of --case, JSON that describes the valves of a mesh with their placements and motions. Paths in the file
+// are relative to the file's folder. Refusals name the file, the valve and the key. The command line's mesh, times, distance
+// limit, resistance and points of --between replace those in the file.
 Case read_case(const MarkOptions &options);
 
-// In: the opening of a valve in a case. Out: its law.
-
+// The law of the opening of a valve in a case.
 struct CaseOpening {
   OpeningLaw law;
   std::string file;  // the file that was read, or "" if there was none

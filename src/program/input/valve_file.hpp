@@ -38,7 +38,6 @@ class ValveFile {
 
 // A placed valve: a JSON file of riis place, with the kind, the parameters and the placement of a patient's valve. Every command
 // takes it as --valve FILE.json, and Python's read_placed reads it.
-
 struct PlacedFile {
   std::string kind;
   Unit unit = Unit::centimetre;  // of the placement

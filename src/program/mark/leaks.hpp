@@ -114,7 +114,6 @@ class PassageCheck {
 
 // In: the marked pieces of a mesh. Out: measures of one valve's band that matter for a flow: the mesh edges across it, and the
 // open regions that it parts.
-
 class BandMeasures {
  public:
   // Adds a piece, which has its neighbours. Returns the open region of each node.

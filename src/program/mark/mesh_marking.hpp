@@ -43,16 +43,14 @@ class ResistanceSum {
   bool has_any_ = false;
 };
 
-// Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings.
-
-// Moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
+// Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings. It
+// moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
 // Throws a Refusal for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file);
 
-// The nodes of a mesh file as the library takes them, and the neighbours of each node.
-
 double distance_between(const double *p, const double *q);
 
+// The nodes of a mesh file as the library takes them, and the neighbours of each node.
 class FileNodes {
  public:
   // The file must outlive this object. `path` names it in refusals.

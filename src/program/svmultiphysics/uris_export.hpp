@@ -13,8 +13,6 @@ namespace riis::program {
 // Writes the folder, and prints the block on stdout.
 void export_uris(const ExportOptions &options);
 
-// The folder of an export. It is complete or does not exist.
-
 // A folder that receives its files only when all of them are written. Until then the files are in a folder inside it whose name
 // begins with a dot. If take_place() was not called, the destructor removes everything.
 class WholeFolder {
@@ -38,8 +36,6 @@ class WholeFolder {
 
 // Throws a Refusal for a folder that WholeFolder would refuse. Changes nothing.
 void check_whole_folder(const std::string &given, const std::string &option);
-
-// In: a valve's opening and closing, and the solver's time step. Out: the openings of the frames that the solver plays.
 
 // The openings of the frames. The solver plays the first list when the valve begins to open, and the second when it begins to
 // close. Each time step plays one frame.

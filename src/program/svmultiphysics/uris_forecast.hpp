@@ -24,7 +24,7 @@ UrisForecast forecast_of(const ExportOptions &options, const UrisMotion &motion,
 // The drop across a closed valve as svMultiPhysics computes it (docs/export.md). A Python with NumPy and SciPy solves the
 // equations, by uris_flow.py, which the program has inside.
 // In: the solver's delta in a mesh. Out: the drop over (R / eps) u.
-
+//
 // The numbers of the solver's input that the drop depends on, in the solver's units.
 struct SolverFluid {
   double resistance, density, viscosity, time_step;
@@ -49,8 +49,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
                        const std::vector<double> &near, double reach, double half_thickness, const SolverFluid &fluid,
                        bool quiet);
 
-// The text of uris_flow.py. CMake writes it into the program, which then finds it wherever it is installed.
-
+// The text of uris_flow.py. CMake writes it into the program, so the program needs no path to it.
 extern const char uris_flow_script[];
 
 }  // namespace riis::program
