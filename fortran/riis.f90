@@ -237,8 +237,9 @@ contains
     end if
   end subroutine set_log
 
-  ! The log function that the library calls. It turns the message into a Fortran string.
-  subroutine pass_message(user_data, level, message) bind(c)
+  ! The log function that the library calls. It turns the message into a Fortran string. The empty name keeps it out of the
+  ! names that a host's own procedures may have.
+  subroutine pass_message(user_data, level, message) bind(c, name='')
     type(c_ptr), value :: user_data
     integer(c_int32_t), value :: level
     type(c_ptr), value :: message

@@ -286,6 +286,16 @@ while read -r file; do
   fi
 done < <(binaries "$prefix")
 
+# A global symbol without riis's name may clash with a symbol of the host. Linkers join weak symbols, which come from templates.
+while read -r file; do
+  symbols=(nm -g --defined-only)
+  [[ $file == *.a ]] || symbols=(nm -D --defined-only)
+  if "${symbols[@]}" "$file" | awk 'NF == 3 && $2 !~ /[AVWu]/ { print $3 }' |
+    grep -v -E '^(riisf?_|__riisf?_|_ZT[ISV]N4riis|_ZN[KV]*4riis|_ZZN[KV]*4riis|_ZGVZ?N[KV]*4riis)'; then
+    problem "$file has a global symbol without riis's name"
+  fi
+done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
+
 # A library directory given as an absolute path does not move with the prefix, but everything must still be found. The check
 # configures the build tree again. Only the static test does so, because it has a build tree of its own. The test's fixture
 # restores the build tree.

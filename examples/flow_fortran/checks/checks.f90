@@ -21,6 +21,8 @@ program checks
     call check_drop()
   case ('slow')
     call check_slow_drop()
+  case ('explicit')
+    call check_explicit()
   case ('balance')
     call check_balance()
   case ('moving')
@@ -43,6 +45,7 @@ program checks
     call check_duct()
     call check_drop()
     call check_slow_drop()
+    call check_explicit()
     call check_balance()
     call check_u_surface()
     call check_plates()
@@ -58,8 +61,8 @@ program checks
       call check_jet([24, 32, 40])
     end if
   case default
-    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, balance, moving, plates, box, equal, beside, ' // &
-      'jet, short, study, nan'
+    print '(3a)', 'checks: "', trim(name), '" is none of duct, drop, slow, explicit, balance, moving, plates, box, equal, ' // &
+      'beside, jet, short, study, nan'
     stop 2, quiet=.true.
   end select
   if (.not. all_right) stop 1, quiet=.true.
@@ -151,9 +154,11 @@ contains
   subroutine check_slow_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp, dt = 1e-3_dp
     integer, parameter :: seen(5) = [1, 10, 100, 1000, 10000]
+    real(dp), parameter :: stages(3) = [8 / 15._dp, 2 / 15._dp, 1 / 3._dp]
     type(flow) :: fluid
+    real(dp), allocatable :: K_dt(:), missing(:)  ! K dt/rho of faces, and this times the share of the drop that is missing
     real(dp) :: drop, expected, worst
-    integer :: i
+    integer :: i, stage
     print '(a)', 'The same with K in the momentum equation alone, and pressure increments: share of (R/eps) u, dt 1 ms'
     print '(a)', '   steps     time, s  measured  expected'
     fluid = flow()
@@ -174,6 +179,19 @@ contains
     end do
     call fluid%equation%finish()
     call demand(worst < 0.05_dp, 'the drop builds up as expected, within 5 %')
+    ! With Runge-Kutta stages, a stage of the length a dt multiplies the missing share by a K dt/(rho + a K dt).
+    allocate(K_dt, source=pack(fluid%K, fluid%face(2, :) == 3) * dt / fluid%rho)
+    K_dt = K_dt * 214 / maxval(K_dt)
+    print '(a)', 'Expected with the three stages of a Runge-Kutta scheme and K dt/rho = 214 at the peak'
+    print '(a)', '   steps  expected'
+    do i = 1, 3
+      missing = K_dt
+      do stage = 1, 3
+        missing = missing * (stages(stage) * K_dt / (1 + stages(stage) * K_dt))**seen(i)
+      end do
+      print '(i8, f10.4)', seen(i), 1 - sum(missing) / sum(K_dt)
+    end do
+    print '(a)', ''
   end subroutine check_slow_drop
 
   ! (c) The difference between inflow and outflow is bounded by the residual that HYPRE leaves.
@@ -247,6 +265,57 @@ contains
     call demand(abs(u(1) / w - 1) < 0.01_dp .and. abs(u(2)) < 0.01_dp * w .and. displaced(1) > 10 * abs(displaced(2)), &
       'with K u_surface the plate and the leaflets move the fluid, without K u_surface the fluid rests')
   end subroutine check_u_surface
+
+  ! (g) An explicit K makes the flow grow without limit where K dt/rho is too large. The scheme is
+  ! sum over j of a(j) u(n+1-j) = -(K dt/rho) sum over j of b(j) u(n+1-j), with b(0) = 0. The check lets u decay from a history
+  ! that changes its sign in each step, and bisects the largest K dt/rho at which u decays. Algebra gives the value at which the
+  ! scheme has the root -1.
+  subroutine check_explicit()
+    integer, parameter :: n_schemes = 6
+    character(len=33), parameter :: names(n_schemes) = [character(len=33) :: 'forward Euler', 'BDF2, EXT2', &
+      'AB2 (Adams-Bashforth)', 'BDF3, EXT3', 'BDF2, three levels (Nek5000)', 'AB3']
+    real(dp), parameter :: a(0:3, n_schemes) = reshape([real(dp) :: 1, -1, 0, 0, 1.5_dp, -2, 0.5_dp, 0, 1, -1, 0, 0, &
+      11 / 6._dp, -3, 1.5_dp, -1 / 3._dp, 1.5_dp, -2, 0.5_dp, 0, 1, -1, 0, 0], [4, n_schemes])
+    real(dp), parameter :: b(3, n_schemes) = reshape([real(dp) :: 1, 0, 0, 2, -1, 0, 1.5_dp, -0.5_dp, 0, 3, -3, 1, &
+      8 / 3._dp, -7 / 3._dp, 2 / 3._dp, 23 / 12._dp, -16 / 12._dp, 5 / 12._dp], [3, n_schemes])
+    real(dp), parameter :: signs(0:3) = [1, -1, 1, -1]
+    real(dp) :: least, most, middle, exact
+    logical :: fits
+    integer :: scheme
+    print '(a)', 'Largest K dt/rho at which an explicit K u decays; K is at most R/eps^2'
+    print '(a)', '  scheme                             root -1   measured'
+    fits = .true.
+    do scheme = 1, n_schemes
+      exact = -sum(signs * a(:, scheme)) / sum(signs(1:3) * b(:, scheme))
+      least = 0
+      most = 4
+      do while (most - least > 1e-5_dp)
+        middle = (least + most) / 2
+        if (decays(a(:, scheme), middle * b(:, scheme))) then
+          least = middle
+        else
+          most = middle
+        end if
+      end do
+      fits = fits .and. abs(least - exact) < 1e-3_dp
+      print '(2x, a, 2f10.4)', names(scheme), exact, least
+    end do
+    call demand(fits, 'both agree')
+  end subroutine check_explicit
+
+  ! Returns whether a scheme makes u decay within 100,000 steps.
+  logical function decays(a, z_b)
+    real(dp), intent(in) :: a(0:3), z_b(3)
+    real(dp) :: u(0:3)
+    integer :: i
+    u(1:3) = [1, -1, 1]
+    do i = 1, 100000
+      u(0) = -sum((a(1:3) + z_b) * u(1:3)) / a(0)
+      u(1:3) = u(0:2)
+      if (maxval(abs(u(1:3))) > 1e3_dp) exit
+    end do
+    decays = maxval(abs(u(1:3))) < 1
+  end function decays
 
   ! (f) Prints the effect of R and eps on the drop of a plate at ten places between faces, and on the leak of the closed valve.
   subroutine study()
