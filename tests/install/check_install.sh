@@ -291,7 +291,7 @@ while read -r file; do
   symbols=(nm -g --defined-only)
   [[ $file == *.a ]] || symbols=(nm -D --defined-only)
   if "${symbols[@]}" "$file" | awk 'NF == 3 && $2 !~ /[AVWu]/ { print $3 }' |
-    grep -v -E '^(riisf?_|__riisf?_|_ZT[ISV]N4riis|_ZN[KV]*4riis|_ZZN[KV]*4riis|_ZGVZ?N[KV]*4riis)'; then
+    grep -v -E '^(riisf?_|__riisf?_|_Z(T[ISV]|Z|GVZ?)?N[KV]*[0-9]+riis)'; then
     problem "$file has a global symbol without riis's name"
   fi
 done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
