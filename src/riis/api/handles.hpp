@@ -52,6 +52,12 @@ AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   return handle;
 }
 
+// The body of a create function that makes an empty object.
+template <class AnyHandle>
+riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
+  return guarded([&] { *require(handle, argument) = new AnyHandle{}; });
+}
+
 // The body of a destroy function. A handle of another kind is not destroyed, because losing its memory is better than freeing it
 // as the wrong type.
 template <class AnyHandle>

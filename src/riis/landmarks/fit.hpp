@@ -75,7 +75,8 @@ inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 // The landmarks of each kind of valve: which ones are needed, where they lie on the valve, and which sizes they determine.
 
 // Returns a parameter's value in the template. The template is the valve whose proportions the fit begins with.
-double value_of(const Valve &valve, const std::string &name, std::size_t component = 0);
+double value_of(const Valve &valve, const std::string &name);
+Vec3 vector_of(const Valve &valve, const char *name);
 
 struct KindOfLandmarks {
   std::unique_ptr<LandmarkModel> model;
