@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "riis_vtk/base/xml_elements.hpp"
-
 #include <cstring>
 #include <exception>
 
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkXMLParser.h>
+
+#include "riis_vtk/base/files.hpp"
 
 namespace riis::vtk {
 namespace {

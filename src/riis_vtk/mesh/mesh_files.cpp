@@ -270,11 +270,7 @@ RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh) {
   });
 }
 
-RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
-  if (!mesh) return;
-  delete *mesh;
-  *mesh = nullptr;
-}
+RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) { destroy(mesh); }
 
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz) {

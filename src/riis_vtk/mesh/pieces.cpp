@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -17,15 +16,12 @@
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
 #include <vtkIdList.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "common/array_view.hpp"
 #include "common/xml_text.hpp"
-#include "riis_vtk/base/xml_elements.hpp"
 #include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 
@@ -390,11 +386,7 @@ RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t 
   });
 }
 
-RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces) {
-  if (!pieces) return;
-  delete *pieces;
-  *pieces = nullptr;
-}
+RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces) { destroy(pieces); }
 
 RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, int64_t *n_files,
                                                const char *const **paths) {

@@ -9,7 +9,6 @@
 #include <optional>
 
 #include "common/array_view.hpp"
-#include "riis_vtk/base/xml_elements.hpp"
 #include "riis_vtk/read/grid_files.hpp"
 #include "riis_vtk/surface/surfaces.hpp"
 
@@ -160,11 +159,7 @@ RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion) {
   });
 }
 
-RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion) {
-  if (!motion) return;
-  delete *motion;
-  *motion = nullptr;
-}
+RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion) { destroy(motion); }
 
 RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
                                                 int64_t struct_size) {
