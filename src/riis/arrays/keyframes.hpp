@@ -5,7 +5,6 @@
 
 #include <riis/riis.h>
 
-#include <cstdint>
 #include <vector>
 
 #include "arrays/user_arrays.hpp"
