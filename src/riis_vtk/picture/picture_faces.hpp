@@ -15,8 +15,8 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// Returns the largest dimension of a cell, from 0 to 3. In a grid with volumes, flat cells are not drawn, because they only repeat
-// the grid's boundary.
+// Returns the largest dimension of a cell, from 0 to 3. In a grid with volumes, flat cells are not drawn, because they only
+// repeat the grid's boundary.
 int largest_dimension(vtkUnstructuredGrid *grid);
 
 struct Outside {
