@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "arrays/keyframes.hpp"
+#include "arrays/user_arrays.hpp"
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
 #include "marks/marks.hpp"

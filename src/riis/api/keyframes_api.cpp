@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of riis_keyframes_*. The work is in arrays/keyframes.hpp.
+// Checks the arguments of riis_keyframes_*. The work is in arrays/keyframes.cpp.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"

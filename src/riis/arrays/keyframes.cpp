@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "arrays/keyframes.hpp"
-
 #include <array>
 #include <cmath>
 #include <limits>
