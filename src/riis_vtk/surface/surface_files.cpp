@@ -117,11 +117,7 @@ RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface) {
   });
 }
 
-RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) {
-  if (!surface) return;
-  delete *surface;
-  *surface = nullptr;
-}
+RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) { destroy(surface); }
 
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size) {
