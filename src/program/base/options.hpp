@@ -3,6 +3,7 @@
 #pragma once
 
 #include <riis/riis_vtk.h>
+#include <riis/riis.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -16,8 +17,6 @@ namespace riis::program {
 
 // The options for the surface and its placement. Every command has some or all of them.
 struct ValveOptions {
-  ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
-
   std::string valve = "aortic";  // a kind, or a .json file; unused if there is a surface
   std::string placed;            // the file of a placed valve, whose kind is then `valve`; "": none
   std::string surface;           // a file, or "" for the valve
@@ -30,7 +29,7 @@ struct ValveOptions {
   std::optional<double> skirt;        // length of a skirt in the mesh's unit; with a wall, the longest to accept
   std::string wall;                   // a file with the wall that the skirt reaches; "": none
   std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
-  riis_surface_options surface_options;
+  riis_surface_options surface_options = defaults<riis_surface_options>();
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
   // These members tell whether the user gave the values as numbers.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
@@ -69,14 +68,12 @@ struct LeakCheck {
 
 // The options of riis mark. riis surface and riis check use some of them. riis surface has no mesh.
 struct MarkOptions : ValveOptions {
-  MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
-
   std::string mesh;  // "" if there is none
   std::vector<std::string>
       pieces;              // the files of a mesh in pieces; empty before its list is read, and for other meshes
   bool needs_mesh = true;  // whether a case must name a mesh
   bool at_cells = false;   // whether the centres of cells are marked
-  riis_mark_options mark_options;
+  riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
   std::optional<double> resistance;           // R, for an array of K
   std::string output, surface_output, stats;  // "" if not wanted

@@ -80,8 +80,7 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   std::vector<Edges> edges;
   double thickest = 0;
   for (const MovingValve &valve : valves) {
-    riis_surface_info info;
-    check(riis_surface_get_info(valve.surface(), &info, sizeof info));
+    const riis_surface_info info = info_of(valve.surface());
     edges.push_back({info.half_thickness, options.band_edge * info.half_thickness, options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
   }
@@ -133,13 +132,10 @@ class SweptSurface {
 
   Surface make(double half_thickness) const {
     const riis_surface_arrays arrays = arrays_of(xyz_, corners_);
-    riis_surface_options how;
-    check(riis_surface_options_init(&how, sizeof how));
+    auto how = defaults<riis_surface_options>();
     how.half_thickness = half_thickness;
     how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
-    riis_surface *surface = nullptr;
-    check(riis_surface_create_from_arrays(&arrays, &how, &surface), "the triangles of all states together");
-    return Surface(surface);
+    return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
   }
 
  private:
@@ -169,8 +165,7 @@ std::vector<Surface> swept_surfaces(std::vector<MovingValve> &valves, const std:
 Box box_around(const std::vector<Surface> &surfaces, const std::vector<Edges> &edges) {
   Box box = empty_box();
   for (std::size_t at = 0; at < surfaces.size(); ++at) {
-    riis_surface_info info;
-    check(riis_surface_get_info(surfaces[at].get(), &info, sizeof info));
+    const riis_surface_info info = info_of(surfaces[at]);
     for (int k = 0; k < 3; ++k) {
       box.lower[k] = std::min(box.lower[k], info.lower[k] - edges[at].reach());
       box.upper[k] = std::max(box.upper[k], info.upper[k] + edges[at].reach());
@@ -199,9 +194,7 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &sur
                                const SizeFieldOptions &options) {
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
-  riis_mesh *handle = nullptr;
-  check(riis_mesh_create(grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3, &handle));
-  const Mesh mesh(handle);
+  const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
   // Most points of the grid are within reach of the valves, so clusters pay off at once.
   check(riis_mesh_prepare(mesh.get(), options.mark_options.n_threads));
   const Marks marks = new_result();

@@ -42,9 +42,7 @@ class Measured {
       valve_ = make_valve(options);
       set_opening(0);
       const riis_surface_options own = own_frame(options);
-      riis_surface *surface = nullptr;
-      check(riis_surface_create(valve_.get(), &own, &surface), subject());
-      surface_.reset(surface);
+      surface_ = create_for<Surface>(subject(), riis_surface_create, valve_, &own);
       return;
     }
     Seconds seconds;
@@ -85,11 +83,7 @@ class Measured {
 
   // Returns the name of the parameter that is the disc's radius, or "".
   std::string radius_parameter() const {
-    int64_t n = 0;
-    check(riis_valve_get_n_parameters(valve_.get(), &n));
-    for (int64_t i = 0; i < n; ++i) {
-      riis_parameter parameter;
-      check(riis_valve_get_parameter(valve_.get(), i, &parameter, sizeof parameter));
+    for (const riis_parameter &parameter : all_parameters(valve_)) {
       const std::string name = parameter.name;
       if (name == "root_radius" || name == "radius") return name;
     }
@@ -99,20 +93,16 @@ class Measured {
   std::vector<riis_leaflet> leaflets() const {
     int64_t n = 0;
     check(riis_surface_get_n_leaflets(surface_.get(), &n));
-    std::vector<riis_leaflet> made(static_cast<std::size_t>(n));
-    for (int64_t i = 0; i < n; ++i) check(riis_surface_get_leaflet(surface_.get(), i, &view(made)[i], sizeof made[0]));
+    std::vector<riis_leaflet> made;
+    for (int64_t i = 0; i < n; ++i) made.push_back(get<riis_leaflet>(riis_surface_get_leaflet, surface_, i));
     return made;
   }
 
-  riis_orifice orifice() const {
-    riis_orifice made;
-    check(riis_surface_get_orifice(surface_.get(), nullptr, &made, sizeof made));
-    return made;
-  }
+  riis_orifice orifice() const { return get<riis_orifice>(riis_surface_get_orifice, surface_, nullptr); }
 
   ContactSize contact() const {
-    riis_coaptation made;
-    check(riis_surface_get_coaptation(surface_.get(), RIIS_AUTO, RIIS_ALL_LEAFLETS, &made, sizeof made));
+    const auto made =
+        get<riis_coaptation>(riis_surface_get_coaptation, surface_, RIIS_AUTO, RIIS_ALL_LEAFLETS);
     return {made.area, made.edge};
   }
 

@@ -283,8 +283,7 @@ OpeningLaw law_of_arrays(const CaseValues &values) {
 }
 
 OpeningLaw law_of_ramps(const CaseValues &values) {
-  riis_opening_times times;
-  check(riis_opening_times_init(&times, sizeof times));
+  auto times = defaults<riis_opening_times>();
   const auto set = [&](const char *key, double &field) {
     if (const auto number = values.number(key)) field = *number;
   };

@@ -170,9 +170,7 @@ MeshFile read_by_child(const std::string &path) {
         exit_bad_data,
         answer.text + (answer.status == RIIS_FILE_ERROR ? conversion_hint(path, Content::mesh, answer.text) : "")};
   note(path, answer.text);
-  riis_vtk_mesh *mesh = nullptr;
-  check(riis_vtk_mesh_read(folder.mesh().c_str(), &mesh));
-  return MeshFile(mesh);
+  return create<MeshFile>(riis_vtk_mesh_read, folder.mesh().c_str());
 }
 
 bool has_poly_mesh(const fs::path &folder) {
@@ -204,11 +202,10 @@ std::vector<std::string> data_files_of(const std::string &path) {
 
 MeshFile read_mesh_file(const std::string &path) {
   if (may_crash(path)) return read_by_child(path);
-  riis_vtk_mesh *mesh = nullptr;
-  check_mesh_read(riis_vtk_mesh_read(path.c_str(), &mesh), path);
-  MeshFile file(mesh);
+  MeshFile file;
+  check_mesh_read(riis_vtk_mesh_read(path.c_str(), file.out()), path);
   const char *text = nullptr;
-  check(riis_vtk_mesh_get_notes(mesh, &text));
+  check(riis_vtk_mesh_get_notes(file, &text));
   note(path, text);
   return file;
 }

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <utility>
 
+#include <riis/riis.hpp>
+
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
@@ -26,8 +28,7 @@ void check_law(riis_status status, const std::string &subject) {
 double opening_from(double opening, double, const std::string &) { return opening; }
 
 double opening_from(const OpeningTable &table, double time, const std::string &subject) {
-  riis_opening_table keys;
-  check(riis_opening_table_init(&keys, sizeof keys));
+  auto keys = defaults<riis_opening_table>();
   keys.n_keys = view(table.times).size();
   keys.time = table.times.data();
   keys.opening = table.openings.data();

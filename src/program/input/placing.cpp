@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/parameters.hpp"
@@ -27,24 +28,6 @@ std::string option_text(Reader reader, const char *name, const std::string &valu
   return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
 }
 
-std::size_t n_parameters(const riis_valve *valve) {
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  return static_cast<std::size_t>(n);
-}
-
-riis_parameter parameter_of(const riis_valve *valve, std::size_t i) {
-  riis_parameter parameter{};
-  check(riis_valve_get_parameter(valve, static_cast<int64_t>(i), &parameter, sizeof parameter));
-  return parameter;
-}
-
-std::vector<double> all_values(const riis_valve *valve, const riis_parameter &parameter) {
-  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
-  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
-  return values;
-}
-
 // Returns the names of the parameters that keep their values: the given ones and those of the landmarks' file. The library
 // refuses names that are not a parameter's.
 std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
@@ -57,8 +40,8 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   std::vector<std::string> held;
   for (const std::string &name : given) {
     const std::size_t n_before = held.size();
-    for (std::size_t i = 0; i < n_parameters(valve); ++i) {
-      const std::string full = parameter_of(valve, i).name;
+    for (const riis_parameter &parameter : all_parameters(valve)) {
+      const std::string full = parameter.name;
       const bool is_part = full.size() > name.size() && full.substr(full.size() - name.size() - 1) == "." + name;
       if (full == name || is_part) held.push_back(full);
     }
@@ -109,17 +92,6 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
   throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
 }
 
-riis_points points_of(const std::vector<double> &xyz) {
-  riis_points points;
-  check(riis_points_init(&points, sizeof points));
-  points.n_points = static_cast<int64_t>(xyz.size() / 3);
-  points.x = xyz.data();
-  points.y = xyz.data() + 1;
-  points.z = xyz.data() + 2;
-  points.stride = 3;
-  return points;
-}
-
 }  // namespace
 
 std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
@@ -153,9 +125,10 @@ std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Rea
 
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader) {
-  Placed made{landmarks, kind, {}, {}, {}, 0, {}, {}, std::nullopt, 0, {}};
-  riis_landmarks given;
-  check(riis_landmarks_init(&given, sizeof given));
+  Placed made;
+  made.landmarks = landmarks;
+  made.kind = kind;
+  auto given = defaults<riis_landmarks>();
   given.n_landmarks = static_cast<int64_t>(landmarks.names.size());
   given.x = landmarks.xyz.data();
   given.y = landmarks.xyz.data() + 1;
@@ -167,13 +140,12 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
   if (landmarks.noise) given.noise = *landmarks.noise;
   if (landmarks.flow) std::copy(landmarks.flow->begin(), landmarks.flow->end(), given.flow);
   made.noise = landmarks.noise.value_or(0.03 * given.scale);
-  const std::size_t n = n_parameters(valve);
+  const std::size_t n = all_parameters(valve).size();
   made.residuals.resize(landmarks.names.size());
   made.places.resize(landmarks.xyz.size());
   std::vector<double> errors(n);
   std::vector<int32_t> states(n);
-  riis_placement_arrays arrays;
-  check(riis_placement_arrays_init(&arrays, sizeof arrays));
+  auto arrays = defaults<riis_placement_arrays>();
   arrays.residual = made.residuals.data();
   arrays.standard_error = errors.data();
   arrays.size_state = states.data();
@@ -182,15 +154,14 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
                              sizeof made.placement),
                   landmarks, reader);
   const riis_placement &at = made.placement;
-  check(riis_surface_options_init(&made.where, sizeof made.where));
   made.where.scale = at.scale;
   made.where.half_thickness = 0.1 * at.scale;
   std::copy_n(at.rotation_axis, 3, made.where.rotation_axis);
   made.where.rotation_angle = at.rotation_angle;
   std::copy_n(at.translation, 3, made.where.translation);
-  for (std::size_t i = 0; i < n; ++i) {
-    const riis_parameter parameter = parameter_of(valve, i);
-    made.sizes.push_back({parameter, all_values(valve, parameter), errors[i], states[i]});
+  for (const riis_parameter &parameter : all_parameters(valve)) {
+    const std::size_t i = made.sizes.size();
+    made.sizes.push_back({parameter, values_of(valve, parameter), errors[i], states[i]});
   }
   return made;
 }
@@ -199,24 +170,20 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
   const LandmarkFile &landmarks = placed.landmarks;
   const std::vector<double> &targets = landmarks.xyz;
   const riis_points from = points_of(placed.places), to = points_of(targets);
-  riis_warp_options how;
-  check(riis_warp_options_init(&how, sizeof how));
+  auto how = defaults<riis_warp_options>();
   how.placement = &placed.where;
   how.noise = placed.warp_noise = noise;
   Warp warp;
   check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
   check_landmarks(riis_warp_set_targets(warp.get(), &to), landmarks, reader);
   check(riis_valve_set_warp(valve, warp.get(), nullptr), option_name(reader, "warp"));
-  riis_warp_info info;
-  check(riis_warp_get_info(warp.get(), &info, sizeof info));
-  placed.warp = info;
+  placed.warp = get<riis_warp_info>(riis_warp_get_info, warp);
   std::vector<double> mapped(placed.places.size());
   check(riis_warp_map(warp.get(), &from, mapped.data()));
   for (std::size_t i = 0; i < mapped.size(); i += 3)
     placed.still_off.push_back(
         std::hypot(mapped[i] - targets[i], mapped[i + 1] - targets[i + 1], mapped[i + 2] - targets[i + 2]));
-  Valve trial;
-  check(riis_valve_copy(valve, trial.out()));
+  const auto trial = create<Valve>(riis_valve_copy, valve);
   for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     check(riis_valve_set_scalar(trial.get(), "opening", opening));
     Surface surface;

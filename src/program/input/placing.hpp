@@ -76,13 +76,13 @@ struct Placed {
   LandmarkFile landmarks;
   std::string kind;
   std::vector<Size> sizes;
-  riis_placement placement;
+  riis_placement placement{};
   std::vector<double> residuals;
-  double noise;                        // stated, mesh units
+  double noise = 0;                    // stated, mesh units
   std::vector<double> places;          // (3, n), of the landmarks on the valve
-  riis_surface_options where;          // the placement
+  riis_surface_options where = defaults<riis_surface_options>();  // the placement
   std::optional<riis_warp_info> warp;  // without a warp there is none
-  double warp_noise;                   // by which the warp is smoothed; 0: it meets the landmarks
+  double warp_noise = 0;               // by which the warp is smoothed; 0: it meets the landmarks
   std::vector<double> still_off;       // distances of the landmarks from their places on the warped valve
 };
 

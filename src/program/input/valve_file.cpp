@@ -203,8 +203,7 @@ std::string with_names(std::string text, const Curves &curves, const Patches &pa
 
 Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patches &patches,
                  const std::string &where) {
-  riis_patches arrays;
-  check(riis_patches_init(&arrays, sizeof arrays));
+  auto arrays = defaults<riis_patches>();
   arrays.n_curves = view(curves.degrees).size();
   arrays.degree = curves.degrees.data();
   arrays.control = curves.control.data();
@@ -212,13 +211,13 @@ Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patc
   arrays.curve_id = patches.curve_ids.data();
   arrays.reversed = patches.reversed.data();
   arrays.leaflet_id = patches.leaflet_ids.data();
-  riis_valve *valve = nullptr;
-  const riis_status status = riis_valve_create_from_patches(&arrays, &valve);
+  Valve valve;
+  const riis_status status = riis_valve_create_from_patches(&arrays, valve.out());
   if (status == RIIS_INVALID_PARAMETER || status == RIIS_INVALID_ARGUMENT) {
     reader.refuse(where + with_names(riis_last_error(), curves, patches));
   }
   check(status);
-  return Valve(valve);
+  return valve;
 }
 
 }  // namespace
@@ -275,7 +274,6 @@ PlacedFile read_placed(const std::string &path, const Json &root, std::optional<
   const Unit own = *values.unit("unit");
   file.unit = unit.value_or(own);
   file.factor = factor_between(own, file.unit);
-  check(riis_surface_options_init(&file.where, sizeof file.where));
   const std::vector<double> turn = values.numbers("rotate", 4), shift = values.numbers("translate", 3);
   file.where.scale = factor_between(Unit::centimetre, file.unit);
   std::copy_n(turn.begin(), 3, file.where.rotation_axis);

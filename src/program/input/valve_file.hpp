@@ -42,7 +42,7 @@ struct PlacedFile {
   std::string kind;
   Unit unit = Unit::centimetre;  // of the placement
   double factor = 1;             // from the file's unit to this one
-  riis_surface_options where;    // the placement
+  riis_surface_options where = defaults<riis_surface_options>();  // the placement
   Json parameters, warp;         // null: the valve has no warp
 };
 // `root` is the content of the file. Without a unit, the placement has the file's.

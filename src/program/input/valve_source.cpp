@@ -55,35 +55,30 @@ void check_read(riis_status status, const std::string &path, Content content) {
 
 Surface surface_of_valve(const ValveOptions &options, const riis_valve *valve) {
   const Stage stage("making the surface", options.quiet);
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &options.surface_options, &surface),
-        is_valve_file(options.valve) ? options.valve : "");
-  return Surface(surface);
+  return create_for<Surface>(is_valve_file(options.valve) ? options.valve : "", riis_surface_create, valve,
+                             &options.surface_options);
 }
 
 Surface surface_of_file(const ValveOptions &options, const riis_vtk_surface *file, FileVelocity velocity) {
-  riis_surface_arrays arrays;
-  check(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
+  auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
   std::vector<double> zeros;
   if (velocity == FileVelocity::zero) {
     zeros.resize(static_cast<std::size_t>(arrays.n_vertices), 0.0);
     arrays.vx = arrays.vy = arrays.vz = zeros.data();
   }
-  riis_surface *surface = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, &options.surface_options, &surface), options.surface);
-  return Surface(surface);
+  return create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays, &options.surface_options);
 }
 
 }  // namespace
 
 Valve make_kind(const std::string &kind, const std::string &subject) {
-  riis_valve *handle = nullptr;
-  const riis_status status = riis_valve_create(kind.c_str(), &handle);
+  Valve valve;
+  const riis_status status = riis_valve_create(kind.c_str(), valve.out());
   if (status == RIIS_INVALID_PARAMETER) {
     throw Refusal{exit_bad_data, subject + ": " + riis_last_error() + ", and files of patches, FILE.json"};
   }
   check(status);
-  return Valve(handle);
+  return valve;
 }
 
 Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *moving) {
@@ -99,9 +94,9 @@ Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *
 namespace {
 
 SurfaceFile read_wall(const ValveOptions &options) {
-  riis_vtk_surface *handle = nullptr;
-  check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, &handle), options.wall, Content::surface);
-  return SurfaceFile(handle);
+  SurfaceFile file;
+  check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, file.out()), options.wall, Content::surface);
+  return file;
 }
 
 // Makes the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
@@ -155,19 +150,14 @@ double opening_of(const riis_valve *valve) {
   return opening;
 }
 
-Valve copy_of(const riis_valve *valve) {
-  riis_valve *copy = nullptr;
-  check(riis_valve_copy(valve, &copy));
-  return Valve(copy);
-}
+Valve copy_of(const riis_valve *valve) { return create<Valve>(riis_valve_copy, valve); }
 
 // Tries the valve at opening 1 only. A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported
 // when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
-  riis_surface *surface = nullptr;
-  const riis_status status = riis_surface_create(valve, &how, &surface);
-  const Surface owned(surface);
+  Surface surface;
+  const riis_status status = riis_surface_create(valve, &how, surface.out());
   return status == RIIS_INVALID_PARAMETER ? riis_last_error() : "";
 }
 
@@ -177,11 +167,9 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
   const char *path = options.surface.c_str();
   const bool by_pieces = options.leaflets == "connected";
-  riis_vtk_surface *handle = nullptr;
   const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  const riis_status status = riis_vtk_surface_read(path, leaflets, &handle);
-  check_read(status, options.surface, Content::surface);
-  SurfaceFile file(handle);
+  SurfaceFile file;
+  check_read(riis_vtk_surface_read(path, leaflets, file.out()), options.surface, Content::surface);
   if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
   seconds.read += stage.seconds();
   return file;
@@ -206,9 +194,7 @@ namespace {
 Motion read_motion(const ValveOptions &options) {
   const bool by_pieces = options.leaflets == "connected";
   const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  riis_vtk_motion *handle = nullptr;
-  check(riis_vtk_motion_read_pvd(options.surface.c_str(), leaflets, &handle));
-  Motion motion(handle);
+  auto motion = create<Motion>(riis_vtk_motion_read_pvd, options.surface.c_str(), leaflets);
   if (by_pieces) check(riis_vtk_motion_number_pieces(motion.get()));
   return motion;
 }
@@ -221,14 +207,10 @@ std::vector<std::string> files_of(const riis_vtk_motion *motion) {
 }
 
 Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motion) {
-  riis_surface_arrays arrays;
-  riis_keyframe_arrays frames;
-  check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
-  check(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
+  const auto arrays = get<riis_surface_arrays>(riis_vtk_motion_get_arrays, motion);
+  auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
   frames.period = options.period;
-  riis_keyframes *handle = nullptr;
-  check(riis_keyframes_create(&arrays, &frames, &handle), options.surface);
-  return Keyframes(handle);
+  return create_for<Keyframes>(options.surface, riis_keyframes_create, &arrays, &frames);
 }
 
 }  // namespace
@@ -249,16 +231,13 @@ KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
 
 std::vector<double> times_of_frames(const ValveOptions &options) {
   const Motion motion = read_motion(options);
-  riis_keyframe_arrays frames;
-  check(riis_vtk_motion_get_frames(motion.get(), &frames, sizeof frames));
+  const auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
   return {frames.time, frames.time + frames.n_keys};
 }
 
 Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes) {
-  riis_surface *surface = nullptr;
-  check(riis_surface_create_from_keyframes(keyframes, *options.time, 0, &options.surface_options, &surface),
-        options.surface);
-  return Surface(surface);
+  return create_for<Surface>(options.surface, riis_surface_create_from_keyframes, keyframes, *options.time, 0,
+                             &options.surface_options);
 }
 
 // ---- Conversion ----

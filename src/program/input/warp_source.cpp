@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/opening_law.hpp"
@@ -66,26 +67,16 @@ LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_
                                  std::to_string(n_landmarks_ * n_frames) + " sources at all times");
   for (std::vector<double> *const list : {&sources_, &targets_})
     for (double &x : *list) x *= factor;
-  riis_points points;
-  riis_warp_options options;
-  check(riis_points_init(&points, sizeof points));
-  check(riis_warp_options_init(&options, sizeof options));
-  points.n_points = n_landmarks_;
-  points.x = sources_.data();
-  points.y = sources_.data() + 1;
-  points.z = sources_.data() + 2;
-  points.stride = 3;
+  const riis_points points = points_of(sources_);
+  auto options = defaults<riis_warp_options>();
   options.noise = noise;
   options.placement = placement;
-  riis_warp *warp = nullptr;
-  check_landmarks(riis_warp_create(&points, &options, &warp), subject_);
-  warp_ = Warp(warp);
+  check_landmarks(riis_warp_create(&points, &options, warp_.out()), subject_);
   at(times_.front());
 }
 
 const riis_warp *LandmarkPairs::at(double time) {
-  riis_keyframe_arrays frames;
-  check(riis_keyframe_arrays_init(&frames, sizeof frames));
+  auto frames = defaults<riis_keyframe_arrays>();
   frames.n_keys = view(times_).size();
   frames.n_vertices = n_landmarks_;
   frames.time = times_.data();

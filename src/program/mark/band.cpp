@@ -16,7 +16,7 @@ std::vector<std::int64_t> BandMeasures::add(const Piece &piece, const riis_marks
   const FileNodes::Lent lent(*piece.mesh);
   riis_mesh *const mesh = piece.mesh->mesh();
   if (piece.nodes.is_whole())
-    check(riis_marks_get_cells_across(marks, mesh, &of_whole_.emplace(), sizeof *of_whole_));
+    of_whole_ = get<riis_cells_across>(riis_marks_get_cells_across, marks, mesh);
   else
     add_lengths(piece, list_of(marks, RIIS_LIST_MARKED));
   std::vector<std::int64_t> regions(static_cast<std::size_t>(piece.nodes.n()));

@@ -20,15 +20,11 @@ constexpr int n_openings = 101;
 
 // Finds the crossings and returns their list. The list's arrays are gone when this function returns.
 riis_crossing_list crossings_of(const ValveOptions &options, const riis_surface *surface) {
-  riis_crossing_options how;
-  check(riis_crossing_options_init(&how, sizeof how));
+  auto how = defaults<riis_crossing_options>();
   how.n_threads = options.n_threads;
-  riis_crossings *handle = nullptr;
-  check(riis_crossings_create(&handle));
-  const Crossings crossings(handle);
-  check(riis_find_crossings(surface, &how, handle));
-  riis_crossing_list found;
-  check(riis_crossings_get_list(handle, &found, sizeof found));
+  const auto crossings = create<Crossings>(riis_crossings_create);
+  check(riis_find_crossings(surface, &how, crossings));
+  auto found = get<riis_crossing_list>(riis_crossings_get_list, crossings);
   found.triangle_id = nullptr;
   found.point = found.depth = found.length = nullptr;
   return found;
@@ -53,9 +49,7 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
   check(riis_valve_set_scalar(valve, "opening", 0));
   const std::string subject = is_valve_file(options.valve) ? options.valve : "";
   const riis_surface_options how = by_triangles(options);
-  riis_surface *handle = nullptr;
-  check(riis_surface_create(valve, &how, &handle), subject);
-  const Surface surface(handle);
+  const auto surface = create_for<Surface>(subject, riis_surface_create, valve, &how);
   StepProgress progress("looking for crossings", n_openings, options.quiet);
   for (int i = 0; i < n_openings; ++i) {
     progress.begin(static_cast<std::size_t>(i));
@@ -98,24 +92,17 @@ void warn_of_crossings(const ValveOptions &options, const CrossingReport &report
 }
 
 bool has_default_values(const riis_valve *valve) {
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  for (int64_t i = 0; i < n; ++i) {
-    riis_parameter parameter;
-    double values[3];
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
-    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
-    if (std::string(parameter.name) != "opening" &&
-        !std::equal(values, values + parameter.n_values, parameter.default_values))
-      return false;
-  }
-  return true;
+  const std::vector<riis_parameter> all = all_parameters(valve);
+  return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
+    const std::vector<double> values = values_of(valve, parameter);
+    return std::string(parameter.name) == "opening" ||
+           std::equal(values.begin(), values.end(), parameter.default_values);
+  });
 }
 
 // Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory/crossings.md).
 double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
-  riis_surface_info info;
-  check(riis_surface_get_info(surface, &info, sizeof info));
+  const riis_surface_info info = info_of(surface);
   const bool has_cusps = options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet";
   return has_cusps ? 1e-3 * info.half_thickness : 2 * info.error_bound;
 }
@@ -124,10 +111,10 @@ double depth_of_contacts(const ValveOptions &options, const riis_surface *surfac
 // because the user did not request it.
 Surface surface_at(riis_valve *valve, double opening, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", opening));
-  riis_surface *surface = nullptr;
-  const riis_status status = riis_surface_create(valve, &how, &surface);
+  Surface surface;
+  const riis_status status = riis_surface_create(valve, &how, surface.out());
   if (status != RIIS_INVALID_PARAMETER && status != RIIS_LIMIT_EXCEEDED) check(status);
-  return Surface(surface);
+  return surface;
 }
 
 }  // namespace

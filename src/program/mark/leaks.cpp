@@ -31,9 +31,7 @@ std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own) {
 Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &surface_options, &surface));
-  return Surface(surface);
+  return create<Surface>(riis_surface_create, valve, &surface_options);
 }
 
 namespace {
@@ -121,9 +119,7 @@ MeshLeaks::MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const r
 void MeshLeaks::add(Piece &piece, riis_marks *marks) {
   view(boxes_)[piece.number] = piece.nodes.box();
   if (!piece.nodes.box().meets(info_.lower, info_.upper)) return;
-  riis_mark_stats stats{};
-  check(riis_marks_get_stats(marks, &stats, sizeof stats));
-  add(piece, surface_, marks, info_.half_thickness, stats.complete != 0, found_);
+  add(piece, surface_, marks, info_.half_thickness, stats_of(marks).complete != 0, found_);
 }
 
 void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
@@ -131,20 +127,14 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
   // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_long_edges(piece.file.get(), surface, is_exact ? 2 * half_thickness : 0, n_threads,
-                                        nullptr, &handle));
-  const Adjacency adjacency(handle);
-  riis_csr rows;
-  check(riis_adjacency_get_csr(handle, &rows, sizeof rows));
-  const FileNodes::Lent lent(*piece.mesh, rows);
-  riis_leaks *leaks_handle = nullptr;
-  check(riis_leaks_create(&leaks_handle));
-  const Leaks leaks(leaks_handle);
+  const auto adjacency = create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
+                                           is_exact ? 2 * half_thickness : 0, n_threads, nullptr);
+  const FileNodes::Lent lent(*piece.mesh, get<riis_csr>(riis_adjacency_get_csr, adjacency));
+  const auto leaks = create<Leaks>(riis_leaks_create);
   riis_mark_options how = options_.mark_options;
   if (surface != surface_) how.search = RIIS_SEARCH_AUTO, how.distance_limit = RIIS_AUTO;
-  check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks_handle));
-  const riis_leak_list list = list_of(leaks_handle);
+  check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks));
+  const auto list = get<riis_leak_list>(riis_leaks_get_list, leaks);
   for (std::int64_t i = 0; i < list.n_edges; ++i) {
     const std::int64_t a = list.node_id[2 * i], b = list.node_id[2 * i + 1];
     KeyedEdge edge = edge_between(piece.nodes.key(a), piece.nodes.key(b), list.length[i]);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
@@ -21,8 +22,7 @@ namespace {
 Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
   if (valves.size() == 1) return nullptr;
   const MovingValve &first = valves[0];
-  riis_surface_options together;
-  check(riis_surface_options_init(&together, sizeof together));
+  auto together = defaults<riis_surface_options>();
   together.half_thickness = info_of(first.surface()).half_thickness;
   for (const MovingValve &valve : valves) {
     const double half_thickness = info_of(valve.surface()).half_thickness;
@@ -46,8 +46,7 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
 void report_leak(const MovingValve &valve, FlowReport &flow) {
   const std::optional<double> &R = valve.options().resistance;
   if (!R || !(*R > 0)) return;
-  riis_resistance how;
-  check(riis_resistance_init(&how, sizeof how));
+  auto how = defaults<riis_resistance>();
   how.R = *R;
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
@@ -324,8 +323,7 @@ void Marking::report_orifices() {
   if (!wants_measures_) return;
   if (all_.is_series()) move_to_first(times_, valves_, std::greater<>());
   for (std::size_t i = 0; i < valves_.size(); ++i) {
-    riis_orifice orifice;
-    check(riis_surface_get_orifice(valves_[i].surface(), nullptr, &orifice, sizeof orifice));
+    const auto orifice = get<riis_orifice>(riis_surface_get_orifice, valves_[i].surface(), nullptr);
     if (orifice.outline == RIIS_OUTLINE_NONE) continue;
     report_.valves[i].flow.orifice = orifice;
     if (all_.is_series() || valves_.size() > 1) report_.valves[i].flow.orifice_opening = valves_[i].opening();

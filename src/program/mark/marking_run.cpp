@@ -68,9 +68,7 @@ std::string bytes_text(double n) {
 }
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {
-  riis_vtk_mesh *part = nullptr;
-  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
-  return MeshFile(part);
+  return create<MeshFile>(riis_vtk_mesh_extract, file, view(node_ids).size(), node_ids.data());
 }
 
 MeshFile copy_of(const riis_vtk_mesh *file, std::int64_t n_nodes) {

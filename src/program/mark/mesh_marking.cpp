@@ -18,25 +18,18 @@
 
 namespace riis::program {
 
-Marks new_result() {
-  riis_marks *result = nullptr;
-  check(riis_marks_create(&result));
-  return Marks(result);
-}
+Marks new_result() { return create<Marks>(riis_marks_create); }
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
-  riis_mesh *mesh_handle = nullptr;
-  check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
-  const Mesh mesh(mesh_handle);
+  const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
   const Marks result = new_result();
   riis_mark_options mark_options = options.mark_options;
   if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
   check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
-  riis_dense_arrays dense;
-  check(riis_dense_arrays_init(&dense, sizeof dense));
+  auto dense = defaults<riis_dense_arrays>();
   dense.n_nodes = 1;
   dense.far_distance = options.far_distance;
   check(riis_marks_get_dense(result.get(), &dense));
@@ -81,11 +74,9 @@ ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
 void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
   if (!options.resistance) return;
   has_any_ = true;
-  riis_resistance how;
-  check(riis_resistance_init(&how, sizeof how));
+  auto how = defaults<riis_resistance>();
   how.R = *options.resistance;
-  riis_resistance_arrays to;
-  check(riis_resistance_arrays_init(&to, sizeof to));
+  auto to = defaults<riis_resistance_arrays>();
   to.n_nodes = n_nodes_;
   to.K = K_.data();
   for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
@@ -131,9 +122,7 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
     lent.emplace(nodes);
   }
   const Valve moved = copy_of(valve);
-  riis_surface *handle = nullptr;
-  check(riis_surface_create(moved.get(), &options.surface_options, &handle));
-  const Surface surface(handle);
+  const auto surface = create<Surface>(riis_surface_create, moved, &options.surface_options);
   const Marks result = new_result();
   std::vector<double> of_surface, of_marking;
   // The opening goes up to 1, then down to 0, and so on.
@@ -143,34 +132,28 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
     opening = std::clamp(opening + change, 0.0, 1.0);
     const auto begin = std::chrono::steady_clock::now();
     check(riis_valve_set_scalar(moved.get(), "opening", opening), "--steps");
-    check(riis_surface_update(handle, moved.get(), nullptr), "--steps");
+    check(riis_surface_update(surface, moved.get(), nullptr), "--steps");
     const double updated = seconds_since(begin);
-    check(riis_mark_nodes(handle, nodes.mesh(), &how, result.get()), options.mesh);
+    check(riis_mark_nodes(surface, nodes.mesh(), &how, result.get()), options.mesh);
     const double marked = seconds_since(begin);
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);
     of_marking.push_back(marked - updated);
   }
-  riis_mark_stats stats{};
-  check(riis_marks_get_stats(result.get(), &stats, sizeof stats));
-  return {options.n_steps, stats.search, median(of_surface), median(of_marking)};
+  return {options.n_steps, stats_of(result).search, median(of_surface), median(of_marking)};
 }
 
 double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
 FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path) : file_(file), path_(std::move(path)) {
   check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, &xyz_));
-  riis_mesh *mesh = nullptr;
-  check(riis_mesh_create(n_, xyz_, xyz_ + 1, xyz_ + 2, 3, &mesh), path_);
-  mesh_.reset(mesh);
+  mesh_ = create_for<Mesh>(path_, riis_mesh_create, n_, xyz_, xyz_ + 1, xyz_ + 2, 3);
 }
 
 void FileNodes::find_neighbors(std::int32_t n_threads) {
   if (neighbors_) return;
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_adjacency(file_, n_threads, &handle), path_);
-  neighbors_.reset(handle);
-  check(riis_adjacency_get_csr(handle, &rows_, sizeof rows_));
+  neighbors_ = create_for<Adjacency>(path_, riis_vtk_mesh_create_adjacency, file_, n_threads);
+  rows_ = get<riis_csr>(riis_adjacency_get_csr, neighbors_);
 }
 
 double FileNodes::longest_edge(std::int64_t node) const {

@@ -27,12 +27,10 @@ MeshPieces::MeshPieces(const MarkOptions &options) : options_(options), is_whole
     files_.push_back(options.mesh);
     return;
   }
-  riis_vtk_pieces *list = nullptr;
-  check(riis_vtk_pieces_read(path().c_str(), &list));
-  list_.reset(list);
+  list_ = create<PieceList>(riis_vtk_pieces_read, path().c_str());
   std::int64_t n = 0;
   const char *const *files = nullptr;
-  check(riis_vtk_pieces_get_files(list, &n, &files));
+  check(riis_vtk_pieces_get_files(list_, &n, &files));
   files_.assign(files, files + n);
 }
 
@@ -44,9 +42,7 @@ MeshFile MeshPieces::read(std::int64_t piece) const {
     if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), path());
     return mesh;
   }
-  riis_vtk_mesh *mesh = nullptr;
-  check(riis_vtk_pieces_read_mesh(list_.get(), piece, &mesh));
-  return MeshFile(mesh);
+  return create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
 }
 
 void MeshPieces::finished(std::int64_t) const {}

@@ -71,12 +71,6 @@ double MovingValve::largest_speed() const {
   return largest;
 }
 
-riis_mark_stats MovingValve::stats() const {
-  riis_mark_stats stats{};
-  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
-  return stats;
-}
-
 std::vector<MovingValve> moving_valves(Case &all) {
   std::vector<MovingValve> valves;
   valves.reserve(all.valves.size());
@@ -127,9 +121,7 @@ Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surfac
   }
   riis_surface_arrays arrays = arrays_of(xyz, corners);
   arrays.leaflet_id = leaflets.data();
-  riis_surface *surface = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, options, &surface));
-  return Surface(surface);
+  return create<Surface>(riis_surface_create_from_arrays, &arrays, options);
 }
 
 }  // namespace riis::program

@@ -81,8 +81,7 @@ riis_passage passage_in(const Piece &piece, const MarkOptions &options, const ri
   riis_mark_options how = options.mark_options;
   how.search = RIIS_SEARCH_AUTO;
   how.distance_limit = RIIS_AUTO;
-  riis_passage_ends sets;
-  check(riis_passage_ends_init(&sets, sizeof sets));
+  auto sets = defaults<riis_passage_ends>();
   sets.n_from = sets.n_to = 1;
   sets.from = &ends[0].node;
   sets.to = &ends[1].node;
@@ -154,15 +153,13 @@ double PassageCheck::longest_edge_at(const riis_passage &found, const MeshCounts
 riis_first_passage PassageCheck::first_of(const riis_valve *valve) const {
   constexpr int n_coarse = 8;
   const Valve moved = copy_of(valve);
-  riis_first_passage_options how;
-  check(riis_first_passage_options_init(&how, sizeof how));
+  const auto how = defaults<riis_first_passage_options>();
   riis_first_passage first{};
   const auto is_open_at = [&](double opening) {
     check(riis_valve_set_scalar(moved.get(), "opening", opening), "--first-passage");
-    riis_surface *made = nullptr;
-    check(riis_surface_create(moved.get(), &options_.surface_options, &made), "--first-passage");
-    const Surface surface(made);
-    const riis_passage passage = find(made).found;
+    const auto surface =
+        create_for<Surface>("--first-passage", riis_surface_create, moved, &options_.surface_options);
+    const riis_passage passage = find(surface).found;
     ++first.n_openings;
     const bool is_open = passage.state == RIIS_PASSAGE_OPEN;
     (is_open ? first.opening : first.closed_opening) = opening;

@@ -158,9 +158,7 @@ void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mes
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
   if (sample_ || n_nodes == 0) return;
   const char *const name = path.c_str();
-  riis_vtk_pieces *list = nullptr;
-  check(riis_vtk_pieces_create(file, 1, &name, &list));
-  sample_.reset(list);
+  sample_ = create<PieceList>(riis_vtk_pieces_create, file, 1, &name);
 }
 
 void MarkedFiles::add(std::size_t step) {

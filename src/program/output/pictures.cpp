@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
@@ -33,19 +34,14 @@ namespace {
 // (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
-  int64_t n_parameters = 0;
-  check(riis_valve_get_n_parameters(valve, &n_parameters));
-  for (int64_t i = 0; i < n_parameters; ++i) {
-    riis_parameter parameter;
-    double values[3] = {0, 0, 0};
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
-    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
+  const std::vector<riis_parameter> all = all_parameters(valve);
+  return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
     // Skips the two parameters of the open state, because they have no effect at opening 0.
     const std::string_view name = parameter.name;
-    if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
-    if (!std::equal(values, values + 3, parameter.default_values)) return false;
-  }
-  return true;
+    const std::vector<double> values = values_of(valve, parameter);
+    return name == "open_radius_ratio" || name == "commissure_expansion" ||
+           std::equal(values.begin(), values.end(), parameter.default_values);
+  });
 }
 
 // Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
@@ -254,13 +250,11 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
 }
 
 riis_vtk_film *RunPictures::film(const std::vector<MovingValve> &valves) {
-  if (film_) return film_.get();
+  if (film_) return film_;
   riis_vtk_picture_options options = how(valves);
   options.view = all_.options.series.movie_view;
-  riis_vtk_film *film = nullptr;
-  check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &options, &film));
-  film_.reset(film);
-  return film;
+  film_ = create<Film>(riis_vtk_film_create, mesh_, box_.lower, box_.upper, &options);
+  return film_;
 }
 
 void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Report &report) {

@@ -43,9 +43,7 @@ std::array<double, 3> twice_area(const double *xyz, const Corners &corners) {
 Surface fixed_surface(const ExportOptions &options, const riis_valve *valve, const std::string &subject) {
   riis_surface_options how = options.surface_options;
   how.triangulation = RIIS_TRIANGULATION_FIXED;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &how, &surface), subject);
-  return Surface(surface);
+  return create_for<Surface>(subject, riis_surface_create, valve, &how);
 }
 
 template <class Use>
@@ -60,8 +58,7 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
     : subject_(is_valve_file(options.valve) ? options.valve : ""), valve_(make_valve(options)), net_(0, {}) {
   check(riis_valve_set_scalar(valve_.get(), "opening", motion.opening[0]), subject_);
   surface_ = fixed_surface(options, valve_.get(), subject_);
-  riis_surface_info info;
-  check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+  const riis_surface_info info = info_of(surface_);
   half_thickness_ = info.half_thickness;
   double largest = half_thickness_;
   for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});

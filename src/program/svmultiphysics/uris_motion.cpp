@@ -106,8 +106,7 @@ LawWithSpans law_of_cycle(const ExportOptions &options) {
 }
 
 LawWithSpans law_of_seconds(const ExportOptions &options) {
-  riis_opening_times times;
-  check(riis_opening_times_init(&times, sizeof times));
+  auto times = defaults<riis_opening_times>();
   // The opening ends at time 0, and the closing starts at time 0. With this choice, the times of both ends of both ramps are
   // exact.
   times.opening_start = -*options.opening_duration;

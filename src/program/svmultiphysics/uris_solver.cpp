@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 
 namespace riis::program {
@@ -344,14 +345,9 @@ double solver_area(const SolverMesh &mesh, const SolverDistances &distances, dou
 std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,
                                     std::int32_t n_threads) {
   std::vector<double> distances(static_cast<std::size_t>(n_nodes), infinity);
-  riis_mesh *mesh_handle = nullptr;
-  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh_handle));
-  const Mesh mesh(mesh_handle);
-  riis_marks *marks_handle = nullptr;
-  check(riis_marks_create(&marks_handle));
-  const Marks marks(marks_handle);
-  riis_mark_options options;
-  check(riis_mark_options_init(&options, sizeof options));
+  const auto mesh = create<Mesh>(riis_mesh_create, n_nodes, xyz, xyz + 1, xyz + 2, 3);
+  const auto marks = create<Marks>(riis_marks_create);
+  auto options = defaults<riis_mark_options>();
   options.distance_limit = limit;
   options.n_threads = n_threads;
   check(riis_mark_nodes(surface, mesh.get(), &options, marks.get()));
