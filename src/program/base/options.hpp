@@ -31,12 +31,16 @@ struct ValveOptions {
   std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
   riis_surface_options surface_options = defaults<riis_surface_options>();
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
-  // These members tell whether the user gave the values as numbers.
+  // Whether the user gave the values as numbers. A case and the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };
+
+// The position of each name is the value of the RIIS_SEARCH_* or RIIS_MEASURE_* that it stands for.
+inline const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
+inline const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
 // The names of the views that pictures and movies accept. A name's position is the value of its RIIS_VTK_VIEW_*.
 inline const std::vector<std::string> view_names = {"side",       "top",       "oblique",       "three",

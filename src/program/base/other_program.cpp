@@ -118,16 +118,15 @@ void run_view(int argc, char **argv) {
     const char *const fault = end.error != 0    ? " cannot be run"
                               : end.status == 3 ? " does not find the Python package riis"
                                                 : " fails when it imports the Python package riis";
-    throw Refusal{exit_bad_data,
-                  "view: " + python + fault +
-                      "; install it by 'python3 -m venv ~/venv' and '~/venv/bin/pip install \".[view]\"' in the "
-                      "sources of riis, and set RIIS_PYTHON=~/venv/bin/python"};
+    refuse_data("view: " + python + fault +
+                "; install it by 'python3 -m venv ~/venv' and '~/venv/bin/pip install \".[view]\"' in the "
+                "sources of riis, and set RIIS_PYTHON=~/venv/bin/python");
   }
   std::vector<char *> words{const_cast<char *>(python.c_str()), const_cast<char *>("-m"), const_cast<char *>("riis")};
   for (int i = 1; i < argc; ++i) words.push_back(argv[i]);
   words.push_back(nullptr);
   execvp(words[0], words.data());
-  throw Refusal{exit_bad_data, "view: " + python + ": " + std::strerror(errno)};
+  refuse_data("view: " + python + ": " + system_text(errno));
 }
 
 }  // namespace riis::program

@@ -88,9 +88,8 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   for (Edges &one : edges) {
     one.largest = largest;
     if (largest < one.band)
-      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest) +
-                                          " is below the edge length in the band, " + shortest(one.band) +
-                                          " (--band-edge times the half thickness)"};
+      refuse_usage("--largest-edge: " + shortest(largest) + " is below the edge length in the band, " +
+                   shortest(one.band) + " (--band-edge times the half thickness)");
   }
   return edges;
 }
@@ -183,9 +182,8 @@ Grid grid_in(const Box &box, double spacing) {
     grid.n[k] = n < 1e9 ? static_cast<std::int64_t>(n) : most_field_points;
   }
   if (!(n_points <= static_cast<double>(most_field_points)))
-    throw Refusal{exit_wrong_usage, "--spacing: the grid would have " + shown(n_points) + " points with a spacing of " +
-                                        shortest(spacing) + "; at most " + grouped(most_field_points) +
-                                        " are possible"};
+    refuse_usage("--spacing: the grid would have " + shown(n_points) + " points with a spacing of " +
+                 shortest(spacing) + "; at most " + grouped(most_field_points) + " are possible");
   return grid;
 }
 
@@ -219,9 +217,7 @@ std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
                      spacing + " " + spacing + " " + spacing + "\n" + std::to_string(grid.n[0]) + " " +
                      std::to_string(grid.n[1]) + " " + std::to_string(grid.n[2]) + "\n";
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.5g", lengths[i]);
-    text += number;
+    text += printed("%.5g", lengths[i]);
     text += static_cast<std::int64_t>(i + 1) % grid.n[2] == 0 ? '\n' : ' ';
   }
   return text;

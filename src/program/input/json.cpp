@@ -33,7 +33,6 @@ class Guard {
  private:
   void check_key(const std::string &key) {
     // Control characters are refused, because the library would end a name at a 0 byte.
-    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
     // Repeated keys are refused. The parser would keep only the last of them, and the user cannot have meant all.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
@@ -104,7 +103,6 @@ std::string CaseValues::text(const char *key) const {
   if (!value.is_string() || value.get_ref<const std::string &>().empty())
     refuse(key, value.dump() + " is not a text, or is empty");
   const std::string text = value.get<std::string>();
-  const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
   if (std::any_of(text.begin(), text.end(), is_control)) refuse(key, value.dump() + " holds a control character");
   return text;
 }

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
@@ -43,8 +42,8 @@ class PassingFolder {
     const fs::path place = fs::temp_directory_path(error);
     path_ = ((error ? fs::path("/tmp") : place) / "riis-XXXXXX").string();
     if (!mkdtemp(path_.data()))
-      throw Refusal{exit_bad_data, "no temporary folder can be made in " + fs::path(path_).parent_path().string() +
-                                       ": " + std::strerror(errno) + "; TMPDIR may name another place"};
+      refuse_data("no temporary folder can be made in " + fs::path(path_).parent_path().string() + ": " +
+                  system_text(errno) + "; TMPDIR may name another place");
     remove_if_ended(path_, mesh());
   }
   ~PassingFolder() {
@@ -144,12 +143,12 @@ void note(const std::string &path, const std::string &text) {
 MeshFile read_by_child(const std::string &path) {
   const PassingFolder folder;
   int ends[2];
-  if (pipe(ends) != 0) throw Refusal{exit_bad_data, std::string("no pipe to a child process: ") + std::strerror(errno)};
+  if (pipe(ends) != 0) refuse_data(std::string("no pipe to a child process: ") + system_text(errno));
   const pid_t parent = getpid(), child = fork();
   if (child < 0) {
     close(ends[0]);
     close(ends[1]);
-    throw Refusal{exit_bad_data, std::string("no child process to read ") + path + ": " + std::strerror(errno)};
+    refuse_data(std::string("no child process to read ") + path + ": " + system_text(errno));
   }
   if (child == 0) read_as_child(path, folder.mesh(), ends[1], parent);
   close(ends[1]);
@@ -158,13 +157,12 @@ MeshFile read_by_child(const std::string &path) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   if (WIFSIGNALED(status))
-    throw Refusal{exit_bad_data, path + ": is damaged: its reader ended with signal " +
-                                     std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")"};
+    refuse_data(path + ": is damaged: its reader ended with signal " + std::to_string(WTERMSIG(status)) + " (" +
+                strsignal(WTERMSIG(status)) + ")");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Refusal{exit_bad_data,
-                  path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status))};
+    refuse_data(path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status)));
   if (answer.status == RIIS_OUT_OF_MEMORY)
-    throw Refusal{exit_bad_data, answer.text + "; its reader may take 2 GB and a thousand times the size of its files"};
+    refuse_data(answer.text + "; its reader may take 2 GB and a thousand times the size of its files");
   if (answer.status != RIIS_OK)
     throw Refusal{
         exit_bad_data,
@@ -218,15 +216,11 @@ bool is_foam_time(const std::string &path) {
   fs::path folder = path;
   if (!folder.has_filename()) folder = folder.parent_path();
   const std::string name = folder.filename().string();
-  double time = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), time);
-  return error == std::errc() && end == name.data() + name.size() && !name.empty() &&
-         has_poly_mesh(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
+  return number_in(name) && has_poly_mesh(folder_of(folder));
 }
 
 std::string foam_time(const std::string &foam_case, double time) {
-  char digits[32];
-  return (fs::path(foam_case) / std::string(digits, std::to_chars(digits, digits + sizeof digits, time).ptr)).string();
+  return (fs::path(foam_case) / shortest(time)).string();
 }
 
 }  // namespace riis::program

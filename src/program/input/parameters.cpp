@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <map>
 #include <vector>
 
@@ -98,7 +97,7 @@ void set_from_json(riis_valve *valve, const Json &parameters, const std::string 
 void set_from_text(riis_valve *valve, const std::string &setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw Refusal{exit_wrong_usage, "--set: '" + setting + "' is not NAME=VALUE"};
+    refuse_usage("--set: '" + setting + "' is not NAME=VALUE");
   }
   const std::string name = setting.substr(0, equals);
   set_parameter(valve, name, parse_list(setting.substr(equals + 1), "--set " + name), "--set");
@@ -106,11 +105,7 @@ void set_from_text(riis_valve *valve, const std::string &setting) {
 
 namespace {
 
-std::string text_of(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
-}
+std::string text_of(double number) { return printed("%g", number); }
 
 // Returns the description with the parameter's rule and its second name.
 std::string description_of(const riis_parameter &parameter) {

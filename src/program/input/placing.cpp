@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "program/base/handles.hpp"
@@ -14,11 +13,7 @@
 namespace riis::program {
 namespace {
 
-std::string digits(double number, int n = 4) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", n, number);
-  return text;
-}
+std::string digits(double number, int n = 4) { return printed(("%." + std::to_string(n) + "g").c_str(), number); }
 
 std::string option_name(Reader reader, const char *name) {
   return (reader == Reader::program ? "--" : "") + std::string(name);
@@ -246,9 +241,9 @@ void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const d
         advice.emplace_back(landmarks.is_file ? "state the axes of the file"
                                               : "turn the landmarks by half a turn about z");
       text += joined_by(advice, " and ");
-      throw Refusal{exit_bad_data, text};
+      refuse_data(text);
     }
-  throw Refusal{exit_bad_data, text + ", which is more than 1 cm, in any unit and with the axes LPS and RAS"};
+  refuse_data(text + ", which is more than 1 cm, in any unit and with the axes LPS and RAS");
 }
 
 // ---- Outputs ----

@@ -25,9 +25,6 @@ namespace {
 
 constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
 
-// Returns a value as text, as it is in the file. refuse_file shortens long values.
-std::string json_text(const Json &value) { return value.dump(); }
-
 // The curves of one state, and the arrays that the library needs for them.
 struct Curves {
   std::vector<std::string> names;
@@ -141,7 +138,7 @@ class CurveFileReader {
   void add_point(const Json &point, const std::string &subject, Curves &curves) const {
     const bool is_point = point.is_array() && point.size() == 3 &&
                           std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
-    if (!is_point) refuse(subject + " is " + json_text(point) + "; it must be three numbers, [x, y, z]");
+    if (!is_point) refuse(subject + " is " + point.dump() + "; it must be three numbers, [x, y, z]");
     for (const Json &x : point) curves.control.push_back(x.get<double>());
   }
 
@@ -150,8 +147,7 @@ class CurveFileReader {
     check_object(patch, subject, {"v0", "v1", "u0", "u1", "leaflet"});
     for (const char *key : side_keys) {
       const Json &side = member(patch, key, subject + ": ");
-      if (!side.is_string())
-        refuse(subject + ": " + key + " is " + json_text(side) + "; it must be the name of a curve");
+      if (!side.is_string()) refuse(subject + ": " + key + " is " + side.dump() + "; it must be the name of a curve");
       const std::string &text = side.get_ref<const std::string &>();
       const bool reversed = !text.empty() && text[0] == '-';
       const auto found = curves.position.find(text.substr(reversed ? 1 : 0));
@@ -169,7 +165,7 @@ class CurveFileReader {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
     // The comparison also refuses a negative number, which as an unsigned number is too large.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
-      refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
+      refuse(subject + ": leaflet is " + value.dump() + "; it must be a whole number from 0 to " +
              std::to_string(most));
     }
     return value.get<std::int32_t>();
@@ -222,11 +218,7 @@ Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patc
 
 }  // namespace
 
-bool is_valve_file(const std::string &valve) {
-  const std::string ending = ".json";
-  const auto same = [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b); };
-  return valve.size() >= ending.size() && std::equal(ending.rbegin(), ending.rend(), valve.rbegin(), same);
-}
+bool is_valve_file(const std::string &valve) { return has_ending(valve, ".json"); }
 
 ValveFile::ValveFile(const std::string &path) : path_(path) {
   const Json root = parse_json_file(path, "curves and patches");
@@ -246,7 +238,7 @@ void ValveFile::check_opening() const {
   double opening = 0;
   check(riis_valve_get(valve_.get(), "opening", 1, &opening));
   if (opening != 0 && !can_open_) {
-    refuse_file(path_, "opening is " + json_text(opening) + ", but the file has no \"open\" state");
+    refuse_file(path_, "opening is " + Json(opening).dump() + ", but the file has no \"open\" state");
   }
 }
 

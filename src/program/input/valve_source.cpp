@@ -75,7 +75,7 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
   Valve valve;
   const riis_status status = riis_valve_create(kind.c_str(), valve.out());
   if (status == RIIS_INVALID_PARAMETER) {
-    throw Refusal{exit_bad_data, subject + ": " + riis_last_error() + ", and files of patches, FILE.json"};
+    refuse_data(subject + ": " + riis_last_error() + ", and files of patches, FILE.json");
   }
   check(status);
   return valve;
@@ -132,7 +132,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
     const std::string reason = options.wall + ": " + riis_last_error();
-    throw Refusal{exit_bad_data, reason + hint_of_unit(options, file, valve)};
+    refuse_data(reason + hint_of_unit(options, file, valve));
   }
   check(status, subject);
 }
@@ -215,10 +215,7 @@ Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motio
 
 }  // namespace
 
-bool is_motion_file(const std::string &surface) {
-  const std::string ending = surface.substr(surface.size() - std::min<std::size_t>(surface.size(), 4));
-  return ending == ".pvd" || ending == ".PVD";
-}
+bool is_motion_file(const std::string &surface) { return has_ending(surface, ".pvd"); }
 
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
@@ -294,7 +291,7 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
   // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
-  if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
+  if (std::any_of(path.begin(), path.end(), is_control)) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");

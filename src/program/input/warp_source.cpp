@@ -35,7 +35,7 @@ void add_points(const CaseValues &values, const char *key, const Json &list, std
 // Landmarks are data of the case, so a refusal of them names the case.
 void check_landmarks(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
-    throw Refusal{exit_bad_data, subject + ": " + riis_last_error()};
+    refuse_data(subject + ": " + riis_last_error());
   check(status);
 }
 

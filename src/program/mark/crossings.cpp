@@ -2,7 +2,6 @@
 #include "program/mark/crossings.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "program/base/handles.hpp"
@@ -73,12 +72,7 @@ std::string leaflet_text(const ValveOptions &options, int32_t leaflet) {
 void warn_of_crossings(const ValveOptions &options, const CrossingReport &report, const std::string &part,
                        const std::string &advice) {
   const riis_crossing_list &found = report.found;
-  std::string at;
-  if (report.opening) {
-    char text[32];
-    std::snprintf(text, sizeof text, " at opening %g", *report.opening);
-    at = text;
-  }
+  const std::string at = report.opening ? printed(" at opening %g", *report.opening) : "";
   const bool is_one_leaflet = found.deepest_leaflet_id[0] == found.deepest_leaflet_id[1];
   const std::string first = leaflet_text(options, found.deepest_leaflet_id[0]);
   const std::string who =

@@ -62,9 +62,7 @@ std::string bytes_text(double n) {
   const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
   std::size_t unit = 0;
   for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
-  char text[32];
-  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.3g %s", n, units[unit]);
-  return text;
+  return printed(unit == 0 ? "%.0f " : "%.3g ", n) + units[unit];
 }
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {

@@ -48,8 +48,8 @@ void check_new_arrays(const MarkOptions &options, const std::vector<std::string>
     int32_t has = 0;
     check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
     if (!has) continue;
-    throw Refusal{exit_wrong_usage, options.mesh + " already has an array " + name +
-                                        ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
+    refuse_usage(options.mesh + " already has an array " + name +
+                 ": write --replace to replace it, or --prefix NAME for other arrays beside it");
   }
 }
 

@@ -119,7 +119,7 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
   }
   role_.resize(static_cast<std::size_t>(n_));
   riis_status status = riis_vtk_mesh_get_sharing(file, n_, role_.data(), nullptr, &counts_, sizeof counts_);
-  if (status == RIIS_FILE_ERROR) throw Refusal{exit_bad_data, path + ": " + riis_last_error()};
+  if (status == RIIS_FILE_ERROR) refuse_data(path + ": " + riis_last_error());
   check(status);
   if (has_ids()) {
     ids_.resize(role_.size());
@@ -183,11 +183,10 @@ void MeshCounts::add(const MeshCounts &other) {
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh) {
   MeshCounts all;
   for (const MeshCounts &counts : ranks::gather(std::vector<MeshCounts>{own})) all.add(counts);
-  if (all.n_with_nodes == 0) throw Refusal{exit_bad_data, mesh.path() + ": no piece holds points"};
+  if (all.n_with_nodes == 0) refuse_data(mesh.path() + ": no piece holds points");
   if (all.n_with_ids != 0 && all.n_with_ids != all.n_with_nodes)
-    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " +
-                                     std::to_string(all.n_with_nodes) +
-                                     " pieces have global ids; all or none must have them"};
+    refuse_data(mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " + std::to_string(all.n_with_nodes) +
+                " pieces have global ids; all or none must have them");
   return all;
 }
 
@@ -262,10 +261,9 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       if (!(p == q) && (own.joined.empty() || own.joined.back() != std::pair(p, q))) own.joined.emplace_back(p, q);
     }
     if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
-      throw Refusal{exit_bad_data, "the node with the global id " +
-                                       std::to_string(static_cast<std::int64_t>(first.key.a)) + " is at one place in " +
-                                       view(files)[first.piece] + " and at another in " +
-                                       view(files)[nodes[end].piece]};
+      refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key.a)) +
+                  " is at one place in " + view(files)[first.piece] + " and at another in " +
+                  view(files)[nodes[end].piece]);
     ++own.n_nodes;
     own.n_in_several += in_several;
     if (own.joined.size() > 2 * n_kept) {
@@ -321,9 +319,9 @@ void LooseNodes::check(const MeshPieces &mesh) const {
   std::int64_t sum = 0;
   for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
   if (sum > 0)
-    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(sum) +
-                                     " points are inside one piece, and another piece has them without a cell; "
-                                     "write each piece with only the points of its own cells"};
+    refuse_data(mesh.path() + ": " + std::to_string(sum) +
+                " points are inside one piece, and another piece has them without a cell; "
+                "write each piece with only the points of its own cells");
 }
 
 void release_free_memory() {

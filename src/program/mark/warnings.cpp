@@ -169,11 +169,7 @@ std::string in_place_of(const MarkOptions &options) {
 
 }  // namespace
 
-std::string shown(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
+std::string shown(double number) { return printed("%.3g", number); }
 
 std::optional<Warning> warning_of_units(const Situation &s) {
   const Sizes sizes = sizes_of(s);

@@ -31,10 +31,9 @@ void SeriesFiles::check_folder() const {
   std::error_code error;
   if (!std::filesystem::exists(folder_, error)) return;
   if (!std::filesystem::is_directory(folder_, error))
-    throw Refusal{exit_bad_data, folder_ + ": the folder cannot be made: a file has its name"};
+    refuse_data(folder_ + ": the folder cannot be made: a file has its name");
   if (access(folder_.c_str(), W_OK | X_OK) != 0) {
-    throw Refusal{exit_bad_data,
-                  folder_ + ": the folder cannot be written to: " + std::generic_category().message(errno)};
+    refuse_data(folder_ + ": the folder cannot be written to: " + system_text(errno));
   }
 }
 
@@ -43,7 +42,7 @@ void SeriesFiles::make_folder() const {
   check_folder();
   std::error_code error;
   std::filesystem::create_directory(folder_, error);
-  if (error) throw Refusal{exit_bad_data, folder_ + ": the folder cannot be made: " + error.message()};
+  if (error) refuse_data(folder_ + ": the folder cannot be made: " + error.message());
 }
 
 std::string SeriesFiles::path_of(std::size_t step, const std::string &part) const {

@@ -37,13 +37,11 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_ending(const std::string &path, const std::string &ending, const std::string &option) {
-  if (!has_ending(path, ending)) throw Refusal{exit_wrong_usage, option + ": " + path + " must end in " + ending};
+  if (!has_ending(path, ending)) refuse_usage(option + ": " + path + " must end in " + ending);
 }
 
-std::string system_text(int error) { return std::generic_category().message(error); }
-
 [[noreturn]] void cannot_be_written(const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
+  refuse_data(path + ": cannot be written: " + reason);
 }
 
 // Returns whether the path is a device or a pipe. The program writes into these, and replaces any other file as a whole.
@@ -54,7 +52,7 @@ bool is_special(const std::string &path) {
 
 void check_place(const std::string &path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
+  if (fs::is_directory(path, error)) refuse_data(path + ": is a directory");
   const fs::path folder = folder_of(place_of(path));
   if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
   // A new file is written next to the old one and then replaces it.
@@ -134,11 +132,9 @@ void check_folder_of_steps(const std::string &option, const std::string &folder,
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const auto input = inputs.find(identity_of(at->path().string()));
     if (input == inputs.end()) continue;
-    throw Refusal{exit_wrong_usage,
-                  option + ": the folder of its files, " + folder + ", holds the file of " + input->second};
+    refuse_usage(option + ": the folder of its files, " + folder + ", holds the file of " + input->second);
   }
-  if (error == std::errc::permission_denied)
-    throw Refusal{exit_bad_data, folder + ": the folder cannot be read: " + error.message()};
+  if (error == std::errc::permission_denied) refuse_data(folder + ": the folder cannot be read: " + error.message());
 }
 
 void check_distinct(const KnownFiles &inputs, const NamedFiles &files) {
@@ -149,8 +145,7 @@ void check_distinct(const KnownFiles &inputs, const NamedFiles &files) {
     const auto input = inputs.find(identity);
     const auto [other, is_new] = outputs.emplace(identity, output.option);
     if (input == inputs.end() && is_new) continue;
-    throw Refusal{exit_wrong_usage,
-                  output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second};
+    refuse_usage(output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second);
   }
 }
 
@@ -165,9 +160,9 @@ OutputLocks locks_of(const NamedFiles &outputs) {
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (display && *display) return;
-  throw Refusal{exit_bad_data,
-                "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
-                "xvfb-run -a PROGRAM"};
+  refuse_data(
+      "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
+      "xvfb-run -a PROGRAM");
 }
 
 // Writes the text to a file. Returns the system's error, or 0 if there is none.
@@ -299,7 +294,7 @@ void check_no_output_is(const std::string &what, const std::vector<std::string> 
   for (const std::string &file : files) identities.insert(identity_of(file));
   for (const NamedFile &output : outputs_of(options)) {
     if (!output.path.empty() && identities.count(identity_of(output.path)) != 0)
-      throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is " + what};
+      refuse_usage(output.option + ": " + output.path + " is " + what);
   }
 }
 
@@ -308,7 +303,7 @@ bool can_be_replaced(const std::string &path) { return path != "-" && !is_specia
 void write_text(const std::string &path, const std::string &text) {
   if (!ranks::is_first()) return;
   if (path == "-") {
-    if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};
+    if (!(std::cout << text << std::flush)) refuse_data("standard output: cannot be written");
     return;
   }
   if (const int error = is_special(path) ? write_through(path, "w", text) : replace_file(path, text)) {
@@ -381,7 +376,7 @@ std::string lock_of(const std::string &output) {
 }
 
 [[noreturn]] void refuse_lock(const std::string &output, const std::string &reason) {
-  throw Refusal{exit_bad_data, output + ": " + reason};
+  refuse_data(output + ": " + reason);
 }
 
 bool is_at(int file, const std::string &path) {
@@ -397,8 +392,7 @@ int take(const std::string &output, const std::string &lock) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     // The lock file may be left from a killed run of another user. Then this user may only read it, which suffices for a lock.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-      refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
+    if (file < 0) refuse_lock(output, "its lock " + lock + " cannot be made: " + system_text(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
       if (is_at(file, lock)) return file;
       close(file);  // the run that held the lock has just removed its file, so this run makes a new one
@@ -408,8 +402,7 @@ int take(const std::string &output, const std::string &lock) {
     close(file);
     if (error == EINTR) continue;
     if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis is writing it, and holds " + lock);
-    warn(output +
-         ": it cannot be locked, so other runs may write it meanwhile: " + std::generic_category().message(error));
+    warn(output + ": it cannot be locked, so other runs may write it meanwhile: " + system_text(error));
     unlink(lock.c_str());
     return -1;
   }

@@ -119,9 +119,7 @@ int decimals_of(const std::vector<double> &times) {
 }
 
 std::string fixed(double number, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, number);
-  return text;
+  return printed(("%." + std::to_string(decimals) + "f").c_str(), number);
 }
 
 // The marks of several valves together. A node gets the leaflet of its nearest valve.
@@ -298,7 +296,7 @@ std::string program_on_path(const std::string &name) {
 }
 
 [[noreturn]] void refuse_movie(const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
+  refuse_data(path + ": the movie cannot be made: " + reason);
 }
 
 // Returns the name of a frame's file. It contains the frame's number in the form that ffmpeg reads.
@@ -333,8 +331,7 @@ std::vector<std::string> encoding_of(const std::string &path) {
 // Runs a program that must be there. Returns its exit status, or -1 if a signal ended it.
 int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
   const ProgramEnd end = run_program(words, log);
-  if (end.error != 0)
-    throw Refusal{exit_bad_data, words[0] + ": cannot be run: " + std::generic_category().message(end.error)};
+  if (end.error != 0) refuse_data(words[0] + ": cannot be run: " + system_text(end.error));
   return end.status;
 }
 
@@ -351,15 +348,14 @@ std::string last_line_of(const std::string &path) {
 void check_movie(const std::string &path) {
   if (path.empty()) return;
   if (!has_ending(path, ".mp4") && !has_ending(path, ".gif"))
-    throw Refusal{exit_wrong_usage, "--movie: " + path + " must end in .mp4 or .gif"};
+    refuse_usage("--movie: " + path + " must end in .mp4 or .gif");
   if (program_on_path("ffmpeg").empty())
-    throw Refusal{exit_bad_data,
-                  "--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it"};
+    refuse_data("--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it");
 }
 
 Movie::Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {
   std::string folder = (std::filesystem::temp_directory_path() / "riis-XXXXXX").string();
-  if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + std::generic_category().message(errno));
+  if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + system_text(errno));
   folder_ = folder;
 }
 
@@ -387,7 +383,7 @@ void Movie::encode() const {
   std::remove(temporary.c_str());
   // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
-  if (status == 0) refuse_movie(path_, std::generic_category().message(error));
+  if (status == 0) refuse_movie(path_, system_text(error));
   refuse_movie(path_, "ffmpeg ends with status " + std::to_string(status) + ": " + last_line_of(log));
 }
 

@@ -8,38 +8,13 @@
 #include <sstream>
 
 #include "common/array_view.hpp"
+#include "program/base/options.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
 namespace {
-
-const char *search_name(int32_t search) {
-  switch (search) {
-    case RIIS_SEARCH_EXHAUSTIVE:
-      return "exhaustive";
-    case RIIS_SEARCH_NEIGHBOR:
-      return "neighbor";
-    case RIIS_SEARCH_PAPER:
-      return "paper";
-    case RIIS_SEARCH_CLUSTERS:
-      return "clusters";
-    default:
-      return "unknown";
-  }
-}
-
-const char *distance_name(int32_t distance) {
-  switch (distance) {
-    case RIIS_MEASURE_SAMPLING:
-      return "sampling";
-    case RIIS_MEASURE_MINIMIZATION:
-      return "minimization";
-    default:
-      return "triangles";
-  }
-}
 
 std::ostringstream table_stream() {
   std::ostringstream out;
@@ -98,8 +73,8 @@ void add_times(const ValveReport &valve, std::ostringstream &out) {
 
 void add_search(const ValveReport &valve, std::ostringstream &out) {
   const riis_mark_stats &marks = valve.marks;
-  out << line("search", valve.name) << search_name(marks.search) << ", " << counted(marks.n_threads, "thread");
-  if (valve.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << distance_name(valve.distance);
+  out << line("search", valve.name) << view(search_names)[marks.search] << ", " << counted(marks.n_threads, "thread");
+  if (valve.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << view(distance_names)[valve.distance];
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
   if (!marks.complete)
@@ -215,7 +190,7 @@ void add_seconds(const Seconds &seconds, std::ostringstream &out) {
 void add_step(const StepTimes &step, std::ostringstream &out) {
   out << std::setprecision(6) << line("step", "") << step.surface + step.marking << " s: surface " << step.surface
       << ", search " << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat
-      << opening_of_step << " in opening, search " << search_name(step.search) << "\n";
+      << opening_of_step << " in opening, search " << view(search_names)[step.search] << "\n";
 }
 
 }  // namespace
@@ -278,8 +253,8 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
     return are_unknown ? nlohmann::ordered_json() : value;
   };
   json.update({{"distance_limit", valve.distance_limit},
-               {"search", search_name(marks.search)},
-               {"distance", distance_name(valve.distance)},
+               {"search", view(search_names)[marks.search]},
+               {"distance", view(distance_names)[valve.distance]},
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
                {"n_unreached", marks.n_unreached},
@@ -322,7 +297,7 @@ nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &va
   add_flow(valve.flow, json);
   if (is_only && report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},
-                    {"search", search_name(report.step->search)},
+                    {"search", view(search_names)[report.step->search]},
                     {"seconds_surface", report.step->surface},
                     {"seconds_search", report.step->marking}};
   }

@@ -47,7 +47,7 @@ class TextFile {
  private:
   void check_written() {
     if (file_) return;
-    throw Refusal{exit_bad_data, path_ + ": cannot be written: " + std::generic_category().message(errno)};
+    refuse_data(path_ + ": cannot be written: " + system_text(errno));
   }
 
   std::string path_;
@@ -93,7 +93,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
 // Stops the export between two frames if a signal waits. The signal ends the process once the files are removed, so the message
 // is never printed.
 void stop_if_interrupted() {
-  if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "riis export: interrupted, and nothing is left"};
+  if (UnbrokenWrite::has_signal()) refuse_data("riis export: interrupted, and nothing is left");
 }
 
 void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, const std::string &ending,
@@ -223,13 +223,12 @@ std::string without_last_slashes(std::string path) {
 }
 
 [[noreturn]] void refuse_folder(const std::string &option, const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, option + ": " + path + ": " + reason};
+  refuse_data(option + ": " + path + ": " + reason);
 }
 
 void check_writable(const std::string &option, const std::string &path, const std::string &folder) {
   if (access(folder.c_str(), W_OK | X_OK) == 0) return;
-  refuse_folder(option, path,
-                "the folder " + folder + " cannot be written to: " + std::generic_category().message(errno));
+  refuse_folder(option, path, "the folder " + folder + " cannot be written to: " + system_text(errno));
 }
 
 }  // namespace
@@ -278,7 +277,7 @@ void WholeFolder::take_place() {
   for (const std::string &name : names_) {
     std::error_code error;
     fs::rename(unfinished_ + "/" + name, path_ + "/" + name, error);
-    if (error) throw Refusal{exit_bad_data, path_ + "/" + name + ": cannot be written: " + error.message()};
+    if (error) refuse_data(path_ + "/" + name + ": cannot be written: " + error.message());
   }
   std::error_code error;
   fs::remove(unfinished_, error);

@@ -55,7 +55,7 @@ class Arrays {
  private:
   void write(const void *bytes, std::size_t n) { check_written(std::fwrite(bytes, 1, n, file_.get()) == n); }
   static void check_written(bool is_fine) {
-    if (!is_fine) throw NoFlow{std::string("a temporary file cannot be written: ") + std::strerror(errno)};
+    if (!is_fine) throw NoFlow{std::string("a temporary file cannot be written: ") + system_text(errno)};
   }
 
   TemporaryFile file_ = temporary_file();
@@ -122,7 +122,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   // The current folder is left out of Python's path, because its files may have the names of modules.
   const std::string script = std::string("import sys; del sys.path[0]\n") + uris_flow_script;
   const LinesEnd end = read_program({python, "-c", script}, arrays.file(), read);
-  if (end.error != 0) throw NoFlow{python + " cannot be run: " + std::strerror(end.error)};
+  if (end.error != 0) throw NoFlow{python + " cannot be run: " + system_text(end.error)};
   if (last.rfind("lacks ", 0) == 0) throw NoFlow{python + ' ' + last};
   if (end.status != 0) throw NoFlow{python + " failed" + (end.last_message.empty() ? "" : ": " + end.last_message)};
   ClosedDrop drop;

@@ -2,7 +2,6 @@
 #include "program/svmultiphysics/uris_forecast.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
 #include "common/array_view.hpp"
@@ -87,13 +86,7 @@ class Forecaster {
   }
 
   [[noreturn]] void refuse_motion(const std::string &verb, const std::string &reason) const {
-    throw Refusal{exit_bad_data, options_.mesh + ": svMultiPhysics would never " + verb + " the valve: " + reason};
-  }
-
-  static std::string printed(const char *format, double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
+    refuse_data(options_.mesh + ": svMultiPhysics would never " + verb + " the valve: " + reason);
   }
 
   void check_closed(double opening) {

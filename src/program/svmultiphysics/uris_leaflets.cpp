@@ -122,8 +122,8 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
 void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
   do {
     if (n_triangles() > most_triangles) {
-      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest_edge) + " makes more than " +
-                                          std::to_string(most_triangles) + " triangles"};
+      refuse_usage("--largest-edge: " + shortest(largest_edge) + " makes more than " + std::to_string(most_triangles) +
+                   " triangles");
     }
     for_all_frames(motion, [&](double opening) { net_.measure(vertices_at(opening)); });
     longest_edge_ = net_.longest_edge();
@@ -139,8 +139,8 @@ void UrisLeaflets::find_forward(double opening) {
   }
   const double length = std::hypot(forward_[0], forward_[1], forward_[2]);
   if (!(length > 0))
-    throw Refusal{exit_bad_data, (subject_.empty() ? "" : subject_ + ": ") +
-                                     "the leaflets' normals cancel, so they tell no direction of forward flow"};
+    refuse_data((subject_.empty() ? "" : subject_ + ": ") +
+                "the leaflets' normals cancel, so they tell no direction of forward flow");
   for (double &x : forward_) x /= length;
 }
 

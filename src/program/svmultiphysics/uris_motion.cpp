@@ -46,18 +46,16 @@ std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
 
 TimeSpan found(const std::optional<TimeSpan> &way, const std::string &path, const char *verb, const char *option) {
   if (way) return *way;
-  throw Refusal{exit_bad_data,
-                path + ": the valve does not " + verb + " there: no key of its " +
-                    (option == std::string("--opening-span") ? "largest opening follows one of the least"
-                                                             : "least opening follows one of the largest") +
-                    "; --period or " + option + " may say more"};
+  refuse_data(path + ": the valve does not " + verb + " there: no key of its " +
+              (option == std::string("--opening-span") ? "largest opening follows one of the least"
+                                                       : "least opening follows one of the largest") +
+              "; --period or " + option + " may say more");
 }
 
 Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
   if (options.opening_span && options.closing_span) return {*options.opening_span, *options.closing_span};
   const auto [least, largest] = std::minmax_element(table.openings.begin(), table.openings.end());
-  if (*least == *largest)
-    throw Refusal{exit_bad_data, options.cycle + ": the opening is " + shortest(*least) + " throughout"};
+  if (*least == *largest) refuse_data(options.cycle + ": the opening is " + shortest(*least) + " throughout");
   const Keys keys(table);
   const auto span = [&](const std::optional<TimeSpan> &given, double from, double to, const char *verb,
                         const char *option) {
@@ -70,15 +68,13 @@ Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
 std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {
   const double length = span.stop - span.start;
   if (step > length * (1 + 1e-9)) {
-    throw Refusal{exit_wrong_usage,
-                  "--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length)};
+    refuse_usage("--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length));
   }
   // The small subtractions keep rounding from adding a short step if the step divides the span.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
-    throw Refusal{exit_wrong_usage, "--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) +
-                                        " frames of the " + what + "; at most " + std::to_string(most_times) +
-                                        " are written"};
+    refuse_usage("--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) + " frames of the " + what +
+                 "; at most " + std::to_string(most_times) + " are written");
   }
   std::vector<double> times;
   for (double i = 0; i < n_steps; ++i) times.push_back(span.start + i * step);
@@ -119,9 +115,8 @@ LawWithSpans law_of_seconds(const ExportOptions &options) {
 void check_way(const std::vector<double> &openings, bool opens, const TimeSpan &span) {
   const double first = openings.front(), last = openings.back();
   if (opens ? last > first : last < first) return;
-  throw Refusal{exit_wrong_usage, std::string(opens ? "--opening-span: " : "--closing-span: ") + shortest(span.start) +
-                                      ":" + shortest(span.stop) + " takes the valve from opening " + shortest(first) +
-                                      " to " + shortest(last)};
+  refuse_usage(std::string(opens ? "--opening-span: " : "--closing-span: ") + shortest(span.start) + ":" +
+               shortest(span.stop) + " takes the valve from opening " + shortest(first) + " to " + shortest(last));
 }
 
 void warn_of_jump(const char *from, double before, const char *to, double after) {

@@ -150,10 +150,9 @@ void turn_elements(SolverMesh &mesh, const std::string &path) {
     const double volume = determinant_at(mesh, e, element.at_gauss[0]);
     if (volume > 0) continue;
     const std::string subject = path + ": volume element " + std::to_string(e);
-    if (!(volume < 0)) throw Refusal{exit_bad_data, subject + " has no volume"};
+    if (!(volume < 0)) refuse_data(subject + " has no volume");
     std::int64_t *const nodes = mesh.nodes.data() + e * static_cast<std::int64_t>(element.n_nodes);
-    if (element.n_corners == 8)
-      throw Refusal{exit_bad_data, subject + " is inside out, and svMultiPhysics does not turn hexahedra"};
+    if (element.n_corners == 8) refuse_data(subject + " is inside out, and svMultiPhysics does not turn hexahedra");
     std::swap(nodes[0], nodes[1]);
     if (element.n_nodes == 6) std::swap(nodes[3], nodes[4]);
     if (element.n_nodes == 10) {
@@ -198,15 +197,15 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path) {
     if (std::count(std::begin(without_volume), std::end(without_volume), type) > 0) continue;
     const SolverElement *const element = solver_element_of(type);
     if (!element)
-      throw Refusal{exit_bad_data, path + ": cell " + std::to_string(i) + " has VTK's type " + std::to_string(type) +
-                                       ", and svMultiPhysics has only " + solver_element_names()};
+      refuse_data(path + ": cell " + std::to_string(i) + " has VTK's type " + std::to_string(type) +
+                  ", and svMultiPhysics has only " + solver_element_names());
     if (mesh.element && element != mesh.element)
-      throw Refusal{exit_bad_data, path + ": has " + mesh.element->name + " and " + element->name +
-                                       ", and svMultiPhysics takes one type of element in a mesh"};
+      refuse_data(path + ": has " + mesh.element->name + " and " + element->name +
+                  ", and svMultiPhysics takes one type of element in a mesh");
     mesh.element = element;
     mesh.nodes.insert(mesh.nodes.end(), nodes.data() + view(offsets)[i], nodes.data() + view(offsets)[i + 1]);
   }
-  if (!mesh.element) throw Refusal{exit_bad_data, path + ": has no volume cells, so nothing is computed in it"};
+  if (!mesh.element) refuse_data(path + ": has no volume cells, so nothing is computed in it");
   turn_elements(mesh, path);
   mesh.node_volume = node_volumes(mesh);
   return mesh;
