@@ -17,7 +17,6 @@
 #include "program/mark/crossings.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
-#include "program/output/pictures.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -101,8 +100,7 @@ class Measured {
   riis_orifice orifice() const { return get<riis_orifice>(riis_surface_get_orifice, surface_, nullptr); }
 
   ContactSize contact() const {
-    const auto made =
-        get<riis_coaptation>(riis_surface_get_coaptation, surface_, RIIS_AUTO, RIIS_ALL_LEAFLETS);
+    const auto made = get<riis_coaptation>(riis_surface_get_coaptation, surface_, RIIS_AUTO, RIIS_ALL_LEAFLETS);
     return {made.area, made.edge};
   }
 

@@ -94,7 +94,7 @@ struct Answer {
   // Readers print errors of their own. This process's message goes through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
   // This process ends with its parent, and removes nothing of its parent's.
-  for (const int ending : {SIGINT, SIGTERM, SIGHUP})
+  for (const int ending : UnbrokenWrite::signals)
     if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);

@@ -181,6 +181,15 @@ Surface make_surface(const ValveSource &source, FileVelocity velocity) {
                       : surface_of_file(source.options, source.file.get(), velocity);
 }
 
+std::vector<const char *> leaflet_names(const ValveOptions &options) {
+  if (!options.surface.empty()) return {};
+  if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
+    return {"right", "left", "non-coronary", "skirt"};
+  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
+  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
+  return {};
+}
+
 int64_t count_leaflets(const riis_surface *surface) {
   const riis_triangles triangles = triangles_of(surface);
   const std::set<int32_t> ids(triangles.leaflet_id, triangles.leaflet_id + triangles.n_triangles);

@@ -54,6 +54,8 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 enum class FileVelocity { none, zero };
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
+// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
+std::vector<const char *> leaflet_names(const ValveOptions &options);
 int64_t count_leaflets(const riis_surface *surface);
 
 // --surface FILE.pvd: the surface of a motion given by frames.

@@ -10,7 +10,6 @@
 #include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/warnings.hpp"
-#include "program/output/pictures.hpp"
 
 namespace riis::program {
 namespace {

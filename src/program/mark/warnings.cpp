@@ -91,44 +91,7 @@ Warning warning_of_places(const Situation &s) {
           ": see --translate, --rotate, --scale, --half-thickness"};
 }
 
-}  // namespace
-
-std::optional<Warning> warning_of(const Situation &s) {
-  const bool has_none = s.n_marked == 0 && !s.options.allow_none;
-  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return std::nullopt;
-  std::optional<Warning> why = warning_of_units(s);
-  if (!why) why = warning_of_half_thickness(s);
-  if (!why) why = warning_of_places(s);
-  why->text = marked_text(s) + ": " + why->text;
-  return why;
-}
-
-void warn(const std::string &text) {
-  ++n_printed;
-  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
-}
-
-void warn(std::vector<Warning> warnings) {
-  std::stable_sort(warnings.begin(), warnings.end(),
-                   [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
-  for (const Warning &warning : warnings) {
-    const bool is_first = warning.cause <= first_cause;
-    if (is_first) first_cause = warning.cause;
-    warn(is_first ? warning.text + warning.advice : warning.text);
-  }
-}
-
-std::int64_t n_warnings() { return n_printed; }
-
-std::string place_text(const ValveOptions &options, const double *point, double edge) {
-  std::string text;
-  for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
-  return options.unit ? text + " " + name_of(*options.unit) : text;
-}
-
 // ---- Advice ----
-
-namespace {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
@@ -167,10 +130,8 @@ std::string in_place_of(const MarkOptions &options) {
   return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
 }
 
-}  // namespace
-
-std::string shown(double number) { return printed("%.3g", number); }
-
+// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
+// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
   const Sizes sizes = sizes_of(s);
   const auto factor = missing_factor(sizes);
@@ -190,6 +151,7 @@ std::optional<Warning> warning_of_units(const Situation &s) {
       ": write " + write + in_place_of(s.options)};
 }
 
+// Returns a warning if the half thickness is too large or too small. It names the option to write.
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const Sizes sizes = sizes_of(s);
   const bool is_large = is_too_large(s.half_thickness, sizes);
@@ -211,6 +173,43 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
                    : is_large ? ": see --half-thickness, --scale"
                               : ": the mesh is too coarse for this surface";
   return warning;
+}
+
+}  // namespace
+
+std::string shown(double number) { return printed("%.3g", number); }
+
+std::optional<Warning> warning_of(const Situation &s) {
+  const bool has_none = s.n_marked == 0 && !s.options.allow_none;
+  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return std::nullopt;
+  std::optional<Warning> why = warning_of_units(s);
+  if (!why) why = warning_of_half_thickness(s);
+  if (!why) why = warning_of_places(s);
+  why->text = marked_text(s) + ": " + why->text;
+  return why;
+}
+
+void warn(const std::string &text) {
+  ++n_printed;
+  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
+}
+
+void warn(std::vector<Warning> warnings) {
+  std::stable_sort(warnings.begin(), warnings.end(),
+                   [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
+  for (const Warning &warning : warnings) {
+    const bool is_first = warning.cause <= first_cause;
+    if (is_first) first_cause = warning.cause;
+    warn(is_first ? warning.text + warning.advice : warning.text);
+  }
+}
+
+std::int64_t n_warnings() { return n_printed; }
+
+std::string place_text(const ValveOptions &options, const double *point, double edge) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
+  return options.unit ? text + " " + name_of(*options.unit) : text;
 }
 
 }  // namespace riis::program

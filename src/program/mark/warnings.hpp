@@ -50,15 +50,6 @@ std::int64_t n_warnings();
 // length or finer, so the two ends of the edge differ. If the length is 0, coordinates have six digits.
 std::string place_text(const ValveOptions &options, const double *point, double edge);
 
-// In: sizes that do not fit together. Out: the units that they suggest, and the options that make them fit.
-
-// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
-// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
-std::optional<Warning> warning_of_units(const Situation &situation);
-
-// Returns a warning if the half thickness is too large or too small. It names the option to write.
-std::optional<Warning> warning_of_half_thickness(const Situation &situation);
-
 // Returns a number as a user would write it.
 std::string shown(double number);
 

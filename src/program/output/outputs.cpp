@@ -64,6 +64,7 @@ void check_place(const std::string &path) {
 
 struct NamedFile {
   std::string option, path;
+  std::string ending{};  // that the file must have; "": any
 };
 
 using NamedFiles = std::vector<NamedFile>;
@@ -96,10 +97,11 @@ std::string numbers_of(const std::string &xdmf) { return fs::path(xdmf).replace_
 NamedFiles outputs_of(const MarkOptions &options) {
   // Fields of OpenFOAM go into a folder.
   const bool is_folder = is_foam_case(options.output) || is_foam_time(options.output);
+  const bool is_series = !options.series.times.empty();
   NamedFiles outputs = {{"--output", is_folder ? "" : options.output},
-                        {options.surface_output_option, options.surface_output}};
+                        {options.surface_output_option, options.surface_output, is_series ? ".pvd" : ".vtp"}};
   if (has_ending(options.output, ".xdmf")) outputs.push_back({"--output", numbers_of(options.output)});
-  for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
+  for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path, ".png"});
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
   outputs.push_back({"--series-table", options.series.table});
@@ -211,8 +213,16 @@ void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
     check_ending(path, ".pvd", "--output");
   else if (has_pieces || !has_ending(path, ".xdmf"))
     check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
-  check_place(path);
-  if (has_ending(path, ".xdmf")) check_place(numbers_of(path));
+}
+
+// Checks that files can be written, and locks them.
+OutputLocks check_files(const NamedFiles &outputs) {
+  for (const auto &[option, path, ending] : outputs) {
+    if (path.empty()) continue;
+    if (!ending.empty()) check_ending(path, ending, option);
+    check_place(path);
+  }
+  return locks_of(outputs);
 }
 
 }  // namespace
@@ -225,68 +235,56 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
   const bool is_series = !options.series.times.empty();
   const bool has_pieces = !options.pieces.empty();  // then the pieces are written to a folder, as the steps of a series
   check_distinct(inputs, outputs);
-  const std::vector<NamedFile> lists = {{"--output", options.output}, {"--surface-output", options.surface_output}};
-  for (const NamedFile &list : lists)
-    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
-      check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
-  const auto check_file = [](const std::string &path, const char *ending, const std::string &option) {
-    if (path.empty()) return;
-    check_ending(path, ending, option);
-    check_place(path);
-  };
+  std::vector<SeriesFiles> folders;
+  for (const auto &[option, path] :
+       {std::pair<const char *, std::string>{"--output", options.output}, {"--surface-output", options.surface_output}})
+    if (!path.empty() && !is_foam_case(path) && (is_series || (has_pieces && path == options.output))) {
+      folders.emplace_back(path, "", 1);
+      check_folder_of_steps(option, folders.back().folder(), inputs);
+    }
   check_output(options, is_series, has_pieces);
-  check_file(options.surface_output, is_series ? ".pvd" : ".vtp", options.surface_output_option);
-  for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
-  if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
-  if (!options.series.table.empty()) check_place(options.series.table);
-  for (const NamedFile &list : lists)
-    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
-      SeriesFiles(list.path, "", 1).check_folder();
-  check_movie(options.series.movie);
-  if (!options.series.movie.empty()) check_place(options.series.movie);
+  OutputLocks locks = check_files(outputs);
+  for (const SeriesFiles &files : folders) files.check_folder();
   if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
-  return locks_of(outputs);
+  return locks;
 }
 
 namespace {
 
-// Checks the only output of a command, its positional argument OUT.
-OutputLocks check_out(const std::string &path, const NamedFiles &inputs) {
-  const NamedFiles outputs = {{"OUT", path == "-" ? "" : path}};
-  check_distinct(known(inputs), outputs);
-  if (path != "-") check_place(path);
-  return locks_of(outputs);
+// Checks the outputs of a command that writes texts. One of them may be "-", stdout.
+OutputLocks check_texts(const NamedFiles &inputs, const NamedFiles &texts) {
+  NamedFiles files;
+  std::string on_stdout;
+  for (const NamedFile &text : texts) {
+    if (text.path != "-") {
+      files.push_back(text);
+      continue;
+    }
+    if (!on_stdout.empty()) refuse_usage(text.option + " and " + on_stdout + " cannot both be on standard output");
+    on_stdout = text.option;
+  }
+  check_distinct(known(inputs), files);
+  return check_files(files);
 }
 
 }  // namespace
 
 OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs) {
-  return check_out(options.field, inputs_of(options, more_inputs));
+  return check_texts(inputs_of(options, more_inputs), {{"OUT", options.field}});
 }
 
-OutputLocks check_outputs(const StatesOptions &options) { return check_out(options.output, inputs_of(options)); }
+OutputLocks check_outputs(const StatesOptions &options) {
+  return check_texts(inputs_of(options), {{"OUT", options.output}});
+}
 
 OutputLocks check_outputs(const PlaceOptions &options) {
-  NamedFiles inputs = inputs_of(options), outputs;
+  NamedFiles inputs = inputs_of(options);
   inputs.push_back({"LANDMARKS", options.landmarks});
   inputs.push_back({"--mesh", options.mesh});
-  const NamedFile named[] = {{"--output", options.output},
-                             {"--foam", options.foam_output},
-                             {"--c", options.c_output},
-                             {"--fortran", options.fortran_output}};
-  std::string on_stdout;
-  for (const NamedFile &output : named) {
-    if (output.path.empty()) continue;
-    if (output.path != "-") {
-      check_place(output.path);
-      outputs.push_back(output);
-      continue;
-    }
-    if (!on_stdout.empty()) refuse_usage(output.option + " and " + on_stdout + " cannot both be on standard output");
-    on_stdout = output.option;
-  }
-  check_distinct(known(inputs), outputs);
-  return locks_of(outputs);
+  return check_texts(inputs, {{"--output", options.output},
+                              {"--foam", options.foam_output},
+                              {"--c", options.c_output},
+                              {"--fortran", options.fortran_output}});
 }
 
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options) {
@@ -319,8 +317,6 @@ namespace {
 // the signal handlers.
 std::vector<std::string> held_locks;
 
-constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
-
 // A file of this process and its folder, which a signal that ends the process removes. Empty names stand for none.
 char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
 
@@ -341,7 +337,7 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   struct sigaction action {};
   action.sa_handler = to;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : ending_signals) {
+  for (const int signal : UnbrokenWrite::signals) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler == from) sigaction(signal, &action, nullptr);
@@ -355,7 +351,7 @@ class SignalsWait {
   SignalsWait() {
     sigset_t ending;
     sigemptyset(&ending);
-    for (const int signal : ending_signals) sigaddset(&ending, signal);
+    for (const int signal : UnbrokenWrite::signals) sigaddset(&ending, signal);
     pthread_sigmask(SIG_BLOCK, &ending, &before_);
   }
   ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -464,14 +460,14 @@ UnbrokenWrite::UnbrokenWrite() {
   keep.sa_handler = keep_for_later;
   keep.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   for (int i = 0; i < 3; ++i) {
-    sigaction(signals_[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler != SIG_IGN) sigaction(signals_[i], &keep, nullptr);
+    sigaction(signals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &keep, nullptr);
   }
 }
 
 UnbrokenWrite::~UnbrokenWrite() {
   if (--n_alive > 0) return;
-  for (int i = 0; i < 3; ++i) sigaction(signals_[i], &before_[i], nullptr);
+  for (int i = 0; i < 3; ++i) sigaction(signals[i], &before_[i], nullptr);
   if (waiting_signal != 0) std::raise(waiting_signal);
 }
 

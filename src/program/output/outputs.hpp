@@ -48,11 +48,12 @@ class UnbrokenWrite {
   UnbrokenWrite(const UnbrokenWrite &) = delete;
   UnbrokenWrite &operator=(const UnbrokenWrite &) = delete;
 
+  // The signals that end the process.
+  static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
   // Returns whether a signal waits. Work in several parts then stops after the present part.
   static bool has_signal();
 
  private:
-  static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP};
   struct sigaction before_[3];
 };
 

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -76,15 +75,11 @@ void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOp
   check_view("--movie-view", options.series.movie_view, n_valves, valve);
 }
 
-std::vector<const char *> leaflet_names(const ValveOptions &options) {
-  if (!options.surface.empty()) return {};
-  if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
-    return {"right", "left", "non-coronary", "skirt"};
-  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
-  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
-  return {};
-}
+// ---- Pictures of a run ----
 
+namespace {
+
+// Returns a title such as "Mitral valve". For a file, the title is the base name.
 std::string title_of_valve(const ValveOptions &options) {
   const std::string name = options.surface.empty() ? options.valve : options.surface;
   if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
@@ -93,6 +88,8 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
+// Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
+// other captions do.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);
@@ -100,10 +97,6 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   if (is_papers_aortic_valve(options, valve)) title += " (the paper's, not closed)";
   return title;
 }
-
-// ---- Pictures of a run ----
-
-namespace {
 
 // Returns the largest number of decimals of the times. All times in a movie are shown with this number, so their texts have the
 // same length.
@@ -283,14 +276,11 @@ namespace {
 // Returns the path of the program with that name on the PATH, or "" if there is none.
 std::string program_on_path(const std::string &name) {
   const char *path = std::getenv("PATH");
-  std::string folders = path ? path : "";
-  for (std::size_t begin = 0; begin <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', begin), folders.size());
-    const std::string program = folders.substr(begin, end - begin) + "/" + name;
+  for (const std::string &folder : split(path ? path : "", ":")) {
+    const std::string program = folder + "/" + name;
     std::error_code error;
-    if (end > begin && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
+    if (!folder.empty() && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
       return program;
-    begin = end + 1;
   }
   return "";
 }
@@ -328,21 +318,6 @@ std::vector<std::string> encoding_of(const std::string &path) {
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
-// Runs a program that must be there. Returns its exit status, or -1 if a signal ended it.
-int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
-  const ProgramEnd end = run_program(words, log);
-  if (end.error != 0) refuse_data(words[0] + ": cannot be run: " + system_text(end.error));
-  return end.status;
-}
-
-std::string last_line_of(const std::string &path) {
-  std::ifstream file(path);
-  std::string last, line;
-  while (std::getline(file, line))
-    if (!line.empty()) last = line;
-  return last.substr(0, 200);
-}
-
 }  // namespace
 
 void check_movie(const std::string &path) {
@@ -370,21 +345,21 @@ void Movie::encode() const {
   const UnbrokenWrite unbroken;
   const std::filesystem::path place = place_of(path_);
   const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-movie.tmp")).string();
-  const std::string log = folder_ + "/ffmpeg.log";
   std::vector<std::string> words = {
       program_on_path("ffmpeg"), "-nostdin", "-loglevel",           "error", "-y", "-framerate",
       shortest(frame_rate_),     "-i",       frame_pattern(folder_)};
   const std::vector<std::string> encoding = encoding_of(path_);
   words.insert(words.end(), encoding.begin(), encoding.end());
   words.push_back(temporary);
-  const int status = run_program_to_log(words, log);
-  if (status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
+  const ProgramEnd end = run_program(words);
+  if (end.error != 0) refuse_data(words[0] + ": cannot be run: " + system_text(end.error));
+  if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
   // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
-  if (status == 0) refuse_movie(path_, system_text(error));
-  refuse_movie(path_, "ffmpeg ends with status " + std::to_string(status) + ": " + last_line_of(log));
+  if (end.status == 0) refuse_movie(path_, system_text(error));
+  refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));
 }
 
 }  // namespace riis::program

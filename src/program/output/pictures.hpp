@@ -18,16 +18,6 @@
 
 namespace riis::program {
 
-// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
-std::vector<const char *> leaflet_names(const ValveOptions &options);
-
-// Returns a title such as "Mitral valve". For a file, the title is the base name.
-std::string title_of_valve(const ValveOptions &options);
-
-// Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
-// other captions do.
-std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report);
-
 // Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
 // `valve` has the options of the first valve.
 void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOptions &valve);

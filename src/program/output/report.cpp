@@ -163,6 +163,11 @@ nlohmann::ordered_json json_of_first(const riis_first_passage &first) {
           {"n_openings", first.n_openings}};
 }
 
+const char *outline_name(int32_t outline) {
+  static const char *const names[] = {"none", "disc", "attachment", "boundary"};
+  return view(names)[outline];
+}
+
 void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
   if (flow.orifice)
     json["orifice"] = {{"outline", outline_name(flow.orifice->outline)}, {"area", flow.orifice->area},
@@ -180,11 +185,18 @@ void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
   if (flow.leak_per_drop && flow.drop) json["leak"] = *flow.leak_per_drop * *flow.drop;
 }
 
+using Stages = std::vector<std::pair<const char *, double>>;
+Stages stages_of(const Seconds &s) {
+  return {{"read", s.read},   {"surface", s.surface},     {"scene", s.scene},
+          {"mesh", s.mesh},   {"adjacency", s.adjacency}, {"search", s.search},
+          {"leaks", s.leaks}, {"write", s.write},         {"picture", s.picture}};
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
-  out << std::fixed << std::setprecision(3) << line("seconds", "") << "read " << seconds.read << ", surface "
-      << seconds.surface << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency "
-      << seconds.adjacency << ", search " << seconds.search << ", leaks " << seconds.leaks << ", write "
-      << seconds.write << ", picture " << seconds.picture << "\n";
+  out << std::fixed << std::setprecision(3) << line("seconds", "");
+  const char *before = "";
+  for (const auto &[stage, taken] : stages_of(seconds)) out << std::exchange(before, ", ") << stage << " " << taken;
+  out << "\n";
 }
 
 void add_step(const StepTimes &step, std::ostringstream &out) {
@@ -199,11 +211,6 @@ std::string grouped(int64_t n) {
   std::string digits = std::to_string(n);
   for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
   return digits;
-}
-
-const char *outline_name(int32_t outline) {
-  static const char *const names[] = {"none", "disc", "attachment", "boundary"};
-  return view(names)[outline];
 }
 
 std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
@@ -240,9 +247,9 @@ std::string line_of_passage(const Report &report) {
 namespace {
 
 nlohmann::ordered_json json_of_seconds(const Seconds &seconds) {
-  return {{"read", seconds.read},   {"surface", seconds.surface},     {"scene", seconds.scene},
-          {"mesh", seconds.mesh},   {"adjacency", seconds.adjacency}, {"search", seconds.search},
-          {"leaks", seconds.leaks}, {"write", seconds.write},         {"picture", seconds.picture}};
+  nlohmann::ordered_json json;
+  for (const auto &[stage, taken] : stages_of(seconds)) json[stage] = taken;
+  return json;
 }
 
 void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {

@@ -121,7 +121,7 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   const std::string python = python_of_user();
   // The current folder is left out of Python's path, because its files may have the names of modules.
   const std::string script = std::string("import sys; del sys.path[0]\n") + uris_flow_script;
-  const LinesEnd end = read_program({python, "-c", script}, arrays.file(), read);
+  const ProgramEnd end = run_program({python, "-c", script}, arrays.file(), read);
   if (end.error != 0) throw NoFlow{python + " cannot be run: " + system_text(end.error)};
   if (last.rfind("lacks ", 0) == 0) throw NoFlow{python + ' ' + last};
   if (end.status != 0) throw NoFlow{python + " failed" + (end.last_message.empty() ? "" : ": " + end.last_message)};
