@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds handles of riis_vtk's objects to the handles of riis.hpp. Returns the content of handles, and arrays of triangles, as
-// structs.
+// Adds handles of riis_vtk's objects to the handles of riis.hpp. Returns the content of handles as structs.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -49,8 +48,7 @@ inline std::vector<riis_parameter> all_parameters(const riis_valve *valve) {
   std::int64_t n = 0;
   check(riis_valve_get_n_parameters(valve, &n));
   std::vector<riis_parameter> parameters;
-  for (std::int64_t i = 0; i < n; ++i)
-    parameters.push_back(get<riis_parameter>(riis_valve_get_parameter, valve, i));
+  for (std::int64_t i = 0; i < n; ++i) parameters.push_back(get<riis_parameter>(riis_valve_get_parameter, valve, i));
   return parameters;
 }
 inline std::vector<double> values_of(const riis_valve *valve, const riis_parameter &parameter) {
@@ -68,20 +66,6 @@ inline riis_points points_of(const std::vector<double> &xyz) {
   points.z = xyz.data() + 2;
   points.stride = 3;
   return points;
-}
-
-// Returns arrays that borrow vertices (3, n) and the corners (3, n) of triangles.
-inline riis_surface_arrays arrays_of(const std::vector<double> &xyz, const std::vector<int64_t> &corners) {
-  auto arrays = defaults<riis_surface_arrays>();
-  arrays.n_vertices = view(xyz).size() / 3;
-  arrays.x = xyz.data();
-  arrays.y = xyz.data() + 1;
-  arrays.z = xyz.data() + 2;
-  arrays.stride = 3;
-  arrays.n_faces = view(corners).size() / 3;
-  arrays.vertex_ids = corners.data();
-  arrays.id_bits = 64;
-  return arrays;
 }
 
 }  // namespace riis::program

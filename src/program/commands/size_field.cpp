@@ -23,14 +23,11 @@
 namespace riis::program {
 namespace {
 
+// The largest number of points of the grid.
+constexpr std::int64_t most_field_points = 20'000'000;
+
 // Returns a law whose opening is the time, so that times stand for openings.
 OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
-
-std::vector<double> openings_from_0_to_1(std::int32_t n) {
-  std::vector<double> openings;
-  for (std::int32_t i = 0; i < n; ++i) openings.push_back(static_cast<double>(i) / (n - 1));
-  return openings;
-}
 
 // Returns the valve or the surface of the command line. A valve moves through its openings, unless the user gave one.
 Case case_without_times(const SizeFieldOptions &options) {
@@ -113,51 +110,25 @@ struct Grid {
   }
 };
 
-// Collects the triangles of one valve at all times, as one surface. The distance to this surface is the least distance of the
-// whole motion, so one marking per valve suffices.
-class SweptSurface {
- public:
-  explicit SweptSurface(MovingValve &valve) : valve_(valve) {}
-
-  void add(double time) {
-    valve_.move_to(time);
-    // An opening that occurs again is skipped, because the valve has the same triangles there.
-    if (!valve_.source().keyframes && !openings_.insert(valve_.opening().value_or(0)).second) return;
-    const riis_triangles triangles = triangles_of(valve_.surface());
-    const std::int64_t before = view(xyz_).size() / 3;
-    xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
-    for (std::int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners_.push_back(before + triangles.vertex_id[i]);
-  }
-
-  Surface make(double half_thickness) const {
-    const riis_surface_arrays arrays = arrays_of(xyz_, corners_);
-    auto how = defaults<riis_surface_options>();
-    how.half_thickness = half_thickness;
-    how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
-    return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
-  }
-
- private:
-  MovingValve &valve_;
-  std::set<double> openings_;
-  std::vector<double> xyz_;
-  std::vector<std::int64_t> corners_;
-};
-
-std::vector<Surface> swept_surfaces(std::vector<MovingValve> &valves, const std::vector<Edges> &edges,
-                                    const Case &all) {
+// Returns the triangles of one valve at all times as one surface. The distance to this surface is the least distance of the whole
+// motion, so one marking per valve suffices.
+Surface swept_surface(MovingValve &valve, double half_thickness, const Case &all) {
   const std::vector<double> &times = all.options.series.times;
-  std::vector<Surface> surfaces;
-  for (std::size_t at = 0; at < valves.size(); ++at) {
-    SweptSurface swept(valves[at]);
-    StepProgress progress("collecting the states", times.size(), all.options.quiet);
-    for (std::size_t step = 0; step < times.size(); ++step) {
-      progress.begin(step);
-      swept.add(times[step]);
-    }
-    surfaces.push_back(swept.make(edges[at].half_thickness));
+  JoinedTriangles swept;
+  std::set<double> openings;
+  StepProgress progress("collecting the states", times.size(), all.options.quiet);
+  for (std::size_t step = 0; step < times.size(); ++step) {
+    progress.begin(step);
+    valve.move_to(times[step]);
+    // An opening that occurs again is skipped, because the valve has the same triangles there.
+    if (valve.source().keyframes || openings.insert(valve.opening().value_or(0)).second)
+      swept.add(triangles_of(valve.surface()), 0);
   }
-  return surfaces;
+  const riis_surface_arrays arrays = swept.arrays();
+  auto how = defaults<riis_surface_options>();
+  how.half_thickness = half_thickness;
+  how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
+  return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
 // Returns the box around all points that are within reach of a surface.
@@ -266,7 +237,9 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  const std::vector<Surface> surfaces = swept_surfaces(valves, edges, all);
+  std::vector<Surface> surfaces;
+  for (std::size_t i = 0; i < valves.size(); ++i)
+    surfaces.push_back(swept_surface(valves[i], edges[i].half_thickness, all));
   const Grid grid = grid_in(box_around(surfaces, edges), spacing);
   const std::vector<double> lengths = lengths_at(grid, surfaces, edges, options);
   write_text(options.field, text_of(grid, lengths));

@@ -150,6 +150,12 @@ double opening_of(const riis_valve *valve) {
   return opening;
 }
 
+std::vector<double> openings_from_0_to_1(std::int32_t n) {
+  std::vector<double> openings;
+  for (std::int32_t i = 0; i < n; ++i) openings.push_back(static_cast<double>(i) / (n - 1));
+  return openings;
+}
+
 Valve copy_of(const riis_valve *valve) { return create<Valve>(riis_valve_copy, valve); }
 
 // Tries the valve at opening 1 only. A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported

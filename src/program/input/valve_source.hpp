@@ -35,6 +35,8 @@ enum class OpeningCheck { no, yes };
 // that moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
 double opening_of(const riis_valve *valve);
+// Returns n openings from 0 to 1.
+std::vector<double> openings_from_0_to_1(std::int32_t n);
 // Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
 // wall.
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);

@@ -68,9 +68,7 @@ void BandMeasures::judge(const MatchedNodes &matched, double half_thickness, Flo
              half_thickness,       all.n};
   }
   report.cells = of_whole_.value_or(cells);
-  std::int64_t n_regions = 0;
-  for (const std::int64_t n : ranks::gather(std::vector<std::int64_t>{n_regions_})) n_regions += n;
-  report.n_open_regions = n_regions - matched.n_joins();
+  report.n_open_regions = ranks::sum(n_regions_) - matched.n_joins();
 }
 
 }  // namespace riis::program

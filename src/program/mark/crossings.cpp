@@ -49,12 +49,11 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
   const riis_surface_options how = by_triangles(options);
   const auto surface = create_for<Surface>(subject, riis_surface_create, valve, &how);
   StepProgress progress("looking for crossings", n_openings, options.quiet);
-  for (int i = 0; i < n_openings; ++i) {
-    progress.begin(static_cast<std::size_t>(i));
-    const double opening = static_cast<double>(i) / (n_openings - 1);
+  for (const double opening : openings_from_0_to_1(n_openings)) {
+    progress.begin(static_cast<std::size_t>(report.n_openings));
     check(riis_valve_set_scalar(valve, "opening", opening));
     check(riis_surface_update(surface.get(), valve, nullptr), subject);
-    report.n_openings = i + 1;
+    ++report.n_openings;
     report.opening = opening;
     report.found = crossings_of(options, surface.get());
     if (report.found.n_pairs > 0) return;

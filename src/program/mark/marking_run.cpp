@@ -261,8 +261,7 @@ class MarkingRun {
 
   // Judges and lists the files, after all ranks have written their pieces. Returns whether all pieces are written.
   bool finish_pieces() {
-    const std::vector<int> stopped = ranks::gather(std::vector<int>{UnbrokenWrite::has_signal() ? 1 : 0});
-    const bool is_stopped = std::find(stopped.begin(), stopped.end(), 1) != stopped.end();
+    const bool is_stopped = ranks::sum(UnbrokenWrite::has_signal()) > 0;
     if (!is_stopped) marking_.judge();
     const Stage stage("writing", all_.options.quiet);
     files_.list_pieces();

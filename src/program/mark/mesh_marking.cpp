@@ -3,7 +3,6 @@
 #include "program/mark/mesh_marking.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -100,10 +99,6 @@ namespace {
 // reuse.
 constexpr int n_first_steps = 2;
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -130,12 +125,12 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
   for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
     if (opening + change > 1 || opening + change < 0) change = -change;
     opening = std::clamp(opening + change, 0.0, 1.0);
-    const auto begin = std::chrono::steady_clock::now();
+    const Stage step("", true);
     check(riis_valve_set_scalar(moved.get(), "opening", opening), "--steps");
     check(riis_surface_update(surface, moved.get(), nullptr), "--steps");
-    const double updated = seconds_since(begin);
+    const double updated = step.seconds();
     check(riis_mark_nodes(surface, nodes.mesh(), &how, result.get()), options.mesh);
-    const double marked = seconds_since(begin);
+    const double marked = step.seconds();
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);
     of_marking.push_back(marked - updated);

@@ -2,7 +2,6 @@
 #include "program/mark/mesh_pieces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #ifdef __GLIBC__
@@ -258,7 +257,8 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       in_several |= node.piece != before.piece;
       if (node.region < 0 || before.region < 0) continue;
       const PieceRegion p{before.piece, before.region}, q{node.piece, node.region};
-      if (!(p == q) && (own.joined.empty() || own.joined.back() != std::pair(p, q))) own.joined.emplace_back(p, q);
+      const JoinedRegions joined{p, q};
+      if (!(p == q) && (own.joined.empty() || !(own.joined.back() == joined))) own.joined.push_back(joined);
     }
     if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
       refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key.a)) +
@@ -272,32 +272,15 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
     }
   }
   sort_unique(own.joined);
-  MatchedNodes all;
-  const std::vector<std::array<std::int64_t, 2>> counts{{own.n_nodes, own.n_in_several}};
-  for (const auto &[n_nodes, n_in_several] : ranks::gather(counts)) {
-    all.n_nodes += n_nodes;
-    all.n_in_several += n_in_several;
-  }
-  struct Pair {
-    PieceRegion p, q;
-  };
-  std::vector<Pair> pairs;
-  for (const auto &[p, q] : own.joined) pairs.push_back({p, q});
-  for (const Pair &pair : ranks::gather(pairs)) all.joined.emplace_back(pair.p, pair.q);
+  MatchedNodes all{ranks::sum(own.n_nodes), ranks::sum(own.n_in_several), ranks::gather(own.joined)};
   sort_unique(all.joined);
   return all;
 }
 
 std::int64_t MatchedNodes::n_joins() const {
-  std::vector<PieceRegion> regions;
-  for (const auto &[p, q] : joined) regions.insert(regions.end(), {p, q});
-  sort_unique(regions);
-  const auto at = [&](const PieceRegion &region) {
-    return std::lower_bound(regions.begin(), regions.end(), region) - regions.begin();
-  };
-  DisjointSets sets(view(regions).size());
+  JoinedSets<PieceRegion> sets;
   std::int64_t n = 0;
-  for (const auto &[p, q] : joined) n += sets.unite(at(p), at(q));
+  for (const auto &[p, q] : joined) n += sets.unite(p, q);
   return n;
 }
 
@@ -316,8 +299,7 @@ void LooseNodes::check(const MeshPieces &mesh) const {
     for (std::int64_t i = 0; i < piece.nodes.n(); ++i)
       n += piece.nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), piece.nodes.key(i));
   });
-  std::int64_t sum = 0;
-  for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
+  const std::int64_t sum = ranks::sum(n);
   if (sum > 0)
     refuse_data(mesh.path() + ": " + std::to_string(sum) +
                 " points are inside one piece, and another piece has them without a cell; "

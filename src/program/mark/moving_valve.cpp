@@ -95,6 +95,27 @@ std::vector<MovingValve> moving_valves(Case &all) {
 
 // ---- Joined surface ----
 
+void JoinedTriangles::add(const riis_triangles &triangles, std::int32_t first_leaflet) {
+  const int64_t before = view(xyz_).size() / 3;
+  xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+  for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners_.push_back(before + triangles.vertex_id[i]);
+  for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets_.push_back(first_leaflet + triangles.leaflet_id[i]);
+}
+
+riis_surface_arrays JoinedTriangles::arrays() const {
+  auto arrays = defaults<riis_surface_arrays>();
+  arrays.n_vertices = view(xyz_).size() / 3;
+  arrays.x = xyz_.data();
+  arrays.y = xyz_.data() + 1;
+  arrays.z = xyz_.data() + 2;
+  arrays.stride = 3;
+  arrays.n_faces = view(corners_).size() / 3;
+  arrays.vertex_ids = corners_.data();
+  arrays.id_bits = 64;
+  arrays.leaflet_id = leaflets_.data();
+  return arrays;
+}
+
 int32_t n_leaflets_of(const riis_surface *surface) {
   const riis_triangles triangles = triangles_of(surface);
   const int32_t *const end = triangles.leaflet_id + triangles.n_triangles;
@@ -108,19 +129,11 @@ std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves) {
 }
 
 Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options) {
-  std::vector<double> xyz;
-  std::vector<int64_t> corners;
-  std::vector<int32_t> leaflets;
+  JoinedTriangles joined;
   const std::vector<int32_t> first = first_leaflets(valves);
-  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    const riis_triangles triangles = triangles_of(valves[valve].surface());
-    const int64_t before = view(xyz).size() / 3;
-    xyz.insert(xyz.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
-    for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(before + triangles.vertex_id[i]);
-    for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first[valve] + triangles.leaflet_id[i]);
-  }
-  riis_surface_arrays arrays = arrays_of(xyz, corners);
-  arrays.leaflet_id = leaflets.data();
+  for (std::size_t valve = 0; valve < valves.size(); ++valve)
+    joined.add(triangles_of(valves[valve].surface()), first[valve]);
+  const riis_surface_arrays arrays = joined.arrays();
   return create<Surface>(riis_surface_create_from_arrays, &arrays, options);
 }
 

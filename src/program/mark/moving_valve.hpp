@@ -57,6 +57,20 @@ class MovingValve {
 // node, so that bad ones are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
 
+// Triangles of several surfaces, or of one at several times.
+class JoinedTriangles {
+ public:
+  // Adds triangles, whose leaflets are numbered from `first_leaflet` on.
+  void add(const riis_triangles &triangles, std::int32_t first_leaflet);
+  // Returns arrays that borrow all triangles.
+  riis_surface_arrays arrays() const;
+
+ private:
+  std::vector<double> xyz_;
+  std::vector<std::int64_t> corners_;
+  std::vector<std::int32_t> leaflets_;
+};
+
 // In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those
 // of the previous valve.
 
