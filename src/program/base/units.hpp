@@ -47,6 +47,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
+  bool contains(const double *point) const { return meets(point, point); }
   bool meets(const double *other_lower, const double *other_upper) const {
     for (int k = 0; k < 3; ++k)
       if (upper[k] < other_lower[k] || lower[k] > other_upper[k]) return false;

@@ -174,28 +174,20 @@ class CaseReader {
     for (const char *key : {"leaflets", "skip_zero_area", "period"})
       if (values.has(key)) values.refuse(key, "it needs \"surface\"");
     const std::string &kind = source.options.valve;
-    if (is_valve_file(kind)) {
-      if (values.has("open_parameters")) values.refuse("open_parameters", "the open state is in " + kind);
-      ValveFile file(kind);
-      set_parameters_of(values, "parameters", file.valve());
-      set_law(values, file.valve(), source);
-      set_warp(values, file.valve(), source);
-      file.check_opening();
-      set_skirt(source.options, file.valve(), source.subject);
-      source.valve = file.take_valve();
-      return;
-    }
-    source.valve = make_kind(kind, source.subject);
-    set_placed_parameters(source.options, source.valve.get());
-    set_parameters_of(values, "parameters", source.valve.get());
+    if (is_valve_file(kind) && values.has("open_parameters"))
+      values.refuse("open_parameters", "the open state is in " + kind);
+    NewValve valve(kind, source.subject);
+    set_placed_parameters(source.options, valve.get());
+    set_parameters_of(values, "parameters", valve.get());
     if (values.has("open_parameters")) {
       const Valve open = make_kind(kind, source.subject);
       set_parameters_of(values, "open_parameters", open.get());
-      check(riis_valve_set_open_state(source.valve.get(), open.get()), source.subject);
+      check(riis_valve_set_open_state(valve.get(), open.get()), source.subject);
       source.has_open_state = true;
     }
-    set_law(values, source.valve.get(), source);
-    set_warp(values, source.valve.get(), source);
+    set_law(values, valve.get(), source);
+    set_warp(values, valve.get(), source);
+    source.valve = valve.take();
     set_skirt(source.options, source.valve.get(), source.subject);
   }
 
@@ -284,17 +276,14 @@ OpeningLaw law_of_arrays(const CaseValues &values) {
 
 OpeningLaw law_of_ramps(const CaseValues &values) {
   auto times = defaults<riis_opening_times>();
-  const auto set = [&](const char *key, double &field) {
-    if (const auto number = values.number(key)) field = *number;
-  };
-  for (const char *key : {"opening_start", "opening_duration", "closing_start", "closing_duration"})
-    static_cast<void>(values.needed(key));
-  set("opening_start", times.opening_start);
-  set("opening_duration", times.opening_duration);
-  set("closing_start", times.closing_start);
-  set("closing_duration", times.closing_duration);
-  set("closed", times.closed);
-  set("open", times.open);
+  const std::pair<const char *, double *> needed[] = {{"opening_start", &times.opening_start},
+                                                      {"opening_duration", &times.opening_duration},
+                                                      {"closing_start", &times.closing_start},
+                                                      {"closing_duration", &times.closing_duration}};
+  for (const auto &[key, field] : needed) static_cast<void>(values.needed(key));
+  for (const auto &[key, field] : needed) *field = *values.number(key);
+  times.closed = values.number("closed").value_or(times.closed);
+  times.open = values.number("open").value_or(times.open);
   times.period = values.above_zero("period").value_or(0);
   return OpeningLaw(times, values.subject());
 }

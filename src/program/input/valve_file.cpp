@@ -220,26 +220,18 @@ Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patc
 
 bool is_valve_file(const std::string &valve) { return has_ending(valve, ".json"); }
 
-ValveFile::ValveFile(const std::string &path) : path_(path) {
+ValveFile::ValveFile(const std::string &path) {
   const Json root = parse_json_file(path, "curves and patches");
   const CurveFileReader reader(path);
   reader.check_object(root, "the file", {"curves", "patches", "open"});
   const Curves curves = reader.curves_of(root, "");
   const Patches patches = reader.patches_of(root, curves);
-  valve_ = make_valve(reader, curves, patches, "");
+  valve = make_valve(reader, curves, patches, "");
   const auto open = root.find("open");
   if (open == root.end()) return;
   const Valve open_valve = make_valve(reader, reader.open_curves_of(*open, curves), patches, "open: ");
-  check(riis_valve_set_open_state(valve_.get(), open_valve.get()), path);
-  can_open_ = true;
-}
-
-void ValveFile::check_opening() const {
-  double opening = 0;
-  check(riis_valve_get(valve_.get(), "opening", 1, &opening));
-  if (opening != 0 && !can_open_) {
-    refuse_file(path_, "opening is " + Json(opening).dump() + ", but the file has no \"open\" state");
-  }
+  check(riis_valve_set_open_state(valve, open_valve), path);
+  can_open = true;
 }
 
 namespace {

@@ -24,23 +24,16 @@ void set_parameters(const ValveOptions &options, riis_valve *valve) {
   if (options.opening) check(riis_valve_set_scalar(valve, "opening", *options.opening), "--opening");
 }
 
-Valve make_valve_of_kind(const ValveOptions &options) {
-  Valve valve = make_kind(options.valve, "--valve");
+Valve valve_of(const ValveOptions &options, OpeningCheck opening) {
+  const Stage stage("reading " + options.valve, options.quiet);
+  NewValve valve(options.valve, "--valve");
   set_parameters(options, valve.get());
   if (!options.params_open.empty()) {
     const Valve open = make_kind(options.valve, "--valve");
     set_from_json_file(open.get(), options.params_open);
     check(riis_valve_set_open_state(valve.get(), open.get()), options.params_open);
   }
-  return valve;
-}
-
-Valve make_valve_of_file(const ValveOptions &options, OpeningCheck opening) {
-  const Stage stage("reading " + options.valve, options.quiet);
-  ValveFile file(options.valve);
-  set_parameters(options, file.valve());
-  if (opening == OpeningCheck::yes) file.check_opening();
-  return file.take_valve();
+  return opening == OpeningCheck::yes ? valve.take() : valve.take_unchecked();
 }
 
 // Checks the status of reading a file. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
@@ -81,8 +74,26 @@ Valve make_kind(const std::string &kind, const std::string &subject) {
   return valve;
 }
 
+NewValve::NewValve(const std::string &valve, const std::string &subject) {
+  if (!is_valve_file(valve)) {
+    valve_ = make_kind(valve, subject);
+    return;
+  }
+  path_ = valve;
+  ValveFile file(path_);
+  valve_ = std::move(file.valve);
+  can_open_ = file.can_open;
+}
+
+Valve NewValve::take() {
+  const double opening = opening_of(valve_);
+  if (opening != 0 && !can_open_)
+    refuse_file(path_, "opening is " + Json(opening).dump() + ", but the file has no \"open\" state");
+  return take_unchecked();
+}
+
 Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *moving) {
-  Valve valve = is_valve_file(options.valve) ? make_valve_of_file(options, opening) : make_valve_of_kind(options);
+  Valve valve = valve_of(options, opening);
   WarpSource warp = read_warp(options);
   if (warp.moves() && !moving) refuse_usage("--warp: landmarks that move need --times");
   warp.apply(0, valve.get());

@@ -26,6 +26,22 @@ struct ValveSource {
   std::string subject{};        // begins refusals, such as "case.json: valve 0"; "" for the command line
 };
 
+// A valve whose parameters may still be set.
+class NewValve {
+ public:
+  // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
+  NewValve(const std::string &valve, const std::string &subject);
+  riis_valve *get() const { return valve_; }
+  // Gives up the valve. Refuses an opening that needs an open state if its file has none, because the library's own message would
+  // advise another valve.
+  Valve take();
+  Valve take_unchecked() { return std::move(valve_); }
+
+ private:
+  std::string path_;  // "" for a kind
+  Valve valve_;
+  bool can_open_ = true;
+};
 // `subject` begins the refusal of an unknown kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
 // `yes`: make_valve refuses a file of patches that cannot open far enough. `no`: such a file is refused only when the surface is

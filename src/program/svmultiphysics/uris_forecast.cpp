@@ -223,8 +223,8 @@ class Forecaster {
     const std::vector<double> near = near_nodes(3 * half_thickness_ + 2 * median_edge_);
     std::string &row = forecast_.table;
     row += (is_closing ? "close," : "open,") + std::to_string(frame) + ',' + shortest(opening);
-    for (const std::array<double, 3> *corner : {&distances.lower, &distances.upper})
-      for (const double x : *corner) row += ',' + shortest(x);
+    for (const double *corner : {distances.box.lower, distances.box.upper})
+      for (int k = 0; k < 3; ++k) row += ',' + shortest(corner[k]);
     row += ',' + std::to_string(distances.n_in_box) + ',' + shortest(solver_area(mesh_, distances, half_thickness_)) +
            ',' + shortest(exact_area(mesh_, leaflets_.surface(), near, half_thickness_, options_.n_threads, true));
     for (const SolverBand *band : {&before, &behind})

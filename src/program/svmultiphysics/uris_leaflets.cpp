@@ -34,12 +34,6 @@ std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
   return "leaflet_" + std::to_string(id);
 }
 
-std::array<double, 3> twice_area(const double *xyz, const Corners &corners) {
-  const double *a = xyz + 3 * corners[0], *b = xyz + 3 * corners[1], *c = xyz + 3 * corners[2];
-  const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
 Surface fixed_surface(const ExportOptions &options, const riis_valve *valve, const std::string &subject) {
   riis_surface_options how = options.surface_options;
   how.triangulation = RIIS_TRIANGULATION_FIXED;
@@ -134,7 +128,7 @@ void UrisLeaflets::find_forward(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   for (const auto &[corners, leaflet] : net_.triangles()) {
     if (leaflet == housing_) continue;
-    const std::array<double, 3> area = twice_area(xyz.data(), corners);
+    const Point area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
     for (std::size_t k = 0; k < 3; ++k) forward_[k] += area[k];
   }
   const double length = std::hypot(forward_[0], forward_[1], forward_[2]);
@@ -189,22 +183,14 @@ namespace {
 // a node at the very end of the bands inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
-struct Side {
-  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
-  double middle() const { return (lower + upper) / 2; }
-};
-
-std::array<Side, 3> box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
-  std::array<Side, 3> box;
+Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
+  Box box = empty_box();
   for (const Corners &corners : triangles)
-    for (const std::int64_t vertex : corners)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double x = view(xyz)[3 * vertex + static_cast<std::int64_t>(k)];
-        box[k].lower = std::min(box[k].lower, x);
-        box[k].upper = std::max(box[k].upper, x);
-      }
+    for (const std::int64_t vertex : corners) box.grow(xyz.data() + 3 * vertex);
   return box;
 }
+
+double middle(const Box &box, std::size_t k) { return (box.lower[k] + box.upper[k]) / 2; }
 
 double sum_of(const Corners &corners, const std::vector<double> &xyz, std::size_t k) {
   double sum = 0;
@@ -222,12 +208,12 @@ double uris_grid(double largest) {
 UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
                  double half_thickness, double grid)
     : triangles_(std::move(triangles)), half_thickness_(half_thickness), grid_(grid) {
-  const std::array<Side, 3> at_first = box_of(triangles_, first), at_last = box_of(triangles_, last);
+  const Box at_first = box_of(triangles_, first), at_last = box_of(triangles_, last);
   for (std::size_t k = 0; k < 3; ++k) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      const double off = std::max(std::abs(sum_of(triangles_[i], first, k) / 3 - at_first[k].middle()),
-                                  std::abs(sum_of(triangles_[i], last, k) / 3 - at_last[k].middle()));
+      const double off = std::max(std::abs(sum_of(triangles_[i], first, k) / 3 - middle(at_first, k)),
+                                  std::abs(sum_of(triangles_[i], last, k) / 3 - middle(at_last, k)));
       if (!(off < least)) continue;
       least = off;
       chosen_[k] = i;
@@ -236,16 +222,16 @@ UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &firs
 }
 
 void UrisBox::append_nodes(std::vector<double> &xyz) const {
-  const std::array<Side, 3> box = box_of(triangles_, xyz);
+  const Box box = box_of(triangles_, xyz);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double nodes[3][3];  // first index: corner; second index: coordinate
     for (std::size_t k = 0; k < 3; ++k) {
-      const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), middle = sum / 3;
-      const double half = (box[k].upper - box[k].lower) / 2,
+      const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), at = sum / 3;
+      const double half = (box.upper[k] - box.lower[k]) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
       // The triangle extends equally far in both directions along its axis. It also has a width across the axis, so that it has
       // an area.
-      const double reach = wanted + std::abs(middle - box[k].middle());
+      const double reach = wanted + std::abs(at - middle(box, k));
       const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
       const double offsets[2] = {is_along    ? reach
                                  : is_across ? half_thickness_
@@ -253,7 +239,7 @@ void UrisBox::append_nodes(std::vector<double> &xyz) const {
                                  is_along    ? -reach
                                  : is_across ? half_thickness_
                                              : 0};
-      for (std::size_t c = 0; c < 2; ++c) nodes[c][k] = std::nearbyint((middle + offsets[c]) / grid_) * grid_;
+      for (std::size_t c = 0; c < 2; ++c) nodes[c][k] = std::nearbyint((at + offsets[c]) / grid_) * grid_;
       nodes[2][k] = sum - nodes[0][k] - nodes[1][k];
     }
     for (const auto &node : nodes) xyz.insert(xyz.end(), node, node + 3);

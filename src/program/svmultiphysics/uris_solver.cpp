@@ -19,8 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity(), pi = 3.1415
 // outside it.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
 
-using Point = std::array<double, 3>;
-
 double squared_distance(const Point &a, const Point &b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return x * x + y * y + z * z;
@@ -82,58 +80,36 @@ class PointTree {
 // ---- The triangles of a frame ----
 
 struct FrameTriangles {
-  Point lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  Box box = empty_box();  // as the solver widens it
   std::vector<Point> middles, normals;
   std::vector<Corners> corners;  // as vertices of the frame
 };
-
-Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
-  return {view(xyz)[3 * vertex], view(xyz)[3 * vertex + 1], view(xyz)[3 * vertex + 2]};
-}
 
 FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<double> &xyz, bool of_scaffold) {
   FrameTriangles frame;
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
     if (leaflet.is_scaffold != of_scaffold) continue;
-    for (const std::int64_t vertex : leaflet.nodes) {
-      const Point p = vertex_of(xyz, vertex);
-      for (std::size_t k = 0; k < 3; ++k) {
-        frame.lower[k] = std::min(frame.lower[k], p[k]);
-        frame.upper[k] = std::max(frame.upper[k], p[k]);
-      }
-    }
+    for (const std::int64_t vertex : leaflet.nodes) frame.box.grow(xyz.data() + 3 * vertex);
     for (const Corners &corners : leaflet.triangles) {
       const auto corner = [&](std::size_t c) { return vertex_of(xyz, view(leaflet.nodes)[corners[c]]); };
       const Point a = corner(0), b = corner(1), c = corner(2);
-      Point middle, u, v;
-      for (std::size_t k = 0; k < 3; ++k) {
-        middle[k] = (a[k] + b[k] + c[k]) / 3;
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
-      }
+      Point middle;
+      for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + b[k] + c[k]) / 3;
       frame.corners.push_back(
           {view(leaflet.nodes)[corners[0]], view(leaflet.nodes)[corners[1]], view(leaflet.nodes)[corners[2]]});
       frame.middles.push_back(middle);
-      frame.normals.push_back({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+      frame.normals.push_back(twice_area(a, b, c));
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    const double more = (frame.upper[k] - frame.lower[k]) * widening;
-    frame.lower[k] -= more;
-    frame.upper[k] += more;
+    const double more = (frame.box.upper[k] - frame.box.lower[k]) * widening;
+    frame.box.lower[k] -= more;
+    frame.box.upper[k] += more;
   }
   return frame;
 }
 
-bool is_within(const Point &p, const Point &lower, const Point &upper) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (p[k] < lower[k] || p[k] > upper[k]) return false;
-  return true;
-}
-
 double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 // ---- The mesh ----
 
@@ -230,15 +206,15 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   };
   const FrameTriangles frame = triangles_of(leaflets, xyz, false);
   for (std::size_t k = 0; k < 3; ++k) {
-    distances.lower[k] = frame.lower[k] - margin;
-    distances.upper[k] = frame.upper[k] + margin;
+    distances.box.lower[k] = frame.box.lower[k] - margin;
+    distances.box.upper[k] = frame.box.upper[k] + margin;
   }
   distances.to_leaflets.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
   const PointTree middles(frame.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     const Point p = node(i);
-    if (!is_within(p, distances.lower, distances.upper)) continue;
+    if (!distances.box.contains(p.data())) continue;
     ++distances.n_in_box;
     double distance = 0;
     const std::size_t nearest = middles.nearest(p, distance);
@@ -253,8 +229,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   distances.to_scaffold.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   const PointTree scaffold_middles(scaffold.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i)
-    if (is_within(node(i), scaffold.lower, scaffold.upper))
-      scaffold_middles.nearest(node(i), view(distances.to_scaffold)[i]);
+    if (scaffold.box.contains(mesh.xyz + 3 * i)) scaffold_middles.nearest(node(i), view(distances.to_scaffold)[i]);
   return distances;
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "program/base/units.hpp"
 #include "program/svmultiphysics/uris_leaflets.hpp"
 
 namespace riis::program {
@@ -71,7 +72,7 @@ double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctio
 
 // The distances of one frame.
 struct SolverDistances {
-  std::array<double, 3> lower{}, upper{};  // the solver's box
+  Box box = empty_box();  // the solver's
   std::int64_t n_in_box = 0;
   // (n_nodes): signed distances to the leaflets, and distances to the scaffold. Far nodes have the solver's large number. The
   // list of the scaffold is empty if there is none.
