@@ -29,36 +29,23 @@ constexpr std::int64_t most_field_points = 20'000'000;
 // Returns a law whose opening is the time, so that times stand for openings.
 OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
 
-// Returns the valve or the surface of the command line. A valve moves through its openings, unless the user gave one.
-Case case_without_times(const SizeFieldOptions &options) {
-  Case all{options, {}, {}};
-  ValveSource source{options, nullptr, nullptr};
-  if (!options.surface.empty()) {
-    Seconds seconds;
-    source.file = read_surface(options, seconds);
-    all.options.series.times = {0};
-  } else {
-    source.valve = make_valve(options);
-    source.has_open_state = !options.params_open.empty();
-    source.law = OpeningLaw(opening_of(source.valve.get()));
-    all.options.series.times = {0};
-    const Valve trial = program::copy_of(source.valve.get());
-    if (!sets_opening(options) && why_closed(trial.get(), options.surface_options).empty()) {
-      source.law = all_openings();
-      all.options.series.times = openings_from_0_to_1(options.n_openings);
-    }
-  }
-  all.valves.push_back(std::move(source));
-  return all;
-}
-
+// Returns the valves and their times. A valve of the command line without times moves through its openings, unless the user gave
+// one.
 Case case_of(const SizeFieldOptions &options) {
-  if (!options.series.case_file.empty()) {
-    Case all = read_case(options);
-    if (all.options.series.times.empty()) all.options.series.times = {0};
-    return all;
-  }
-  return options.series.times.empty() ? case_without_times(options) : case_of_command_line(options);
+  const bool has_case = !options.series.case_file.empty();
+  Case all = has_case ? read_case(options) : case_of_command_line(options);
+  std::vector<double> &times = all.options.series.times;
+  if (!times.empty()) return all;
+  times = {options.time.value_or(0)};
+  if (has_case) return all;
+  read_surfaces(all);
+  ValveSource &source = all.valves[0];
+  if (!source.valve || sets_opening(options)) return all;
+  const Valve trial = program::copy_of(source.valve);
+  if (!why_closed(trial, options.surface_options).empty()) return all;
+  source.law = all_openings();
+  times = openings_from_0_to_1(options.n_openings);
+  return all;
 }
 
 // The edge lengths around one valve: `band` up to `half_thickness` from its surface. They grow with the distance, up to

@@ -311,14 +311,6 @@ CaseOpening case_opening(const CaseValues &valve, const std::function<std::strin
 
 namespace {
 
-OpeningLaw law_of_command_line(const MarkOptions &options) {
-  const SeriesOptions &series = options.series;
-  OpeningTable table = read_cycle(series.cycle);
-  table.period = options.period;
-  table.interpolation = series.interpolation;
-  return OpeningLaw(std::move(table), series.cycle);
-}
-
 void read_valve(const MarkOptions &options, ValveSource &source) {
   source.has_open_state = !options.params_open.empty();
   if (options.series.times.empty()) {
@@ -326,7 +318,8 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
     source.law = OpeningLaw(opening_of(source.valve.get()));
     return;
   }
-  source.law = law_of_command_line(options);
+  const SeriesOptions &series = options.series;
+  source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
   // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);

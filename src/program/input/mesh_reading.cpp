@@ -34,30 +34,18 @@ bool may_crash(const std::string &path) {
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process passes on. The destructor removes the folder.
+// A folder for the mesh that a child process passes on. Signals that end the process remove it.
 class PassingFolder {
  public:
-  PassingFolder() {
-    std::error_code error;
-    const fs::path place = fs::temp_directory_path(error);
-    path_ = ((error ? fs::path("/tmp") : place) / "riis-XXXXXX").string();
-    if (!mkdtemp(path_.data()))
-      refuse_data("no temporary folder can be made in " + fs::path(path_).parent_path().string() + ": " +
-                  system_text(errno) + "; TMPDIR may name another place");
-    remove_if_ended(path_, mesh());
-  }
-  ~PassingFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-    remove_if_ended("", "");
-  }
+  PassingFolder() { remove_if_ended(folder_.path(), mesh()); }
+  ~PassingFolder() { remove_if_ended("", ""); }
   PassingFolder(const PassingFolder &) = delete;
   PassingFolder &operator=(const PassingFolder &) = delete;
 
-  std::string mesh() const { return path_ + "/mesh.vtu"; }
+  std::string mesh() const { return folder_.path() + "/mesh.vtu"; }
 
  private:
-  std::string path_;
+  const TemporaryFolder folder_;
 };
 
 // Limits the memory of this process, because damaged files may claim any size. Honest files need a few times their size, and up

@@ -88,8 +88,8 @@ std::vector<std::string> columns_of(std::string line) {
 
 }  // namespace
 
-OpeningTable read_cycle(const std::string &path) {
-  OpeningTable keys;
+OpeningTable read_cycle(const std::string &path, double period, std::int32_t interpolation) {
+  OpeningTable keys{{}, {}, period, interpolation};
   std::size_t line_number = 0;
   const auto refuse = [&](const std::string &reason) {
     refuse_file(path, "line " + std::to_string(line_number) + ": " + reason);

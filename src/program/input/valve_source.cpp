@@ -104,10 +104,15 @@ Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *
 
 namespace {
 
-SurfaceFile read_wall(const ValveOptions &options) {
+SurfaceFile read_surface_file(const std::string &path, const char *leaflets) {
   SurfaceFile file;
-  check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, file.out()), options.wall, Content::surface);
+  check_read(riis_vtk_surface_read(path.c_str(), leaflets, file.out()), path, Content::surface);
   return file;
+}
+
+// Returns the cell array of --leaflets, or NULL if there is none.
+const char *array_of_leaflets(const ValveOptions &options) {
+  return options.leaflets.empty() || options.leaflets == "connected" ? nullptr : options.leaflets.c_str();
 }
 
 // Makes the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
@@ -138,7 +143,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
     return;
   }
-  const SurfaceFile file = read_wall(options);
+  const SurfaceFile file = read_surface_file(options.wall, nullptr);
   const Surface wall = make_wall(options, file);
   const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
@@ -149,7 +154,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
 }
 
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
-  const Surface wall = make_wall(options, read_wall(options));
+  const Surface wall = make_wall(options, read_surface_file(options.wall, nullptr));
   riis_gap gap;
   check(riis_surface_get_gap(surface, wall.get(), nullptr, &gap, sizeof gap), options.wall);
   return gap;
@@ -182,12 +187,8 @@ void check_mesh_read(riis_status status, const std::string &path) { check_read(s
 
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  const char *path = options.surface.c_str();
-  const bool by_pieces = options.leaflets == "connected";
-  const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  SurfaceFile file;
-  check_read(riis_vtk_surface_read(path, leaflets, file.out()), options.surface, Content::surface);
-  if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
+  SurfaceFile file = read_surface_file(options.surface, array_of_leaflets(options));
+  if (options.leaflets == "connected") check(riis_vtk_surface_number_pieces(file.get()));
   seconds.read += stage.seconds();
   return file;
 }
@@ -218,10 +219,8 @@ int64_t count_leaflets(const riis_surface *surface) {
 namespace {
 
 Motion read_motion(const ValveOptions &options) {
-  const bool by_pieces = options.leaflets == "connected";
-  const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  auto motion = create<Motion>(riis_vtk_motion_read_pvd, options.surface.c_str(), leaflets);
-  if (by_pieces) check(riis_vtk_motion_number_pieces(motion.get()));
+  auto motion = create<Motion>(riis_vtk_motion_read_pvd, options.surface.c_str(), array_of_leaflets(options));
+  if (options.leaflets == "connected") check(riis_vtk_motion_number_pieces(motion.get()));
   return motion;
 }
 

@@ -309,6 +309,20 @@ void write_text(const std::string &path, const std::string &text) {
   }
 }
 
+TemporaryFolder::TemporaryFolder() {
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  path_ = ((error ? fs::path("/tmp") : place) / "riis-XXXXXX").string();
+  if (!mkdtemp(path_.data()))
+    refuse_data("no temporary folder can be made in " + folder_of(path_).string() + ": " + system_text(errno) +
+                "; TMPDIR may name another place");
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
 // ---- Output locks ----
 
 namespace {

@@ -328,26 +328,15 @@ void check_movie(const std::string &path) {
     refuse_data("--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it");
 }
 
-Movie::Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {
-  std::string folder = (std::filesystem::temp_directory_path() / "riis-XXXXXX").string();
-  if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + system_text(errno));
-  folder_ = folder;
-}
-
-Movie::~Movie() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string Movie::next_frame() { return folder_ + "/" + frame_name(n_frames_++); }
+std::string Movie::next_frame() { return folder_.path() + "/" + frame_name(n_frames_++); }
 
 void Movie::encode() const {
   const UnbrokenWrite unbroken;
   const std::filesystem::path place = place_of(path_);
   const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-movie.tmp")).string();
   std::vector<std::string> words = {
-      program_on_path("ffmpeg"), "-nostdin", "-loglevel",           "error", "-y", "-framerate",
-      shortest(frame_rate_),     "-i",       frame_pattern(folder_)};
+      program_on_path("ffmpeg"),    "-nostdin", "-loglevel", "error", "-y", "-framerate", shortest(frame_rate_), "-i",
+      frame_pattern(folder_.path())};
   const std::vector<std::string> encoding = encoding_of(path_);
   words.insert(words.end(), encoding.begin(), encoding.end());
   words.push_back(temporary);

@@ -14,6 +14,7 @@
 #include "program/input/case.hpp"
 #include "program/mark/moving_valve.hpp"
 #include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -29,11 +30,7 @@ void check_movie(const std::string &path);
 
 class Movie {
  public:
-  // Makes a temporary folder, which the destructor removes.
-  Movie(const std::string &path, double frame_rate);
-  ~Movie();
-  Movie(const Movie &) = delete;
-  Movie &operator=(const Movie &) = delete;
+  Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {}
 
   // Returns the path of the next frame. The caller must write a .png file there.
   std::string next_frame();
@@ -41,8 +38,9 @@ class Movie {
   void encode() const;
 
  private:
-  std::string path_, folder_;
+  std::string path_;
   double frame_rate_;
+  const TemporaryFolder folder_;  // of the frames
   std::size_t n_frames_ = 0;
 };
 

@@ -94,9 +94,7 @@ struct LawWithSpans {
 };
 
 LawWithSpans law_of_cycle(const ExportOptions &options) {
-  OpeningTable table = read_cycle(options.cycle);
-  table.period = options.period;
-  table.interpolation = options.interpolation;
+  const OpeningTable table = read_cycle(options.cycle, options.period, options.interpolation);
   const Spans spans = spans_of_cycle(options, table);
   return {OpeningLaw(table, options.cycle), spans};
 }
