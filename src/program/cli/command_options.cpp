@@ -7,7 +7,6 @@
 
 #include "program/base/text.hpp"
 #include "program/input/opening_law.hpp"
-#include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/leaks.hpp"
 

@@ -10,7 +10,6 @@
 #include <limits>
 #include <regex>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"

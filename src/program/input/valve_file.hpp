@@ -5,7 +5,6 @@
 #include <riis/riis.h>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"

@@ -11,7 +11,6 @@
 #include "program/base/text.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"
-#include "program/output/outputs.hpp"
 
 namespace riis::program {
 

@@ -2,7 +2,6 @@
 #include "program/input/warp_source.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "common/array_view.hpp"
 #include "program/base/handles.hpp"

@@ -163,7 +163,10 @@ void Marking::measure(Piece &piece) {
   find_neighbors_for_search(piece);
   for (MovingValve &valve : valves_) valve.forget_marks();
   mark_at_all_times(piece);
-  if (all_.is_series()) mark_at_least_openings(*piece.mesh);
+  if (all_.is_series()) {
+    move_to_least_openings();
+    for (MovingValve &valve : valves_) valve.mark(*piece.mesh, 0);
+  }
   const Stage stage("looking for leaks", options().quiet);
   // The neighbours are of use only if all edges of the piece are known.
   const riis_vtk_sharing &cells = piece.nodes.counts();
@@ -217,19 +220,16 @@ void Marking::mark_at_all_times(Piece &piece) {
   report_.seconds.search += stage.seconds();
 }
 
-void Marking::mark_at_least_openings(FileNodes &nodes) {
-  move_to_least_openings();
-  for (MovingValve &valve : valves_) valve.mark(nodes, 0);
-}
-
 void Marking::set_arrays(riis_vtk_mesh *file) const {
   std::int64_t n_nodes = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
   ResistanceSum resistance(n_nodes,
                            has_velocities() ? ResistanceSum::WithVelocity::yes : ResistanceSum::WithVelocity::no);
   for (const MovingValve &valve : valves_) {
-    set_marks(valve.options(), valve.result(), fields(), file);
-    resistance.add(valve.options(), valve.result());
+    const MarkOptions &own = valve.options();
+    check(riis_vtk_mesh_set_marks(file, valve.result(), own.far_distance, own.prefix.c_str()));
+    check(riis_vtk_mesh_set_fields(file, valve.result(), fields(), own.prefix.c_str()));
+    resistance.add(own, valve.result());
   }
   resistance.set_arrays(options().prefix, file);
 }
@@ -298,23 +298,19 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
     are_complete = are_complete && report_.valves[i].marks.complete;
     valves_[i].move_to(times_[most_steps_[i]]);
     const riis_surface_info info = all_.is_series() ? info_of(valves_[i].surface()) : report_.valves[i].surface;
-    Situation situation{valves_[i].options(),
-                        n_nodes,
-                        n_marked_[marked_at(most_steps_[i], i)],
-                        counts.box,
-                        {},
-                        counts.median_edge,
-                        info.area,
-                        info.half_thickness};
-    std::copy_n(info.lower, 3, situation.surface.lower);
-    std::copy_n(info.upper, 3, situation.surface.upper);
+    Situation situation(valves_[i].options(), info, counts.box, counts.median_edge);
+    situation.n_nodes = n_nodes;
+    situation.n_marked = n_marked_[marked_at(most_steps_[i], i)];
     auto warning = warning_of(situation);
     if (!warning) continue;
     const std::string part = all_.part_of(i);
     warning->text.insert(0, part.empty() ? "" : part + ": ");
     warnings.push_back(*warning);
   }
-  if (!are_complete) warn_of_incomplete_marks();
+  if (!are_complete)
+    warn(
+        "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
+        "neighbor finds them");
   warn(warnings);
 }
 

@@ -22,12 +22,10 @@
 namespace riis::program {
 namespace {
 
-void refuse_option(const std::string &option, const std::string &why) { refuse_usage(option + ": " + why); }
-
 // Refuses options that need the whole mesh at once.
 void check_options_of_pieces(const MarkOptions &options) {
   const auto refuse_if = [&](bool is_given, const std::string &option, const std::string &why) {
-    if (is_given) refuse_option(option, why + ", and " + options.mesh + " is read in pieces");
+    if (is_given) refuse_usage(option + ": " + why + ", and " + options.mesh + " is read in pieces");
   };
   refuse_if(!options.pictures.empty(), "--picture", "a picture needs the whole mesh");
   refuse_if(!options.series.movie.empty(), "--movie", "a movie needs the whole mesh");

@@ -13,7 +13,6 @@
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/warnings.hpp"
 
 namespace riis::program {
 
@@ -35,12 +34,6 @@ void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result.get());
 }
 
-void warn_of_incomplete_marks() {
-  warn(
-      "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
-      "neighbor finds them");
-}
-
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
   if (options.output.empty() || options.replace) return;
   for (const std::string &name : names) {
@@ -58,11 +51,6 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   if (fields & RIIS_FIELD_SIDE) names.push_back(prefix + "_side");
   if (fields & RIIS_FIELD_VELOCITY) names.push_back(prefix + "_velocity");
   return names;
-}
-
-void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
-  check(riis_vtk_mesh_set_marks(file, result, options.far_distance, options.prefix.c_str()));
-  check(riis_vtk_mesh_set_fields(file, result, fields, options.prefix.c_str()));
 }
 
 ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)

@@ -15,7 +15,6 @@
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/mark/warnings.hpp"
-#include "program/output/outputs.hpp"
 
 namespace riis::program {
 
@@ -228,6 +227,13 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   return all;
 }
 
+// Shares out nodes among the ranks by their keys. Global ids are dense, so they are mixed to share them out evenly.
+template <class Node>
+std::vector<Node> shared_out(std::vector<Node> nodes) {
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  return ranks::exchange(std::move(nodes), [=](const Node &node) { return mixed(node.key.a) % n_ranks; });
+}
+
 template <class T>
 void sort_unique(std::vector<T> &values) {
   std::sort(values.begin(), values.end());
@@ -239,11 +245,7 @@ void sort_unique(std::vector<T> &values) {
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files) {
   constexpr std::size_t few = 1 << 16;
-  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  // Global ids are dense, so they are mixed to share them out evenly.
-  std::vector<SharedNode> nodes = ranks::exchange(in_one_list(std::move(by_piece)), [&](const SharedNode &node) {
-    return static_cast<std::size_t>(mixed(node.key.a) % n_ranks);
-  });
+  std::vector<SharedNode> nodes = shared_out(in_one_list(std::move(by_piece)));
   std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
     return std::tie(p.key, p.piece) < std::tie(q.key, q.piece);
   });
@@ -321,9 +323,7 @@ void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::s
 }
 
 std::vector<std::int64_t> NodeCounts::sums() const {
-  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  std::vector<SharedKind> shared = ranks::exchange(
-      shared_, [&](const SharedKind &node) { return static_cast<std::size_t>(mixed(node.key.a) % n_ranks); });
+  std::vector<SharedKind> shared = shared_out(shared_);
   sort_unique(shared);
   std::vector<std::int64_t> own = n_inside_, sums(n_inside_.size());
   for (const SharedKind &node : shared) ++own.at(node.kind);

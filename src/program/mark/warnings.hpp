@@ -16,13 +16,13 @@
 namespace riis::program {
 
 // The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
-struct Situation {
+struct Situation : Sizes {
+  // `median_edge` of the mesh is 0 if it is unknown.
+  Situation(const MarkOptions &marking, const riis_surface_info &info, const Box &mesh_box, double median_edge_of_mesh);
+
   const MarkOptions &options;
-  int64_t n_nodes, n_marked;
-  Box mesh, surface;
-  double median_edge;  // 0 if unknown
-  double area;         // area of the surface
-  double half_thickness;
+  double area;  // of the surface
+  int64_t n_nodes = 0, n_marked = 0;
 };
 
 // The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can

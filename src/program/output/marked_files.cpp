@@ -20,6 +20,16 @@
 
 namespace riis::program {
 
+namespace {
+
+// Returns a number with zeros before it.
+std::string padded(std::size_t number, std::size_t n_digits) {
+  const std::string digits = std::to_string(number);
+  return std::string(std::max(n_digits, digits.size()) - digits.size(), '0') + digits;
+}
+
+}  // namespace
+
 SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times)
     : pvd_(pvd), ending_(ending), n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
   const std::filesystem::path path(pvd);
@@ -46,9 +56,7 @@ void SeriesFiles::make_folder() const {
 }
 
 std::string SeriesFiles::path_of(std::size_t step, const std::string &part) const {
-  const std::string digits = std::to_string(step);
-  const std::string zeros(n_digits_ > digits.size() ? n_digits_ - digits.size() : 0, '0');
-  return folder_ + "/" + stem_ + "_" + (part.empty() ? "" : part + "_") + zeros + digits + ending_;
+  return folder_ + "/" + stem_ + "_" + (part.empty() ? "" : part + "_") + padded(step, n_digits_) + ending_;
 }
 
 void SeriesFiles::add(double time, std::size_t part_number, const std::string &path) {
@@ -142,8 +150,7 @@ std::string MarkedFiles::path_of(std::int64_t piece, std::size_t step) const {
   if (is_foam_case_) return foam_time(path_, times_[step]);
   if (is_whole_) return is_series_ ? steps_.path_of(step, "") : path_;
   if (!is_series_) return pieces_.path_of(static_cast<std::size_t>(piece), "");
-  const std::string digits = std::to_string(piece);
-  return pieces_.path_of(step, "p" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits);
+  return pieces_.path_of(step, "p" + padded(static_cast<std::size_t>(piece), 4));
 }
 
 void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file) {

@@ -28,7 +28,6 @@
 #include "program/input/valve_file.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/marked_files.hpp"
-#include "program/output/pictures.hpp"
 
 namespace riis::program {
 

@@ -13,7 +13,6 @@
 #include "program/base/options.hpp"
 #include "program/input/case.hpp"
 #include "program/mark/moving_valve.hpp"
-#include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
 

@@ -114,15 +114,18 @@ const char *state_name(int32_t state) {
   return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
 }
 
+// Returns the value, or null.
+nlohmann::ordered_json if_known(bool is_known, const nlohmann::ordered_json &value) {
+  return is_known ? value : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
   const riis_passage &found = passage.found;
   return {{"state", passage.is_unknown ? "unknown" : state_name(found.state)},
           {"node_id", found.node_id},
           {"distance", found.distance},
           {"point", found.point},
-          {"closing_half_thickness", passage.closing_half_thickness > 0
-                                         ? nlohmann::ordered_json(passage.closing_half_thickness)
-                                         : nlohmann::ordered_json()}};
+          {"closing_half_thickness", if_known(passage.closing_half_thickness > 0, passage.closing_half_thickness)}};
 }
 
 // Adds the lines about the flow to the table. A measure that is not set has no line.
@@ -255,22 +258,17 @@ nlohmann::ordered_json json_of_seconds(const Seconds &seconds) {
 void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
   const riis_mark_stats &marks = valve.marks;
   const LeakReport &leaks = valve.leaks;
-  const bool are_unknown = leaks.found.n_edges == 0 && !leaks.has_all_edges();
-  const auto if_known = [&](const nlohmann::ordered_json &value) {
-    return are_unknown ? nlohmann::ordered_json() : value;
-  };
+  const bool are_known = leaks.found.n_edges > 0 || leaks.has_all_edges();
   json.update({{"distance_limit", valve.distance_limit},
                {"search", view(search_names)[marks.search]},
                {"distance", view(distance_names)[valve.distance]},
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
                {"n_unreached", marks.n_unreached},
-               {"n_leaking_edges", if_known(leaks.found.n_edges)},
-               {"longest_leaking_edge", if_known(leaks.found.longest_length)},
-               {"longest_leaking_edge_middle", if_known(leaks.found.longest_middle)},
-               {"closing_half_thickness", leaks.closing_half_thickness > 0
-                                              ? nlohmann::ordered_json(leaks.closing_half_thickness)
-                                              : nlohmann::ordered_json()},
+               {"n_leaking_edges", if_known(are_known, leaks.found.n_edges)},
+               {"longest_leaking_edge", if_known(are_known, leaks.found.longest_length)},
+               {"longest_leaking_edge_middle", if_known(are_known, leaks.found.longest_middle)},
+               {"closing_half_thickness", if_known(leaks.closing_half_thickness > 0, leaks.closing_half_thickness)},
                {"n_volume_cells", leaks.n_volume_cells},
                {"n_cells_without_known_edges", leaks.n_cells_left_out}});
 }

@@ -232,13 +232,8 @@ void UrisBox::append_nodes(std::vector<double> &xyz) const {
       // The triangle extends equally far in both directions along its axis. It also has a width across the axis, so that it has
       // an area.
       const double reach = wanted + std::abs(at - middle(box, k));
-      const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
-      const double offsets[2] = {is_along    ? reach
-                                 : is_across ? half_thickness_
-                                             : 0,
-                                 is_along    ? -reach
-                                 : is_across ? half_thickness_
-                                             : 0};
+      const double across = k == (axis + 1) % 3 ? half_thickness_ : 0;
+      const double offsets[2] = {k == axis ? reach : across, k == axis ? -reach : across};
       for (std::size_t c = 0; c < 2; ++c) nodes[c][k] = std::nearbyint((at + offsets[c]) / grid_) * grid_;
       nodes[2][k] = sum - nodes[0][k] - nodes[1][k];
     }

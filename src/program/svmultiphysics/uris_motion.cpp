@@ -44,25 +44,20 @@ std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   return std::nullopt;
 }
 
-TimeSpan found(const std::optional<TimeSpan> &way, const std::string &path, const char *verb, const char *option) {
-  if (way) return *way;
-  refuse_data(path + ": the valve does not " + verb + " there: no key of its " +
-              (option == std::string("--opening-span") ? "largest opening follows one of the least"
-                                                       : "least opening follows one of the largest") +
-              "; --period or " + option + " may say more");
-}
-
 Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
   if (options.opening_span && options.closing_span) return {*options.opening_span, *options.closing_span};
   const auto [least, largest] = std::minmax_element(table.openings.begin(), table.openings.end());
   if (*least == *largest) refuse_data(options.cycle + ": the opening is " + shortest(*least) + " throughout");
   const Keys keys(table);
-  const auto span = [&](const std::optional<TimeSpan> &given, double from, double to, const char *verb,
-                        const char *option) {
-    return given ? *given : found(way_between(keys, from, to), options.cycle, verb, option);
+  const auto opening = options.opening_span ? options.opening_span : way_between(keys, *least, *largest);
+  const auto closing = options.closing_span ? options.closing_span : way_between(keys, *largest, *least);
+  const auto refuse = [&](const char *verb, const char *keys_that_lack, const char *option) {
+    refuse_data(options.cycle + ": the valve does not " + verb + " there: no key of its " + keys_that_lack +
+                "; --period or " + option + " may say more");
   };
-  return {span(options.opening_span, *least, *largest, "open", "--opening-span"),
-          span(options.closing_span, *largest, *least, "close", "--closing-span")};
+  if (!opening) refuse("open", "largest opening follows one of the least", "--opening-span");
+  if (!closing) refuse("close", "least opening follows one of the largest", "--closing-span");
+  return {*opening, *closing};
 }
 
 std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {

@@ -201,9 +201,6 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
                                  bool is_closing, double half_thickness, double margin) {
   SolverDistances distances;
   const double far = far_in_half_thicknesses * half_thickness;
-  const auto node = [&mesh](std::int64_t i) {
-    return Point{mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]};
-  };
   const FrameTriangles frame = triangles_of(leaflets, xyz, false);
   for (std::size_t k = 0; k < 3; ++k) {
     distances.box.lower[k] = frame.box.lower[k] - margin;
@@ -213,7 +210,7 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
   const PointTree middles(frame.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
-    const Point p = node(i);
+    const Point p = mesh.point(i);
     if (!distances.box.contains(p.data())) continue;
     ++distances.n_in_box;
     double distance = 0;
@@ -229,7 +226,8 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   distances.to_scaffold.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   const PointTree scaffold_middles(scaffold.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i)
-    if (scaffold.box.contains(mesh.xyz + 3 * i)) scaffold_middles.nearest(node(i), view(distances.to_scaffold)[i]);
+    if (scaffold.box.contains(mesh.xyz + 3 * i))
+      scaffold_middles.nearest(mesh.point(i), view(distances.to_scaffold)[i]);
   return distances;
 }
 
@@ -259,7 +257,7 @@ SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances,
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     const double distance = view(distances.to_leaflets)[i];
     if (!(distance >= from && distance <= to)) continue;
-    const double place = product({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, forward);
+    const double place = product(mesh.point(i), forward);
     ++band.n_nodes;
     band.volume += view(mesh.node_volume)[i];
     band.from = std::min(band.from, place);
@@ -287,8 +285,7 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
     if (!(std::abs(view(distances.to_leaflets)[i]) < half_thickness)) continue;
     const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];
     const Point a = vertex_of(xyz, corners[0]), u = difference(vertex_of(xyz, corners[1]), a),
-                v = difference(vertex_of(xyz, corners[2]), a),
-                p = difference({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, a);
+                v = difference(vertex_of(xyz, corners[2]), a), p = difference(mesh.point(i), a);
     // The part of p across the plane drops out of the products, so p needs no projection.
     const double uu = product(u, u), uv = product(u, v), vv = product(v, v), pu = product(p, u), pv = product(p, v);
     const double xi = (vv * pu - uv * pv) / (uu * vv - uv * uv), eta = (uu * pv - uv * pu) / (uu * vv - uv * uv);
@@ -339,11 +336,10 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
     double nearest = infinity, size = 0;
     for (std::size_t a = 0; a < element.n_nodes; ++a) {
-      const std::int64_t node = mesh.nodes_of(e)[a], first = mesh.nodes_of(e)[0];
+      const std::int64_t node = mesh.nodes_of(e)[a];
+      const Point off = difference(mesh.point(node), mesh.point(mesh.nodes_of(e)[0]));
       nearest = std::min(nearest, view(near)[node]);
-      size = std::max(
-          size, std::hypot(mesh.xyz[3 * node] - mesh.xyz[3 * first], mesh.xyz[3 * node + 1] - mesh.xyz[3 * first + 1],
-                           mesh.xyz[3 * node + 2] - mesh.xyz[3 * first + 2]));
+      size = std::max(size, std::hypot(off[0], off[1], off[2]));
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     for (std::size_t g = 0; g < points.size(); ++g) {

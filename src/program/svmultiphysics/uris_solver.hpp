@@ -59,6 +59,7 @@ struct SolverMesh {
   std::int64_t n_elements() const {
     return static_cast<std::int64_t>(nodes.size()) / static_cast<std::int64_t>(element->n_nodes);
   }
+  Point point(std::int64_t node) const { return {xyz[3 * node], xyz[3 * node + 1], xyz[3 * node + 2]}; }
   const std::int64_t *nodes_of(std::int64_t e) const {
     return nodes.data() + e * static_cast<std::int64_t>(element->n_nodes);
   }
