@@ -39,13 +39,6 @@ void finish_units(ValveOptions &options) {
   apply_units(options);
 }
 
-// Notes which values the user gave as numbers.
-void note_numbers(const Command &command, ValveOptions &options) {
-  options.has_scale = command.has("--scale");
-  options.has_half_thickness = command.has("--half-thickness");
-  options.has_tolerance = command.has("--tolerance");
-}
-
 // Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
   const bool is_motion = is_motion_file(options.surface);
@@ -87,21 +80,24 @@ void check_series(const Command &command, const MarkOptions &options) {
   check_set_opening(options, "has no effect with --times: see --cycle");
 }
 
-void finish_valve(const Command &command, ValveOptions &options) {
-  note_numbers(command, options);
+void check_valve(const Command &command, ValveOptions &options) {
+  options.has_scale = command.has("--scale");
+  options.has_half_thickness = command.has("--half-thickness");
+  options.has_tolerance = command.has("--tolerance");
   use_placed_valve(options);
   check_opening(options);
   check_open_state(options);
+}
+
+void finish_valve(const Command &command, ValveOptions &options) {
+  check_valve(command, options);
   finish_units(options);
 }
 
 // Finishes the options of a surface in a mesh. Options that the command lacks have no effect. `sweeps_openings` says whether the
 // command itself opens the valve.
 void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
-  note_numbers(command, options);
-  use_placed_valve(options);
-  check_opening(options);
-  check_open_state(options);
+  check_valve(command, options);
   check_series(command, options);
   check_motion(command, options);
   if (!sweeps_openings) check_open_state_is_met(options);

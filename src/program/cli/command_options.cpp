@@ -86,22 +86,17 @@ void declare_opening(Command &command, ValveOptions &options) {
                  parse_opening);
 }
 
-void declare_open_state(Command &command, ValveOptions &options) {
+// Declares the options of a valve's shape besides its opening.
+void declare_shape(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
-}
-
-void declare_skirt(Command &command, ValveOptions &options) {
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
+               options.warp);
   CLI::Option *const skirt =
       command.parsed("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
                      options.skirt, parse_positive_finite);
   command
       .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches: .vtp, .vtu or .stl", options.wall)
       ->needs(skirt);
-}
-
-void declare_warp(Command &command, ValveOptions &options) {
-  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
-               options.warp);
 }
 
 void declare_tolerance(Command &command, ValveOptions &options) {
@@ -174,9 +169,7 @@ void declare_half_thickness(Command &command, ValveOptions &options) {
 void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
+  declare_shape(command, options);
   declare_file(command, options);
   declare_placement(command, options);
 }
@@ -304,13 +297,20 @@ void declare_series(Command &command, MarkOptions &options) {
   command.option("--time")->excludes(times);
 }
 
-constexpr const char *mesh_help = "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM";
+void declare_mesh(Command &command, MarkOptions &options) {
+  command.group("Mesh");
+  command.text("MESH", "FILE", "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM",
+               options.mesh);
+}
+
+void declare_allow_none(Command &command, MarkOptions &options) {
+  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+}
 
 }  // namespace
 
 void declare_mark(Command command, MarkOptions &options) {
-  command.group("Mesh");
-  command.text("MESH", "FILE", mesh_help, options.mesh);
+  declare_mesh(command, options);
   command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
                options.at_cells);
   declare_surface_in_place(command, options);
@@ -322,7 +322,7 @@ void declare_mark(Command command, MarkOptions &options) {
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);
   command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
-  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
   declare_stats(command, options);
@@ -350,8 +350,7 @@ void declare_crossings(Command command, MarkOptions &options) {
 }
 
 void declare_leaks(Command command, MarkOptions &options) {
-  command.group("Mesh");
-  command.text("MESH", "FILE", mesh_help, options.mesh);
+  declare_mesh(command, options);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
               [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
@@ -373,7 +372,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_search(command, options);
   exclude_by_case(command, declare_case(command, options.series));
   command.group("Output");
-  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  declare_allow_none(command, options);
   declare_stats(command, options);
   declare_loudness(command, options);
 }
@@ -412,9 +411,7 @@ void declare_states(Command command, StatesOptions &options) {
   command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
   declare_loudness(command, options);
   declare_valve(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
+  declare_shape(command, options);
   declare_tolerance(command, options);
   CLI::Option *const surface = command.text(
       "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
@@ -460,9 +457,7 @@ void declare_export(Command command, ExportOptions &options) {
   for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
   declare_valve(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
+  declare_shape(command, options);
   declare_tolerance(command, options);
   declare_placement(command, options);
   declare_half_thickness(command, options);

@@ -14,6 +14,7 @@
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/input/case.hpp"
+#include "program/input/placing.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/moving_valve.hpp"
@@ -171,9 +172,9 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &sur
 // Returns the text of gmsh's field "Structured": origin, spacing, numbers of points, and lengths with z running fastest.
 std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   const std::string spacing = shortest(grid.spacing);
-  std::string text = shortest(grid.origin[0]) + " " + shortest(grid.origin[1]) + " " + shortest(grid.origin[2]) + "\n" +
-                     spacing + " " + spacing + " " + spacing + "\n" + std::to_string(grid.n[0]) + " " +
-                     std::to_string(grid.n[1]) + " " + std::to_string(grid.n[2]) + "\n";
+  std::string text = numbers_text(grid.origin.data(), 3, " ") + "\n" + spacing + " " + spacing + " " + spacing + "\n" +
+                     std::to_string(grid.n[0]) + " " + std::to_string(grid.n[1]) + " " + std::to_string(grid.n[2]) +
+                     "\n";
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     text += printed("%.5g", lengths[i]);
     text += static_cast<std::int64_t>(i + 1) % grid.n[2] == 0 ? '\n' : ' ';

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 #include "program/base/handles.hpp"
@@ -47,20 +48,13 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
 
 // Returns the library's message with the names of the file for landmarks, and the words of the file for fields.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
-  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
-    const std::string number = "landmark " + std::to_string(i);
-    for (std::size_t at = 0; (at = text.find(number, at)) != std::string::npos;) {
-      std::size_t end = at + number.size();
-      if (end < text.size() && text[end] >= '0' && text[end] <= '9') {
-        ++at;
-        continue;
-      }
-      if (text.compare(end, 2, " (") == 0) end = std::min(text.find(')', end) + 1, text.size());
-      const std::string name = quoted(landmarks.names[i]);
-      text.replace(at, end - at, name);
-      at += name.size();
-    }
+  static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
+  std::string named;
+  for (std::smatch match; std::regex_search(text, match, numbered); text = match.suffix()) {
+    const std::size_t i = std::stoul(match[1]);
+    named += match.prefix().str() + (i < landmarks.names.size() ? quoted(landmarks.names[i]) : match.str());
   }
+  text = named + text;
   const std::pair<std::string, std::string> fields[] = {
       {"landmarks.scale is " + shortest(factor_between(Unit::centimetre, landmarks.unit)) + " (" +
            words_of(landmarks.unit) + ")",

@@ -71,7 +71,7 @@ std::vector<double> flat(const std::vector<std::array<double, n>> &points) {
 void add_element(const SolverElement &element, Arrays &arrays) {
   std::vector<double> weights, values, slopes;
   for (std::size_t g = 0; g < element.gauss.size(); ++g) {
-    const std::vector<double> of_point = flat(element.at_gauss[element.has_one_gradient ? 0 : g].slopes);
+    const std::vector<double> of_point = flat(element.at_gauss[g].slopes);
     weights.push_back(element.gauss[g].weight);
     values.insert(values.end(), element.at_gauss[g].values.begin(), element.at_gauss[g].values.end());
     slopes.insert(slopes.end(), of_point.begin(), of_point.end());

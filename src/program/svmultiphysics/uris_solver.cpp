@@ -143,9 +143,8 @@ std::vector<double> node_volumes(const SolverMesh &mesh) {
   std::vector<double> volume;
   resize(volume, mesh.n_nodes);
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
-    double determinant = 0;
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
-      if (g == 0 || !element.has_one_gradient) determinant = determinant_at(mesh, e, element.at_gauss[g]);
+      const double determinant = determinant_at(mesh, e, element.at_gauss[g]);
       for (std::size_t a = 0; a < element.n_nodes; ++a)
         view(volume)[mesh.nodes_of(e)[a]] += element.gauss[g].weight * determinant * element.at_gauss[g].values[a];
     }
@@ -301,13 +300,10 @@ double solver_area(const SolverMesh &mesh, const SolverDistances &distances, dou
   const SolverElement &element = *mesh.element;
   double integral = 0;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
-    double determinant = 0;
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
       const double delta = solver_delta(mesh, e, element.at_gauss[g], distances, half_thickness);
       if (delta == 0) continue;
-      if (!element.has_one_gradient || determinant == 0)
-        determinant = determinant_at(mesh, e, element.at_gauss[element.has_one_gradient ? 0 : g]);
-      integral += element.gauss[g].weight * determinant * delta;
+      integral += element.gauss[g].weight * determinant_at(mesh, e, element.at_gauss[g]) * delta;
     }
   }
   return half_thickness * integral;
@@ -343,8 +339,7 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     for (std::size_t g = 0; g < points.size(); ++g) {
-      const ShapeFunctions &mapped = functions[at_solver_points && element.has_one_gradient ? 0 : g];
-      weights.push_back(points[g].weight * determinant_at(mesh, e, mapped));
+      weights.push_back(points[g].weight * determinant_at(mesh, e, functions[g]));
       for (std::int64_t k = 0; k < 3; ++k) {
         double x = 0;
         for (std::size_t a = 0; a < element.n_nodes; ++a)

@@ -34,8 +34,6 @@ struct SolverElement {
   std::uint8_t vtk_type;
   std::size_t n_nodes, n_corners;
   std::vector<std::array<double, 3>> node_places;  // in the coordinates of the reference element
-  // The solver evaluates the gradients of some elements at its first Gauss point only.
-  bool has_one_gradient;
   std::vector<ReferencePoint> gauss;
   std::vector<ShapeFunctions> at_gauss;
   // Points for integrals that are more exact than the solver's, 4 in each direction.
