@@ -5,7 +5,9 @@
 #include <riis/riis_vtk.h>
 #include <riis/riis.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,14 @@ inline std::vector<double> values_of(const riis_valve *valve, const riis_paramet
   std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
   check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
   return values;
+}
+// Returns whether all parameters but the named ones have their default values.
+inline bool has_default_values(const riis_valve *valve, const std::set<std::string> &others) {
+  const std::vector<riis_parameter> all = all_parameters(valve);
+  return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
+    const std::vector<double> values = values_of(valve, parameter);
+    return others.count(parameter.name) > 0 || std::equal(values.begin(), values.end(), parameter.default_values);
+  });
 }
 
 // Returns points that borrow their coordinates, (3, n).

@@ -89,6 +89,12 @@ std::string joined_by(const std::vector<std::string> &parts, const char *between
   return text;
 }
 
+std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
+  return joined_by(parts, between);
+}
+
 std::string one_of(const std::vector<std::string> &names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -29,6 +29,10 @@ std::string printed(const char *format, double number);
 // Returns the shortest text that reads back as the same number, in any locale.
 std::string shortest(double number);
 
+// Returns numbers with a text between them.
+std::string numbers_text(const double *numbers, std::size_t n, const char *between,
+                         std::string (*as_text)(double) = shortest);
+
 inline std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
 // Returns the parts of a text between these characters.

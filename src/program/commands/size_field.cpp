@@ -14,7 +14,6 @@
 #include "program/base/progress.hpp"
 #include "program/base/text.hpp"
 #include "program/input/case.hpp"
-#include "program/input/placing.hpp"
 #include "program/input/valve_source.hpp"
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/moving_valve.hpp"

@@ -79,6 +79,13 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
   }
 }
 
+std::optional<std::array<double, 3>> point_in(const Json &value) {
+  const auto is_number = [](const Json &x) { return x.is_number(); };
+  if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), is_number))
+    return std::nullopt;
+  return value.get<std::array<double, 3>>();
+}
+
 // ---- Case values ----
 
 CaseValues::CaseValues(const std::string &path, const std::string &object, const Json &value,

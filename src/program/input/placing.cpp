@@ -83,12 +83,6 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
 
 }  // namespace
 
-std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
-  return joined_by(parts, between);
-}
-
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
   const std::string axes = option_name(request.reader, "axes");
   if (request.unit) landmarks.convert(*request.unit);

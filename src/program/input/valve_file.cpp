@@ -134,11 +134,10 @@ class CurveFileReader {
     curves.degrees.push_back(std::max(1, static_cast<std::int32_t>(points.size()) - 1));
   }
 
-  void add_point(const Json &point, const std::string &subject, Curves &curves) const {
-    const bool is_point = point.is_array() && point.size() == 3 &&
-                          std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
-    if (!is_point) refuse(subject + " is " + point.dump() + "; it must be three numbers, [x, y, z]");
-    for (const Json &x : point) curves.control.push_back(x.get<double>());
+  void add_point(const Json &value, const std::string &subject, Curves &curves) const {
+    const auto point = point_in(value);
+    if (!point) refuse(subject + " is " + value.dump() + "; it must be three numbers, [x, y, z]");
+    curves.control.insert(curves.control.end(), point->begin(), point->end());
   }
 
   void add_patch(const Json &patch, const std::string &subject, const Curves &curves, std::vector<bool> &used,

@@ -23,11 +23,9 @@ const std::vector<std::string> coordinate_names = {"mesh", "valve"};
 void add_points(const CaseValues &values, const char *key, const Json &list, std::vector<double> &xyz) {
   if (!list.is_array()) values.refuse(key, "it must be an array of points [x, y, z]");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Json &point = list[i];
-    const bool is_point = point.is_array() && point.size() == 3 &&
-                          std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
-    if (!is_point) values.refuse(key, "point " + std::to_string(i) + ", " + point.dump() + ", is not [x, y, z]");
-    for (const Json &x : point) xyz.push_back(x.get<double>());
+    const auto point = point_in(list[i]);
+    if (!point) values.refuse(key, "point " + std::to_string(i) + ", " + list[i].dump() + ", is not [x, y, z]");
+    xyz.insert(xyz.end(), point->begin(), point->end());
   }
 }
 

@@ -83,15 +83,6 @@ void warn_of_crossings(const ValveOptions &options, const CrossingReport &report
        place_text(options, found.deepest_point, found.total_length / static_cast<double>(found.n_pairs)) + advice);
 }
 
-bool has_default_values(const riis_valve *valve) {
-  const std::vector<riis_parameter> all = all_parameters(valve);
-  return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
-    const std::vector<double> values = values_of(valve, parameter);
-    return std::string(parameter.name) == "opening" ||
-           std::equal(values.begin(), values.end(), parameter.default_values);
-  });
-}
-
 // Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory/crossings.md).
 double depth_of_contacts(const ValveOptions &options, const riis_surface *surface) {
   const riis_surface_info info = info_of(surface);
@@ -128,7 +119,7 @@ CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve 
 
 std::optional<CrossingReport> check_shape(const ValveOptions &options, const riis_valve *valve, bool has_open_state,
                                           const std::string &part) {
-  if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve)) return std::nullopt;
+  if (!is_valve_file(options.valve) && !has_open_state && has_default_values(valve, {"opening"})) return std::nullopt;
   const Valve copy = copy_of(valve);
   // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
   // do not count.

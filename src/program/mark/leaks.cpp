@@ -131,8 +131,7 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
                                            is_exact ? 2 * half_thickness : 0, n_threads, nullptr);
   const FileNodes::Lent lent(*piece.mesh, get<riis_csr>(riis_adjacency_get_csr, adjacency));
   const auto leaks = create<Leaks>(riis_leaks_create);
-  riis_mark_options how = options_.mark_options;
-  if (surface != surface_) how.search = RIIS_SEARCH_AUTO, how.distance_limit = RIIS_AUTO;
+  const riis_mark_options how = surface == surface_ ? options_.mark_options : how_to_mark_again(options_);
   check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks));
   const auto list = get<riis_leak_list>(riis_leaks_get_list, leaks);
   for (std::int64_t i = 0; i < list.n_edges; ++i) {
@@ -169,16 +168,13 @@ void MeshLeaks::judge(ValveReport &report) {
 std::optional<double> MeshLeaks::left(double half_thickness) const {
   const Surface surface = with_half_thickness(options_, valve_, half_thickness);
   const riis_surface_info info = info_of(surface.get());
-  riis_mark_options how = options_.mark_options;
-  how.search = RIIS_SEARCH_AUTO;
-  how.distance_limit = RIIS_AUTO;
   std::vector<KeyedEdge> found;
-  mesh_.for_wanted([&](std::int64_t number) { return view(boxes_)[number].meets(info.lower, info.upper); },
-                   [&](Piece &piece) {
-                     const Marks marks = new_result();
-                     check(riis_mark_nodes(surface.get(), piece.mesh->mesh(), &how, marks.get()));
-                     add(piece, surface.get(), marks.get(), half_thickness, true, found);
-                   });
+  const auto mark_again = [&](Piece &piece) {
+    const Marks marks = marks_of(surface, piece.mesh->mesh(), how_to_mark_again(options_));
+    add(piece, surface, marks, half_thickness, true, found);
+  };
+  mesh_.for_each_own(mark_again, nullptr,
+                     [&](std::int64_t number) { return view(boxes_)[number].meets(info.lower, info.upper); });
   const riis_leak_list left = summary_of(gathered(found));
   return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
 }

@@ -18,15 +18,27 @@ namespace riis::program {
 
 Marks new_result() { return create<Marks>(riis_marks_create); }
 
+Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how) {
+  Marks marks = new_result();
+  check(riis_mark_nodes(surface, mesh, &how, marks));
+  return marks;
+}
+
+riis_mark_options how_to_mark_again(const MarkOptions &options, double limit) {
+  riis_mark_options how = options.mark_options;
+  how.search = RIIS_SEARCH_AUTO;
+  how.distance_limit = limit;
+  return how;
+}
+
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
   const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
-  const Marks result = new_result();
   riis_mark_options mark_options = options.mark_options;
   if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
-  check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
+  const Marks result = marks_of(surface, mesh, mark_options);
   auto dense = defaults<riis_dense_arrays>();
   dense.n_nodes = 1;
   dense.far_distance = options.far_distance;

@@ -14,6 +14,10 @@
 namespace riis::program {
 
 Marks new_result();
+// Marks the nodes of a mesh by a surface.
+Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how);
+// Returns the options for another surface than that of the user's marks: any search, up to a limit.
+riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
 
 // Marks a single node. So the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface);

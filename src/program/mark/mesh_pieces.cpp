@@ -43,14 +43,8 @@ MeshFile MeshPieces::read(std::int64_t piece) const {
   return create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
 }
 
-void MeshPieces::finished(std::int64_t) const {}
-
-void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds) const {
-  for_wanted([](std::int64_t) { return true; }, work, seconds);
-}
-
-void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
-                            const std::function<void(Piece &)> &work, Seconds *seconds) const {
+void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds,
+                              const std::function<bool(std::int64_t)> &is_wanted) const {
   const auto read_piece = [&](std::int64_t number) {
     const std::string &file_path = view(files_)[number];
     const Stage stage("reading " + file_path, options_.quiet);
@@ -65,7 +59,7 @@ void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
   };
   try {
     for (std::int64_t number = ranks::rank(); number < view(files_).size(); number += ranks::n_ranks()) {
-      if (!is_wanted(number)) continue;
+      if (is_wanted && !is_wanted(number)) continue;
       if (is_whole_) {
         if (!held_) held_ = read_piece(number);
         work(*held_);

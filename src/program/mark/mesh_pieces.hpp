@@ -44,19 +44,17 @@ class MeshPieces {
   const std::string &path() const { return options_.mesh; }
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
-  // Calls `work` with each of this rank's pieces, in ascending order. A failure ends all ranks. Adds to the seconds of reading,
-  // unless they are NULL.
-  void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr) const;
-  // As for_each_own, for the pieces that `is_wanted` accepts by their numbers.
-  void for_wanted(const std::function<bool(std::int64_t)> &is_wanted, const std::function<void(Piece &)> &work,
-                  Seconds *seconds = nullptr) const;
+  // Calls `work` with each of this rank's pieces, in ascending order, or only with those whose numbers `is_wanted` accepts. A
+  // failure ends all ranks. Adds to the seconds of reading, unless they are NULL.
+  void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr,
+                    const std::function<bool(std::int64_t)> &is_wanted = nullptr) const;
 
  protected:
   MeshPieces(const MarkOptions &options, std::vector<std::string> files)
       : options_(options), files_(std::move(files)) {}
   virtual MeshFile read(std::int64_t piece) const;
   // Called after the first work with a piece.
-  virtual void finished(std::int64_t piece) const;
+  virtual void finished(std::int64_t) const {}
 
  private:
   const MarkOptions &options_;

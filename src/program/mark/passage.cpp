@@ -29,9 +29,7 @@ namespace {
 const double *asked_point(const LeakCheck &asked, int end) { return end == 0 ? asked.from : asked.to; }
 
 // Returns the point's numbers as the user wrote them.
-std::string text_of(const double *point) {
-  return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
-}
+std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 
 // Refuses an end that is outside the mesh or has no node near it. `why_none` is the reason to give if no node has a neighbour.
 void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
@@ -78,9 +76,7 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
 // Finds the widest passage by the library, which has the whole mesh.
 riis_passage passage_in(const Piece &piece, const MarkOptions &options, const riis_surface *surface,
                         const PieceEnd (&ends)[2]) {
-  riis_mark_options how = options.mark_options;
-  how.search = RIIS_SEARCH_AUTO;
-  how.distance_limit = RIIS_AUTO;
+  const riis_mark_options how = how_to_mark_again(options);
   auto sets = defaults<riis_passage_ends>();
   sets.n_from = sets.n_to = 1;
   sets.from = &ends[0].node;
@@ -157,8 +153,7 @@ riis_first_passage PassageCheck::first_of(const riis_valve *valve) const {
   riis_first_passage first{};
   const auto is_open_at = [&](double opening) {
     check(riis_valve_set_scalar(moved.get(), "opening", opening), "--first-passage");
-    const auto surface =
-        create_for<Surface>("--first-passage", riis_surface_create, moved, &options_.surface_options);
+    const auto surface = create_for<Surface>("--first-passage", riis_surface_create, moved, &options_.surface_options);
     const riis_passage passage = find(surface).found;
     ++first.n_openings;
     const bool is_open = passage.state == RIIS_PASSAGE_OPEN;

@@ -156,9 +156,7 @@ void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const
 std::optional<FoundPassage> passage_within(const MarkOptions &options, const MeshPieces &mesh,
                                            const riis_surface *surface, const PieceEnd (&ends)[2], double limit,
                                            double half_thickness) {
-  riis_mark_options how = options.mark_options;
-  how.search = RIIS_SEARCH_AUTO;
-  how.distance_limit = limit;
+  const riis_mark_options how = how_to_mark_again(options, limit);
   std::vector<Link> own_links;
   std::vector<PlacedEnd> own_ends;
   std::vector<std::vector<SharedNode>> shared;
@@ -167,8 +165,7 @@ std::optional<FoundPassage> passage_within(const MarkOptions &options, const Mes
     if (!piece.mesh) return;
     has_ids = piece.nodes.has_ids();
     piece.mesh->find_neighbors(how.n_threads);
-    const Marks marks = new_result();
-    check(riis_mark_nodes(surface, piece.mesh->mesh(), &how, marks.get()));
+    const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
     const riis_mark_list within = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
     PieceWays ways(piece, within);
     for (int i = 0; i < 2; ++i) {

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -32,14 +31,8 @@ namespace {
 // (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
-  const std::vector<riis_parameter> all = all_parameters(valve);
-  return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
-    // Skips the two parameters of the open state, because they have no effect at opening 0.
-    const std::string_view name = parameter.name;
-    const std::vector<double> values = values_of(valve, parameter);
-    return name == "open_radius_ratio" || name == "commissure_expansion" ||
-           std::equal(values.begin(), values.end(), parameter.default_values);
-  });
+  // The two parameters of the open state have no effect at opening 0.
+  return has_default_values(valve, {"open_radius_ratio", "commissure_expansion"});
 }
 
 // Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the

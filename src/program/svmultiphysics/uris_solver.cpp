@@ -9,6 +9,7 @@
 #include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
+#include "program/mark/mesh_marking.hpp"
 
 namespace riis::program {
 namespace {
@@ -313,11 +314,10 @@ std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, con
                                     std::int32_t n_threads) {
   std::vector<double> distances(static_cast<std::size_t>(n_nodes), infinity);
   const auto mesh = create<Mesh>(riis_mesh_create, n_nodes, xyz, xyz + 1, xyz + 2, 3);
-  const auto marks = create<Marks>(riis_marks_create);
   auto options = defaults<riis_mark_options>();
   options.distance_limit = limit;
   options.n_threads = n_threads;
-  check(riis_mark_nodes(surface, mesh.get(), &options, marks.get()));
+  const Marks marks = marks_of(surface, mesh, options);
   const riis_mark_list list = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
   for (std::int64_t i = 0; i < list.n_nodes; ++i) view(distances)[list.node_id[i]] = list.distance[i];
   return distances;
