@@ -65,7 +65,9 @@ struct SeriesOptions {
 
 // Two points that the valve should separate, and their texts for messages.
 struct LeakCheck {
-  double from[3], to[3];
+  const double *point(int end) const { return points.data() + 3 * end; }
+
+  std::vector<double> points;  // (3, 2)
   std::string subject;
   ExitCode exit_code = exit_wrong_usage;
 };

@@ -8,7 +8,6 @@
 #include "program/base/text.hpp"
 #include "program/input/opening_law.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/leaks.hpp"
 
 namespace riis::program {
 namespace {
@@ -353,7 +352,12 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_mesh(command, options);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
-              [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
+              [&options](const std::vector<std::string> &ends) {
+                options.check_leaks = LeakCheck{{}, "--between"};
+                for (const std::string &end : ends)
+                  for (const double x : parse_list(end, "--between", 3, "X,Y,Z"))
+                    options.check_leaks->points.push_back(x);
+              })
       ->expected(2)
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   options.measures = true;

@@ -152,14 +152,14 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &sur
   const std::vector<double> xyz = grid.points();
   const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
   // Most points of the grid are within reach of the valves, so clusters pay off at once.
-  check(riis_mesh_prepare(mesh.get(), options.mark_options.n_threads));
+  check(riis_mesh_prepare(mesh, options.mark_options.n_threads));
   const Marks marks = new_result();
   std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), edges[0].largest);
   for (std::size_t at = 0; at < surfaces.size(); ++at) {
     riis_mark_options how = options.mark_options;
     how.distance_limit = std::max(edges[at].reach(), edges[at].half_thickness);
-    check(riis_mark_nodes(surfaces[at].get(), mesh.get(), &how, marks.get()));
-    const riis_mark_list near = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+    check(riis_mark_nodes(surfaces[at].get(), mesh, &how, marks));
+    const riis_mark_list near = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
     for (std::int64_t i = 0; i < near.n_nodes; ++i) {
       double &length = view(lengths)[near.node_id[i]];
       length = std::min(length, edges[at].at(near.distance[i]));

@@ -75,7 +75,7 @@ class Measured {
       times_ = times_of_frames(options);
       keyframes_ = read_keyframes(options, seconds).keyframes;
       source.options.time = times_.front();
-      surface_ = surface_of_keyframes(source.options, keyframes_.get());
+      surface_ = surface_of_keyframes(source.options, keyframes_);
     } else {
       source.file = read_surface(options, seconds);
       surface_ = make_surface(source, FileVelocity::none);
@@ -85,14 +85,14 @@ class Measured {
   // Moves to a place: an opening of a valve, or a time of a surface that moves.
   void move_to(double place) {
     if (keyframes_)
-      check(riis_surface_update_from_keyframes(surface_.get(), keyframes_.get(), place, 0, nullptr), options_.surface);
+      check(riis_surface_update_from_keyframes(surface_, keyframes_, place, 0, nullptr), options_.surface);
     if (!valve_) return;
     set_opening(place);
-    check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject());
+    check(riis_surface_update(surface_, valve_, nullptr), subject());
   }
 
   bool is_valve() const { return valve_ != nullptr; }
-  std::string why_closed() { return valve_ ? program::why_closed(valve_.get(), own_frame(options_)) : ""; }
+  std::string why_closed() { return valve_ ? program::why_closed(valve_, own_frame(options_)) : ""; }
 
   // Returns the openings or the times of the table.
   std::vector<double> places(bool can_open) const {
@@ -111,7 +111,7 @@ class Measured {
 
   std::vector<riis_leaflet> leaflets() const {
     int64_t n = 0;
-    check(riis_surface_get_n_leaflets(surface_.get(), &n));
+    check(riis_surface_get_n_leaflets(surface_, &n));
     std::vector<riis_leaflet> made;
     for (int64_t i = 0; i < n; ++i) made.push_back(get<riis_leaflet>(riis_surface_get_leaflet, surface_, i));
     return made;
@@ -124,8 +124,8 @@ class Measured {
   }
 
  private:
-  std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
-  void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
+  std::string subject() const { return subject_of(options_); }
+  void set_opening(double opening) { check(riis_valve_set_scalar(valve_, "opening", opening)); }
 
   const StatesOptions &options_;
   Valve valve_;  // null for a surface from a file

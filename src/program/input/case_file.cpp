@@ -62,11 +62,7 @@ class CaseReader {
   }
 
   LeakCheck leak_check_of(const CaseValues &values) const {
-    const std::vector<double> points = values.numbers("check_leaks", 6);
-    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
-    std::copy_n(points.begin(), 3, made.from);
-    std::copy_n(points.begin() + 3, 3, made.to);
-    return made;
+    return {values.numbers("check_leaks", 6), path_ + ": check_leaks", exit_bad_data};
   }
 
   std::vector<double> times_of(const CaseValues &values) const {
@@ -177,18 +173,18 @@ class CaseReader {
     if (is_valve_file(kind) && values.has("open_parameters"))
       values.refuse("open_parameters", "the open state is in " + kind);
     NewValve valve(kind, source.subject);
-    set_placed_parameters(source.options, valve.get());
-    set_parameters_of(values, "parameters", valve.get());
+    set_placed_parameters(source.options, valve);
+    set_parameters_of(values, "parameters", valve);
     if (values.has("open_parameters")) {
       const Valve open = make_kind(kind, source.subject);
-      set_parameters_of(values, "open_parameters", open.get());
-      check(riis_valve_set_open_state(valve.get(), open.get()), source.subject);
+      set_parameters_of(values, "open_parameters", open);
+      check(riis_valve_set_open_state(valve, open), source.subject);
       source.has_open_state = true;
     }
-    set_law(values, valve.get(), source);
-    set_warp(values, valve.get(), source);
+    set_law(values, valve, source);
+    set_warp(values, valve, source);
     source.valve = valve.take();
-    set_skirt(source.options, source.valve.get(), source.subject);
+    set_skirt(source.options, source.valve, source.subject);
   }
 
   // Reads the warp, and gives it to the valve at the first time.
@@ -315,7 +311,7 @@ void read_valve(const MarkOptions &options, ValveSource &source) {
   source.has_open_state = !options.params_open.empty();
   if (options.series.times.empty()) {
     source.valve = make_valve(options);
-    source.law = OpeningLaw(opening_of(source.valve.get()));
+    source.law = OpeningLaw(opening_of(source.valve));
     return;
   }
   const SeriesOptions &series = options.series;

@@ -158,19 +158,19 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
   how.noise = placed.warp_noise = noise;
   Warp warp;
   check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
-  check_landmarks(riis_warp_set_targets(warp.get(), &to), landmarks, reader);
-  check(riis_valve_set_warp(valve, warp.get(), nullptr), option_name(reader, "warp"));
+  check_landmarks(riis_warp_set_targets(warp, &to), landmarks, reader);
+  check(riis_valve_set_warp(valve, warp, nullptr), option_name(reader, "warp"));
   placed.warp = get<riis_warp_info>(riis_warp_get_info, warp);
   std::vector<double> mapped(placed.places.size());
-  check(riis_warp_map(warp.get(), &from, mapped.data()));
+  check(riis_warp_map(warp, &from, mapped.data()));
   for (std::size_t i = 0; i < mapped.size(); i += 3)
     placed.still_off.push_back(
         std::hypot(mapped[i] - targets[i], mapped[i + 1] - targets[i + 1], mapped[i + 2] - targets[i + 2]));
   const auto trial = create<Valve>(riis_valve_copy, valve);
   for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    check(riis_valve_set_scalar(trial.get(), "opening", opening));
+    check(riis_valve_set_scalar(trial, "opening", opening));
     Surface surface;
-    check_landmarks(riis_surface_create(trial.get(), &placed.where, surface.out()), landmarks, reader);
+    check_landmarks(riis_surface_create(trial, &placed.where, surface.out()), landmarks, reader);
   }
   return warp;
 }

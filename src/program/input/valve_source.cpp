@@ -26,11 +26,11 @@ void set_parameters(const ValveOptions &options, riis_valve *valve) {
 Valve valve_of(const ValveOptions &options, OpeningCheck opening) {
   const Stage stage("reading " + options.valve, options.quiet);
   NewValve valve(options.valve, "--valve");
-  set_parameters(options, valve.get());
+  set_parameters(options, valve);
   if (!options.params_open.empty()) {
     const Valve open = make_kind(options.valve, "--valve");
-    set_from_json_file(open.get(), options.params_open);
-    check(riis_valve_set_open_state(valve.get(), open.get()), options.params_open);
+    set_from_json_file(open, options.params_open);
+    check(riis_valve_set_open_state(valve, open), options.params_open);
   }
   return opening == OpeningCheck::yes ? valve.take() : valve.take_unchecked();
 }
@@ -47,8 +47,7 @@ void check_read(riis_status status, const std::string &path, Content content) {
 
 Surface surface_of_valve(const ValveOptions &options, const riis_valve *valve) {
   const Stage stage("making the surface", options.quiet);
-  return create_for<Surface>(is_valve_file(options.valve) ? options.valve : "", riis_surface_create, valve,
-                             &options.surface_options);
+  return create_for<Surface>(subject_of(options), riis_surface_create, valve, &options.surface_options);
 }
 
 Surface surface_of_file(const ValveOptions &options, const riis_vtk_surface *file, FileVelocity velocity) {
@@ -95,9 +94,9 @@ Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *
   Valve valve = valve_of(options, opening);
   WarpSource warp = read_warp(options);
   if (warp.moves() && !moving) refuse_usage("--warp: landmarks that move need --times");
-  warp.apply(0, valve.get());
+  warp.apply(0, valve);
   if (moving) *moving = std::move(warp);
-  set_skirt(options, valve.get(), "--skirt");
+  set_skirt(options, valve, "--skirt");
   return valve;
 }
 
@@ -128,7 +127,7 @@ std::string hint_of_unit(const ValveOptions &options, const SurfaceFile &file, c
   for (const char *factor : {"0.1", "10", "0.01", "100", "0.001", "1000"}) {
     const Valve copy = copy_of(valve);
     const Surface wall = make_wall(options, file, std::stod(factor));
-    if (riis_valve_set_skirt_to_wall(copy.get(), wall.get(), *options.skirt, &options.surface_options) == RIIS_OK)
+    if (riis_valve_set_skirt_to_wall(copy, wall, *options.skirt, &options.surface_options) == RIIS_OK)
       return std::string("; with its lengths times ") + factor + " the wall would be: save it in the mesh's unit";
   }
   return "";
@@ -144,7 +143,7 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   }
   const SurfaceFile file = read_surface_file(options.wall, nullptr);
   const Surface wall = make_wall(options, file);
-  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
+  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall, *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
     const std::string reason = options.wall + ": " + riis_last_error();
     refuse_data(reason + hint_of_unit(options, file, valve));
@@ -155,9 +154,11 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
   const Surface wall = make_wall(options, read_surface_file(options.wall, nullptr));
   riis_gap gap;
-  check(riis_surface_get_gap(surface, wall.get(), nullptr, &gap, sizeof gap), options.wall);
+  check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
   return gap;
 }
+
+std::string subject_of(const ValveOptions &options) { return is_valve_file(options.valve) ? options.valve : ""; }
 
 double opening_of(const riis_valve *valve) {
   double opening = 0;
@@ -193,8 +194,8 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
 }
 
 Surface make_surface(const ValveSource &source, FileVelocity velocity) {
-  if (source.keyframes) return surface_of_keyframes(source.options, source.keyframes.get());
-  return source.valve ? surface_of_valve(source.options, source.valve.get())
+  if (source.keyframes) return surface_of_keyframes(source.options, source.keyframes);
+  return source.valve ? surface_of_valve(source.options, source.valve)
                       : surface_of_file(source.options, source.file.get(), velocity);
 }
 

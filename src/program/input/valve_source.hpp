@@ -50,6 +50,8 @@ enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. If it is NULL, a warp
 // that moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
+// Returns the beginning of refusals of a valve's shape: its file, or "" for a kind.
+std::string subject_of(const ValveOptions &options);
 double opening_of(const riis_valve *valve);
 // Returns n openings from 0 to 1.
 std::vector<double> openings_from_0_to_1(std::int32_t n);

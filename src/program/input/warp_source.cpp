@@ -80,8 +80,8 @@ const riis_warp *LandmarkPairs::at(double time) {
   frames.xyz = targets_.data();
   frames.period = period_;
   frames.interpolation = interpolation_;
-  check_landmarks(riis_warp_set_targets_at(warp_.get(), &frames, time), subject_);
-  return warp_.get();
+  check_landmarks(riis_warp_set_targets_at(warp_, &frames, time), subject_);
+  return warp_;
 }
 
 WarpSource::WarpSource(const std::string &path, const std::string &object, const Json &warp,

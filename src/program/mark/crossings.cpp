@@ -45,17 +45,16 @@ bool can_open(const ValveOptions &options, riis_valve *valve) {
 
 void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingReport &report) {
   check(riis_valve_set_scalar(valve, "opening", 0));
-  const std::string subject = is_valve_file(options.valve) ? options.valve : "";
   const riis_surface_options how = by_triangles(options);
-  const auto surface = create_for<Surface>(subject, riis_surface_create, valve, &how);
+  const auto surface = create_for<Surface>(subject_of(options), riis_surface_create, valve, &how);
   StepProgress progress("looking for crossings", n_openings, options.quiet);
   for (const double opening : openings_from_0_to_1(n_openings)) {
     progress.begin(static_cast<std::size_t>(report.n_openings));
     check(riis_valve_set_scalar(valve, "opening", opening));
-    check(riis_surface_update(surface.get(), valve, nullptr), subject);
+    check(riis_surface_update(surface, valve, nullptr), subject_of(options));
     ++report.n_openings;
     report.opening = opening;
-    report.found = crossings_of(options, surface.get());
+    report.found = crossings_of(options, surface);
     if (report.found.n_pairs > 0) return;
   }
 }
@@ -107,8 +106,8 @@ CrossingReport look_for_crossings(const ValveOptions &options, const riis_valve 
   const Stage stage("looking for crossings", options.quiet);
   CrossingReport crossings;
   const Valve copy = valve ? copy_of(valve) : nullptr;
-  if (copy && !sets_opening(options) && can_open(options, copy.get())) {
-    sweep_openings(options, copy.get(), crossings);
+  if (copy && !sets_opening(options) && can_open(options, copy)) {
+    sweep_openings(options, copy, crossings);
   } else {
     if (valve) crossings.opening = opening_of(valve);
     crossings.found = crossings_of(options, surface);
@@ -123,17 +122,17 @@ std::optional<CrossingReport> check_shape(const ValveOptions &options, const rii
   const Valve copy = copy_of(valve);
   // Hinges reach into recesses of the housing, and the model of the housing lacks these recesses. So crossings with the housing
   // do not count.
-  if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy.get(), "ring_height", 0));
+  if (options.valve == "bileaflet") check(riis_valve_set_scalar(copy, "ring_height", 0));
   riis_surface_options how = by_triangles(options);
   how.triangulation = RIIS_TRIANGULATION_ADAPTED;
   CrossingReport report;
   for (const double opening : {0.0, 0.5, 1.0}) {
-    const Surface surface = surface_at(copy.get(), opening, how);
+    const Surface surface = surface_at(copy, opening, how);
     if (!surface) continue;
     ++report.n_openings;
     report.opening = opening;
-    const riis_crossing_list found = crossings_of(options, surface.get());
-    if (found.deepest_depth <= depth_of_contacts(options, surface.get())) continue;
+    const riis_crossing_list found = crossings_of(options, surface);
+    if (found.deepest_depth <= depth_of_contacts(options, surface)) continue;
     report.found = found;
     warn_of_crossings(options, report, part, "; change the sizes, and look at all openings by riis check crossings");
     return report;

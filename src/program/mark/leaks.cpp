@@ -167,7 +167,7 @@ void MeshLeaks::judge(ValveReport &report) {
 // Marks the pieces near the surface again with another half thickness.
 std::optional<double> MeshLeaks::left(double half_thickness) const {
   const Surface surface = with_half_thickness(options_, valve_, half_thickness);
-  const riis_surface_info info = info_of(surface.get());
+  const riis_surface_info info = info_of(surface);
   std::vector<KeyedEdge> found;
   const auto mark_again = [&](Piece &piece) {
     const Marks marks = marks_of(surface, piece.mesh->mesh(), how_to_mark_again(options_));

@@ -88,8 +88,8 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
   move_to_least_openings();
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     report_.valves.push_back(report_of(i));
-    sums_.push_back({MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve.get(),
-                               all.surface_of(i))});
+    sums_.push_back(
+        {MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve, all.surface_of(i))});
   }
 }
 
@@ -259,7 +259,7 @@ void Marking::judge() {
   }
   if (options().check_leaks) {
     const Surface joined = joined_for_passage(all_, valves_);
-    passage_.judge(joined ? joined.get() : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve.get(),
+    passage_.judge(joined ? joined : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve,
                    joined ? "the surface of all valves" : "the surface", counts, report_);
   }
   report_orifices();

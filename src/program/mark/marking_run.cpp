@@ -131,7 +131,7 @@ class MarkingRun {
     if (all_.is_series()) return write_steps(piece);
     if (piece.mesh) piece.mesh->forget_neighbors();
     if (all_.options.n_steps > 0)
-      report_.step = time_steps(valves_[0].options(), valves_[0].source().valve.get(), piece.file.get());
+      report_.step = time_steps(valves_[0].options(), valves_[0].source().valve, piece.file.get());
     if (mesh_.is_whole()) write_surface();
     const Stage stage("writing", all_.options.quiet);
     files_.write(piece.number, 0, piece.file.get());
@@ -148,7 +148,7 @@ class MarkingRun {
     const UnbrokenWrite unbroken;
     const Surface joined = valves_.size() > 1 ? joined_surface(valves_) : nullptr;
     if (ranks::is_first())
-      check(riis_vtk_surface_write(joined ? joined.get() : valves_[0].surface(), all_.options.surface_output.c_str()));
+      check(riis_vtk_surface_write(joined ? joined : valves_[0].surface(), all_.options.surface_output.c_str()));
     report_.written.push_back(all_.options.surface_output);
     report_.seconds.write += stage.seconds();
   }

@@ -42,8 +42,8 @@ void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   auto dense = defaults<riis_dense_arrays>();
   dense.n_nodes = 1;
   dense.far_distance = options.far_distance;
-  check(riis_marks_get_dense(result.get(), &dense));
-  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result.get());
+  check(riis_marks_get_dense(result, &dense));
+  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result);
 }
 
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
@@ -126,10 +126,10 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
     if (opening + change > 1 || opening + change < 0) change = -change;
     opening = std::clamp(opening + change, 0.0, 1.0);
     const Stage step("", true);
-    check(riis_valve_set_scalar(moved.get(), "opening", opening), "--steps");
-    check(riis_surface_update(surface, moved.get(), nullptr), "--steps");
+    check(riis_valve_set_scalar(moved, "opening", opening), "--steps");
+    check(riis_surface_update(surface, moved, nullptr), "--steps");
     const double updated = step.seconds();
-    check(riis_mark_nodes(surface, nodes.mesh(), &how, result.get()), options.mesh);
+    check(riis_mark_nodes(surface, nodes.mesh(), &how, result), options.mesh);
     const double marked = step.seconds();
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);

@@ -37,7 +37,7 @@ MeshPieces::~MeshPieces() = default;
 MeshFile MeshPieces::read(std::int64_t piece) const {
   if (is_whole_) {
     MeshFile mesh = read_mesh_file(path());
-    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), path());
+    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh), path());
     return mesh;
   }
   return create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);

@@ -16,9 +16,9 @@ MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_
   is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
   if (source.keyframes) source.options.time = time;
   if (source.valve) {
-    if (moves) before_ = copy_of(source.valve.get());
+    if (moves) before_ = copy_of(source.valve);
     opening_ = source.law.at(time);
-    set_time(time, source.valve.get());
+    set_time(time, source.valve);
   }
   has_velocities_ = source.file != nullptr;
   surface_ = make_surface(source, moves ? FileVelocity::zero : FileVelocity::none);
@@ -36,17 +36,15 @@ void MovingValve::set_time(double time, riis_valve *valve) {
 void MovingValve::move_to(double time, std::optional<double> since) {
   if (is_at_rest_ && (!since || has_velocities_)) return;
   if (source_.keyframes) {
-    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time, time - since.value_or(time),
-                                             nullptr),
+    check(riis_surface_update_from_keyframes(surface_, source_.keyframes, time, time - since.value_or(time), nullptr),
           options().surface);
     return;
   }
-  if (since) set_time(*since, before_.get());
-  set_time(time, source_.valve.get());
+  if (since) set_time(*since, before_);
+  set_time(time, source_.valve);
   opening_ = source_.law.at(time);
-  check(since ? riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - *since, nullptr,
-                                           nullptr)
-              : riis_surface_update(surface_.get(), source_.valve.get(), nullptr),
+  check(since ? riis_surface_update_moving(surface_, source_.valve, before_, time - *since, nullptr, nullptr)
+              : riis_surface_update(surface_, source_.valve, nullptr),
         subject());
   has_velocities_ = since.has_value();
 }
@@ -59,11 +57,11 @@ void MovingValve::mark(FileNodes &nodes, int32_t fields) {
     nodes.find_neighbors(how.n_threads);
     lent.emplace(nodes);
   }
-  check(riis_mark_nodes(surface_.get(), nodes.mesh(), &how, result_.get()), options().mesh);
+  check(riis_mark_nodes(surface_, nodes.mesh(), &how, result_), options().mesh);
 }
 
 double MovingValve::largest_speed() const {
-  const riis_triangles triangles = triangles_of(surface_.get());
+  const riis_triangles triangles = triangles_of(surface_);
   const double *velocity = triangles.velocity;
   double largest = 0;
   for (int64_t i = 0; velocity && i < triangles.n_vertices; ++i)
@@ -80,9 +78,9 @@ std::vector<MovingValve> moving_valves(Case &all) {
       MovingValve &made = valves.back();
       const std::string part = all.part_of(valves.size() - 1);
       if (all.options.check_crossing)
-        made.crossings = look_for_crossings(source.options, source.valve.get(), made.surface(), part);
+        made.crossings = look_for_crossings(source.options, source.valve, made.surface(), part);
       else if (source.valve)
-        made.crossings = check_shape(source.options, source.valve.get(), source.has_open_state, part);
+        made.crossings = check_shape(source.options, source.valve, source.has_open_state, part);
       if (!all.options.mesh.empty()) rehearse_marking(source.options, made.surface());
     } catch (Refusal &refusal) {
       if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)

@@ -14,19 +14,7 @@
 
 namespace riis::program {
 
-LeakCheck leak_check_between(const std::vector<std::string> &points) {
-  LeakCheck made;
-  made.subject = "--between";
-  const std::vector<double> from = parse_list(points[0], made.subject, 3, "X,Y,Z"),
-                            to = parse_list(points[1], made.subject, 3, "X,Y,Z");
-  std::copy_n(from.begin(), 3, made.from);
-  std::copy_n(to.begin(), 3, made.to);
-  return made;
-}
-
 namespace {
-
-const double *asked_point(const LeakCheck &asked, int end) { return end == 0 ? asked.from : asked.to; }
 
 // Returns the point's numbers as the user wrote them.
 std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
@@ -37,7 +25,7 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
   // A point inside a cell is at most one edge length away from one of the cell's nodes. This limit allows two.
   constexpr double edges_away = 2;
   const LeakCheck &asked = *options.check_leaks;
-  const double *const point = asked_point(asked, end);
+  const double *const point = asked.point(end);
   const auto refuse = [&](const std::string &why) {
     throw Refusal{asked.exit_code,
                   asked.subject + ": " + (end == 0 ? "FROM" : "TO") + ", " + text_of(point) + ", " + why};
@@ -55,7 +43,7 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
 // --quiet does not silence this warning, because the valve lets flow through.
 void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
                      const std::string &unknown) {
-  const std::string ends = text_of(asked.from) + " and " + text_of(asked.to);
+  const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
   const riis_passage &found = report.found;
   if (report.is_unknown)
     warn("whether unmarked nodes join " + ends + " is unknown: " + unknown);
@@ -101,7 +89,7 @@ void PassageCheck::add(const Piece &piece) {
   if (!options_.check_leaks) return;
   const PieceNodes &nodes = piece.nodes;
   for (int end = 0; end < 2; ++end) {
-    const double *const asked = asked_point(*options_.check_leaks, end);
+    const double *const asked = options_.check_leaks->point(end);
     std::int64_t found = -1;
     double least = 0;
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
@@ -152,7 +140,7 @@ riis_first_passage PassageCheck::first_of(const riis_valve *valve) const {
   const auto how = defaults<riis_first_passage_options>();
   riis_first_passage first{};
   const auto is_open_at = [&](double opening) {
-    check(riis_valve_set_scalar(moved.get(), "opening", opening), "--first-passage");
+    check(riis_valve_set_scalar(moved, "opening", opening), "--first-passage");
     const auto surface = create_for<Surface>("--first-passage", riis_surface_create, moved, &options_.surface_options);
     const riis_passage passage = find(surface).found;
     ++first.n_openings;

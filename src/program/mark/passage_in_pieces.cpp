@@ -166,7 +166,7 @@ std::optional<FoundPassage> passage_within(const MarkOptions &options, const Mes
     has_ids = piece.nodes.has_ids();
     piece.mesh->find_neighbors(how.n_threads);
     const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
-    const riis_mark_list within = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+    const riis_mark_list within = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
     PieceWays ways(piece, within);
     for (int i = 0; i < 2; ++i) {
       if (ends[i].piece != piece.number) continue;

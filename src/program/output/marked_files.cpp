@@ -188,8 +188,8 @@ void MarkedFiles::list_pieces() {
     for (const std::string &file : files) names.push_back(file.c_str());
     const std::string path = is_series_ ? steps_.path_of(step, "") : path_;
     if (is_writer) {
-      check(riis_vtk_pieces_set_files(sample_.get(), view(names).size(), names.data()));
-      check(riis_vtk_pieces_write(sample_.get(), path.c_str()));
+      check(riis_vtk_pieces_set_files(sample_, view(names).size(), names.data()));
+      check(riis_vtk_pieces_write(sample_, path.c_str()));
     }
     if (is_series_) steps_.add(times_[step], 0, path);
   }

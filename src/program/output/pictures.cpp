@@ -148,7 +148,7 @@ std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<Mov
 
 RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box)
     : all_(all), mesh_(std::move(mesh)), box_(box) {
-  if (all.is_series()) nodes_.emplace(mesh_.get(), all.options.mesh);
+  if (all.is_series()) nodes_.emplace(mesh_, all.options.mesh);
   if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
 }
 
@@ -163,22 +163,22 @@ void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   if (all_.is_series())
     for (MovingValve &valve : valves) valve.mark(*nodes_, 0);
   if (valves.size() == 1) {
-    check(riis_vtk_mesh_set_marks(mesh_.get(), valves[0].result(), all_.options.far_distance, nullptr));
+    check(riis_vtk_mesh_set_marks(mesh_, valves[0].result(), all_.options.far_distance, nullptr));
     return;
   }
   const std::int64_t n = valves[0].stats().n_nodes;
   JoinedMarks marks(static_cast<std::size_t>(n));
   const std::vector<int32_t> first = first_leaflets(valves);
   for (std::size_t valve = 0; valve < valves.size(); ++valve) marks.add(valves[valve].result(), first[valve]);
-  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_marked", n, 1, marks.marked.data()));
-  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_distance", n, 1, marks.distance.data()));
-  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_leaflet", n, 1, marks.leaflet.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_, "riis_marked", n, 1, marks.marked.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_, "riis_distance", n, 1, marks.distance.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_, "riis_leaflet", n, 1, marks.leaflet.data()));
 }
 
 std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const {
   const MovingValve &first = valves[0];
   if (valves.size() == 1 && !all_.is_series())
-    return picture_title(first.options(), first.source().valve.get(), report.valves[0]);
+    return picture_title(first.options(), first.source().valve, report.valves[0]);
   const std::vector<double> &times = all_.options.series.times;
   const std::string time = times.empty() ? "" : fixed(times[step], decimals_of(times));
   if (valves.size() > 1) {
@@ -227,7 +227,7 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
     options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
     if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
   }
-  check(riis_vtk_draw_views(surface, mesh_.get(), &options, view(paths).size(), views.data(), paths.data()));
+  check(riis_vtk_draw_views(surface, mesh_, &options, view(paths).size(), views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());
   report.seconds.picture = stage.seconds();
 }
@@ -248,7 +248,7 @@ void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Repor
   }
   set_marks_of(valves);
   const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
-  const riis_surface *surface = joined ? joined.get() : valves[0].surface();
+  const riis_surface *surface = joined ? joined : valves[0].surface();
   const std::string text = title(step, valves, report);
   if (step == 0) draw_pictures(valves, text, surface, report);
   if (movie_) check(riis_vtk_film_draw(film(valves), surface, text.c_str(), movie_->next_frame().c_str()));

@@ -34,12 +34,6 @@ std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
   return "leaflet_" + std::to_string(id);
 }
 
-Surface fixed_surface(const ExportOptions &options, const riis_valve *valve, const std::string &subject) {
-  riis_surface_options how = options.surface_options;
-  how.triangulation = RIIS_TRIANGULATION_FIXED;
-  return create_for<Surface>(subject, riis_surface_create, valve, &how);
-}
-
 template <class Use>
 void for_all_frames(const UrisMotion &motion, const Use &use) {
   for (const std::vector<double> *openings : {&motion.opening, &motion.closing})
@@ -49,9 +43,11 @@ void for_all_frames(const UrisMotion &motion, const Use &use) {
 }  // namespace
 
 UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motion)
-    : subject_(is_valve_file(options.valve) ? options.valve : ""), valve_(make_valve(options)), net_(0, {}) {
-  check(riis_valve_set_scalar(valve_.get(), "opening", motion.opening[0]), subject_);
-  surface_ = fixed_surface(options, valve_.get(), subject_);
+    : subject_(subject_of(options)), valve_(make_valve(options)), net_(0, {}) {
+  check(riis_valve_set_scalar(valve_, "opening", motion.opening[0]), subject_);
+  riis_surface_options how = options.surface_options;
+  how.triangulation = RIIS_TRIANGULATION_FIXED;
+  surface_ = create_for<Surface>(subject_, riis_surface_create, valve_, &how);
   const riis_surface_info info = info_of(surface_);
   half_thickness_ = info.half_thickness;
   double largest = half_thickness_;
@@ -68,7 +64,7 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
 
 std::vector<double> UrisLeaflets::vertices_at(double opening) {
   open_to(opening);
-  const riis_triangles triangles = triangles_of(surface_.get());
+  const riis_triangles triangles = triangles_of(surface_);
   std::vector<double> all(triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
   net_.append_middles(all);
   for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
@@ -79,8 +75,8 @@ std::vector<double> UrisLeaflets::vertices_at(double opening) {
 std::int64_t UrisLeaflets::n_triangles() const { return view(net_.triangles()).size(); }
 
 void UrisLeaflets::open_to(double opening) {
-  check(riis_valve_set_scalar(valve_.get(), "opening", opening), subject_);
-  check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject_);
+  check(riis_valve_set_scalar(valve_, "opening", opening), subject_);
+  check(riis_surface_update(surface_, valve_, nullptr), subject_);
 }
 
 // Returns the triangles that have an area in all frames. A triangle without area has no normal, so the solver would divide by
@@ -94,7 +90,7 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
   std::size_t n_frames = 0;
   for_all_frames(motion, [&](double opening) {
     open_to(opening);
-    const riis_triangles triangles = triangles_of(surface_.get());
+    const riis_triangles triangles = triangles_of(surface_);
     const std::int64_t n = triangles.n_triangles;
     const std::int64_t *const vertex = triangles.vertex_id, *const id = triangles.triangle_id;
     if (n > 0 && id[n - 1] >= view(seen).size()) resize(seen, id[n - 1] + 1);

@@ -15,7 +15,8 @@
 namespace riis::program {
 namespace {
 
-struct Spans {
+struct LawWithSpans {
+  OpeningLaw law;
   TimeSpan opening, closing;
 };
 
@@ -44,8 +45,10 @@ std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   return std::nullopt;
 }
 
-Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
-  if (options.opening_span && options.closing_span) return {*options.opening_span, *options.closing_span};
+LawWithSpans law_of_cycle(const ExportOptions &options) {
+  const OpeningTable table = read_cycle(options.cycle, options.period, options.interpolation);
+  const OpeningLaw law(table, options.cycle);
+  if (options.opening_span && options.closing_span) return {law, *options.opening_span, *options.closing_span};
   const auto [least, largest] = std::minmax_element(table.openings.begin(), table.openings.end());
   if (*least == *largest) refuse_data(options.cycle + ": the opening is " + shortest(*least) + " throughout");
   const Keys keys(table);
@@ -57,10 +60,11 @@ Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
   };
   if (!opening) refuse("open", "largest opening follows one of the least", "--opening-span");
   if (!closing) refuse("close", "least opening follows one of the largest", "--closing-span");
-  return {*opening, *closing};
+  return {law, *opening, *closing};
 }
 
-std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {
+// Returns the openings of the frames in a span.
+std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, double step, const char *what) {
   const double length = span.stop - span.start;
   if (step > length * (1 + 1e-9)) {
     refuse_usage("--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length));
@@ -71,27 +75,10 @@ std::vector<double> frame_times(const TimeSpan &span, double step, const char *w
     refuse_usage("--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) + " frames of the " + what +
                  "; at most " + std::to_string(most_times) + " are written");
   }
-  std::vector<double> times;
-  for (double i = 0; i < n_steps; ++i) times.push_back(span.start + i * step);
-  times.push_back(span.stop);
-  return times;
-}
-
-std::vector<double> openings_at(const OpeningLaw &law, const std::vector<double> &times) {
   std::vector<double> openings;
-  for (const double time : times) openings.push_back(law.at(time));
+  for (double i = 0; i < n_steps; ++i) openings.push_back(law.at(span.start + i * step));
+  openings.push_back(law.at(span.stop));
   return openings;
-}
-
-struct LawWithSpans {
-  OpeningLaw law;
-  Spans spans;
-};
-
-LawWithSpans law_of_cycle(const ExportOptions &options) {
-  const OpeningTable table = read_cycle(options.cycle, options.period, options.interpolation);
-  const Spans spans = spans_of_cycle(options, table);
-  return {OpeningLaw(table, options.cycle), spans};
 }
 
 LawWithSpans law_of_seconds(const ExportOptions &options) {
@@ -102,7 +89,7 @@ LawWithSpans law_of_seconds(const ExportOptions &options) {
   times.opening_duration = *options.opening_duration;
   times.closing_start = 0;
   times.closing_duration = *options.closing_duration;
-  return {OpeningLaw(times, "--opening-seconds"), {{times.opening_start, 0}, {0, times.closing_duration}}};
+  return {OpeningLaw(times, "--opening-seconds"), {times.opening_start, 0}, {0, times.closing_duration}};
 }
 
 void check_way(const std::vector<double> &openings, bool opens, const TimeSpan &span) {
@@ -122,11 +109,10 @@ void warn_of_jump(const char *from, double before, const char *to, double after)
 
 UrisMotion uris_motion_of(const ExportOptions &options) {
   const LawWithSpans motion = options.cycle.empty() ? law_of_seconds(options) : law_of_cycle(options);
-  const double step = options.time_step;
-  UrisMotion frames{openings_at(motion.law, frame_times(motion.spans.opening, step, "opening")),
-                    openings_at(motion.law, frame_times(motion.spans.closing, step, "closing"))};
-  check_way(frames.opening, true, motion.spans.opening);
-  check_way(frames.closing, false, motion.spans.closing);
+  UrisMotion frames{frames_of(motion.law, motion.opening, options.time_step, "opening"),
+                    frames_of(motion.law, motion.closing, options.time_step, "closing")};
+  check_way(frames.opening, true, motion.opening);
+  check_way(frames.closing, false, motion.closing);
   warn_of_jump("opening", frames.opening.back(), "closing", frames.closing.front());
   warn_of_jump("closing", frames.closing.back(), "opening", frames.opening.front());
   return frames;

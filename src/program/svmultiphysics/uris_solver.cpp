@@ -318,7 +318,7 @@ std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, con
   options.distance_limit = limit;
   options.n_threads = n_threads;
   const Marks marks = marks_of(surface, mesh, options);
-  const riis_mark_list list = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+  const riis_mark_list list = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
   for (std::int64_t i = 0; i < list.n_nodes; ++i) view(distances)[list.node_id[i]] = list.distance[i];
   return distances;
 }
