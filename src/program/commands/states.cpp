@@ -72,14 +72,15 @@ class Measured {
     static_cast<ValveOptions &>(as_file) = options;
     ValveSource source{as_file, nullptr, nullptr};
     if (is_motion_file(options.surface)) {
-      times_ = times_of_frames(options);
-      keyframes_ = read_keyframes(options, seconds).keyframes;
+      KeyframeFiles read = read_keyframes(options, seconds);
+      times_ = std::move(read.times);
       source.options.time = times_.front();
-      surface_ = surface_of_keyframes(source.options, keyframes_);
+      source.keyframes = std::move(read.keyframes);
     } else {
       source.file = read_surface(options, seconds);
-      surface_ = make_surface(source, FileVelocity::none);
     }
+    surface_ = make_surface(source, FileVelocity::none);
+    keyframes_ = std::move(source.keyframes);
   }
 
   // Moves to a place: an opening of a valve, or a time of a surface that moves.
@@ -153,9 +154,6 @@ std::vector<std::string> names_of_leaflets(const StatesOptions &options, const s
   return names;
 }
 
-// Tells whether the leaflets are rigid. A rigid leaflet only turns, so its lengths do not change.
-bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
-
 State state_at(Measured &valve, double place, bool has_contacts) {
   valve.move_to(place);
   State state{place, valve.leaflets(), valve.orifice()};
@@ -177,7 +175,8 @@ States frame_of(const StatesOptions &options, Measured &valve) {
       states.why_no_edges = valve.is_valve() ? "a leaflet has no side v = 1 on its rim"
                                              : "a leaflet has no open edge besides the outline";
   }
-  if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
+  // A rigid leaflet only turns, so its lengths do not change.
+  if (valve.is_valve() && options.valve == "bileaflet") states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC)
     states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
@@ -246,12 +245,8 @@ std::string ratios_of(const States &states, const StateValue &value) {
          at(*most);
 }
 
-StateValue edge_of(std::size_t leaflet) {
-  return [=](const State &state) { return state.leaflets[leaflet].free_edge; };
-}
-
-StateValue area_of_leaflet(std::size_t leaflet) {
-  return [=](const State &state) { return state.leaflets[leaflet].area; };
+StateValue size_of(std::size_t leaflet, double riis_leaflet::*size) {
+  return [=](const State &state) { return state.leaflets[leaflet].*size; };
 }
 
 // Collects the lines of the summary, with their texts aligned.
@@ -274,8 +269,8 @@ class Summary {
 void add_leaflets(const States &states, Summary &summary) {
   for (std::size_t i = 0; i < states.names.size(); ++i) {
     const bool has_edge = states.has_edges() && states.states.front().leaflets[i].free_edge > 0;
-    if (has_edge) summary.add(states.names[i], "free edge " + ratios_of(states, edge_of(i)));
-    summary.add(has_edge ? "" : states.names[i], "area " + ratios_of(states, area_of_leaflet(i)));
+    if (has_edge) summary.add(states.names[i], "free edge " + ratios_of(states, size_of(i, &riis_leaflet::free_edge)));
+    summary.add(has_edge ? "" : states.names[i], "area " + ratios_of(states, size_of(i, &riis_leaflet::area)));
   }
 }
 
@@ -307,7 +302,7 @@ std::string text_of_contact(const States &states) {
 std::string text_of_changes(const States &states) {
   std::string text;
   for (std::size_t i = 0; i < states.names.size(); ++i) {
-    const double closed = edge_of(i)(states.states.front());
+    const double closed = size_of(i, &riis_leaflet::free_edge)(states.states.front());
     const auto is_beyond = [&](const State &state) {
       return std::abs(state.leaflets[i].free_edge / closed - 1) > fair_change;
     };

@@ -118,13 +118,10 @@ Answer answer_of(int from) {
   return answer;
 }
 
-std::string &kept_notes() {
-  static std::string notes;
-  return notes;
-}
+std::string kept_notes;
 
 void note(const std::string &path, const std::string &text) {
-  if (!text.empty()) kept_notes() += "note      " + path + ": " + text + "\n";
+  if (!text.empty()) kept_notes += "note      " + path + ": " + text + "\n";
 }
 
 MeshFile read_by_child(const std::string &path) {
@@ -195,7 +192,7 @@ MeshFile read_mesh_file(const std::string &path) {
   return file;
 }
 
-std::string take_notes() { return std::exchange(kept_notes(), ""); }
+std::string take_notes() { return std::exchange(kept_notes, ""); }
 
 bool is_foam_case(const std::string &path) { return has_poly_mesh(path); }
 

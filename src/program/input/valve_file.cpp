@@ -87,7 +87,9 @@ class CurveFileReader {
       const auto place = found.position.find(closed.names[i]);
       if (place == found.position.end()) refuse("open: curve " + quoted(closed.names[i]) + " is missing");
       const auto at = static_cast<std::size_t>(place->second);
-      check_degrees(closed.names[i], closed.degrees[i], found.degrees[at]);
+      if (found.degrees[at] != closed.degrees[i])
+        refuse("open: curve " + quoted(closed.names[i]) + " has degree " + std::to_string(found.degrees[at]) +
+               ", in the closed state " + std::to_string(closed.degrees[i]));
       ordered.degrees.push_back(found.degrees[at]);
       ordered.control.insert(ordered.control.end(), found.control.begin() + static_cast<std::ptrdiff_t>(begins[at]),
                              found.control.begin() + static_cast<std::ptrdiff_t>(begins[at + 1]));
@@ -114,12 +116,6 @@ class CurveFileReader {
     if (name.empty()) refuse(where + "a curve has an empty name");
     if (name[0] == '-')
       refuse(where + "curve " + quoted(name) + ": a name must not begin with a minus, which turns a side");
-  }
-
-  void check_degrees(const std::string &name, std::int32_t closed, std::int32_t open) const {
-    if (open == closed) return;
-    refuse("open: curve " + quoted(name) + " has degree " + std::to_string(open) + ", in the closed state " +
-           std::to_string(closed));
   }
 
   void add_points(const Json &points, const std::string &curve, Curves &curves) const {

@@ -194,7 +194,9 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
 }
 
 Surface make_surface(const ValveSource &source, FileVelocity velocity) {
-  if (source.keyframes) return surface_of_keyframes(source.options, source.keyframes);
+  if (source.keyframes)
+    return create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes, source.keyframes,
+                               *source.options.time, 0, &source.options.surface_options);
   return source.valve ? surface_of_valve(source.options, source.valve)
                       : surface_of_file(source.options, source.file.get(), velocity);
 }
@@ -216,50 +218,22 @@ int64_t count_leaflets(const riis_surface *surface) {
 
 // ---- Motion ----
 
-namespace {
-
-Motion read_motion(const ValveOptions &options) {
-  auto motion = create<Motion>(riis_vtk_motion_read_pvd, options.surface.c_str(), array_of_leaflets(options));
-  if (options.leaflets == "connected") check(riis_vtk_motion_number_pieces(motion.get()));
-  return motion;
-}
-
-std::vector<std::string> files_of(const riis_vtk_motion *motion) {
-  int64_t n_files = 0;
-  const char *const *paths = nullptr;
-  check(riis_vtk_motion_get_files(motion, &n_files, &paths));
-  return {paths, paths + n_files};
-}
-
-Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motion) {
-  const auto arrays = get<riis_surface_arrays>(riis_vtk_motion_get_arrays, motion);
-  auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
-  frames.period = options.period;
-  return create_for<Keyframes>(options.surface, riis_keyframes_create, &arrays, &frames);
-}
-
-}  // namespace
-
 bool is_motion_file(const std::string &surface) { return has_ending(surface, ".pvd"); }
 
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  const Motion motion = read_motion(options);
+  const auto motion = create<Motion>(riis_vtk_motion_read_pvd, options.surface.c_str(), array_of_leaflets(options));
+  if (options.leaflets == "connected") check(riis_vtk_motion_number_pieces(motion));
   seconds.read += stage.seconds();
-  KeyframeFiles read{nullptr, files_of(motion.get())};
-  read.keyframes = keyframes_of(options, motion.get());
-  return read;
-}
-
-std::vector<double> times_of_frames(const ValveOptions &options) {
-  const Motion motion = read_motion(options);
-  const auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
-  return {frames.time, frames.time + frames.n_keys};
-}
-
-Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes) {
-  return create_for<Surface>(options.surface, riis_surface_create_from_keyframes, keyframes, *options.time, 0,
-                             &options.surface_options);
+  int64_t n_files = 0;
+  const char *const *paths = nullptr;
+  check(riis_vtk_motion_get_files(motion, &n_files, &paths));
+  const auto arrays = get<riis_surface_arrays>(riis_vtk_motion_get_arrays, motion);
+  auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
+  frames.period = options.period;
+  return {create_for<Keyframes>(options.surface, riis_keyframes_create, &arrays, &frames),
+          {paths, paths + n_files},
+          {frames.time, frames.time + frames.n_keys}};
 }
 
 // ---- Conversion ----

@@ -72,6 +72,7 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
 // The velocities that a surface from a file gets.
 enum class FileVelocity { none, zero };
+// Makes the surface. A motion gives it the place at options.time, with velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
 // Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
@@ -83,18 +84,13 @@ int64_t count_leaflets(const riis_surface *surface);
 // Returns whether --surface is a motion, which ends in .pvd.
 bool is_motion_file(const std::string &surface);
 
-// The motion of --surface FILE.pvd, and the paths of the files with its frames.
+// The motion of --surface FILE.pvd, the paths of the files with its frames, and their times.
 struct KeyframeFiles {
   Keyframes keyframes;
   std::vector<std::string> files;
+  std::vector<double> times;
 };
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
-
-// Returns the times of the frames.
-std::vector<double> times_of_frames(const ValveOptions &options);
-
-// Makes the surface at options.time, with velocities.
-Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes);
 
 // In: a file in a format that the program does not read. Out: a command that converts it.
 

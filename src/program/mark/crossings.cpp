@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/mark/crossings.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "program/base/handles.hpp"

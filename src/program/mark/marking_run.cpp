@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/mark/marking.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <optional>

@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "program/base/ranks.hpp"
-#include "program/base/refusal.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/output/report.hpp"
 

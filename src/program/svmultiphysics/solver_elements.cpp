@@ -208,7 +208,7 @@ SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, s
   element.gauss = std::move(gauss);
   for (const ReferencePoint &point : element.gauss)
     element.at_gauss.push_back(shapes_at(shape, element.node_places, point.at));
-  // The solver evaluates the gradients of wedges at its first Gauss point only. Those of linear tetrahedra are the same everywhere.
+  // The solver evaluates the gradients of wedges at its first Gauss point only. Linear tetrahedra have the same everywhere.
   if (shape == Shape::wedge)
     for (ShapeFunctions &functions : element.at_gauss) functions.slopes = element.at_gauss[0].slopes;
   element.fine = fine_points(shape);

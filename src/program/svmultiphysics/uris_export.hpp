@@ -3,7 +3,6 @@
 // names these files.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "program/base/options.hpp"

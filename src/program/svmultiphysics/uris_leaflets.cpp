@@ -11,7 +11,6 @@
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
-#include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 
 namespace riis::program {
