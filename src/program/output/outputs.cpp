@@ -214,14 +214,13 @@ void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
     check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
 }
 
-// Checks that files can be written, and locks them.
-OutputLocks check_files(const NamedFiles &outputs) {
+// Checks that files can be written.
+void check_files(const NamedFiles &outputs) {
   for (const auto &[option, path, ending] : outputs) {
     if (path.empty()) continue;
     if (!ending.empty()) check_ending(path, ending, option);
     check_place(path);
   }
-  return locks_of(outputs);
 }
 
 }  // namespace
@@ -242,10 +241,10 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
       check_folder_of_steps(option, folders.back().folder(), inputs);
     }
   check_output(options, is_series, has_pieces);
-  OutputLocks locks = check_files(outputs);
+  check_files(outputs);
   for (const SeriesFiles &files : folders) files.check_folder();
   if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
-  return locks;
+  return locks_of(outputs);
 }
 
 namespace {
@@ -263,7 +262,8 @@ OutputLocks check_texts(const NamedFiles &inputs, const NamedFiles &texts) {
     on_stdout = text.option;
   }
   check_distinct(known(inputs), files);
-  return check_files(files);
+  check_files(files);
+  return locks_of(files);
 }
 
 }  // namespace
