@@ -55,7 +55,7 @@ void read_parameters(const char *kind) {
 void read_valve() {
   is_taken([] {
     riis::program::NewValve fresh(file().path(), "");
-    EXPECT(riis_valve_set_scalar(fresh.get(), "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
+    EXPECT(riis_valve_set_scalar(fresh, "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
     const Valve valve = fresh.take();
     double opening = -1;
     EXPECT(riis_valve_get(valve.get(), "opening", 1, &opening) == RIIS_OK && opening == 0.5, "opening %g", opening);

@@ -31,7 +31,7 @@ class NewValve {
  public:
   // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
   NewValve(const std::string &valve, const std::string &subject);
-  riis_valve *get() const { return valve_; }
+  operator riis_valve *() const { return valve_; }
   // Gives up the valve. Refuses an opening that needs an open state if its file has none, because the library's own message would
   // advise another valve.
   Valve take();

@@ -259,7 +259,7 @@ void Marking::judge() {
   }
   if (options().check_leaks) {
     const Surface joined = joined_for_passage(all_, valves_);
-    passage_.judge(joined ? joined : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve,
+    passage_.judge(joined ? joined : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve.get(),
                    joined ? "the surface of all valves" : "the surface", counts, report_);
   }
   report_orifices();
