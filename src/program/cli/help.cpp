@@ -366,9 +366,8 @@ std::string text_of_topic(const std::string &name) {
     nearest.consider(topic.name);
   }
   const std::string near(nearest.nearest());
-  throw Refusal{exit_wrong_usage, "'" + name.substr(0, 64) + "' is not a topic" +
-                                      (near.empty() ? "" : ", did you mean " + near + "?") +
-                                      " (riis help lists the topics)"};
+  refuse_usage("'" + name.substr(0, 64) + "' is not a topic" + (near.empty() ? "" : ", did you mean " + near + "?") +
+               " (riis help lists the topics)");
 }
 
 std::string short_help() {

@@ -62,11 +62,7 @@ class CaseReader {
   }
 
   LeakCheck leak_check_of(const CaseValues &values) const {
-    const std::vector<double> points = values.numbers("check_leaks", 6);
-    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
-    std::copy_n(points.begin(), 3, made.from);
-    std::copy_n(points.begin() + 3, 3, made.to);
-    return made;
+    return {values.numbers("check_leaks", 6), path_ + ": check_leaks", exit_bad_data};
   }
 
   std::vector<double> times_of(const CaseValues &values) const {
@@ -174,29 +170,21 @@ class CaseReader {
     for (const char *key : {"leaflets", "skip_zero_area", "period"})
       if (values.has(key)) values.refuse(key, "it needs \"surface\"");
     const std::string &kind = source.options.valve;
-    if (is_valve_file(kind)) {
-      if (values.has("open_parameters")) values.refuse("open_parameters", "the open state is in " + kind);
-      ValveFile file(kind);
-      set_parameters_of(values, "parameters", file.valve());
-      set_law(values, file.valve(), source);
-      set_warp(values, file.valve(), source);
-      file.check_opening();
-      set_skirt(source.options, file.valve(), source.subject);
-      source.valve = file.take_valve();
-      return;
-    }
-    source.valve = make_kind(kind, source.subject);
-    set_placed_parameters(source.options, source.valve.get());
-    set_parameters_of(values, "parameters", source.valve.get());
+    if (is_valve_file(kind) && values.has("open_parameters"))
+      values.refuse("open_parameters", "the open state is in " + kind);
+    NewValve valve(kind, source.subject);
+    set_placed_parameters(source.options, valve);
+    set_parameters_of(values, "parameters", valve);
     if (values.has("open_parameters")) {
       const Valve open = make_kind(kind, source.subject);
-      set_parameters_of(values, "open_parameters", open.get());
-      check(riis_valve_set_open_state(source.valve.get(), open.get()), source.subject);
+      set_parameters_of(values, "open_parameters", open);
+      check(riis_valve_set_open_state(valve, open), source.subject);
       source.has_open_state = true;
     }
-    set_law(values, source.valve.get(), source);
-    set_warp(values, source.valve.get(), source);
-    set_skirt(source.options, source.valve.get(), source.subject);
+    set_law(values, valve, source);
+    set_warp(values, valve, source);
+    source.valve = valve.take();
+    set_skirt(source.options, source.valve, source.subject);
   }
 
   // Reads the warp, and gives it to the valve at the first time.
@@ -283,19 +271,15 @@ OpeningLaw law_of_arrays(const CaseValues &values) {
 }
 
 OpeningLaw law_of_ramps(const CaseValues &values) {
-  riis_opening_times times;
-  check(riis_opening_times_init(&times, sizeof times));
-  const auto set = [&](const char *key, double &field) {
-    if (const auto number = values.number(key)) field = *number;
-  };
-  for (const char *key : {"opening_start", "opening_duration", "closing_start", "closing_duration"})
-    static_cast<void>(values.needed(key));
-  set("opening_start", times.opening_start);
-  set("opening_duration", times.opening_duration);
-  set("closing_start", times.closing_start);
-  set("closing_duration", times.closing_duration);
-  set("closed", times.closed);
-  set("open", times.open);
+  auto times = defaults<riis_opening_times>();
+  const std::pair<const char *, double *> needed[] = {{"opening_start", &times.opening_start},
+                                                      {"opening_duration", &times.opening_duration},
+                                                      {"closing_start", &times.closing_start},
+                                                      {"closing_duration", &times.closing_duration}};
+  for (const auto &[key, field] : needed) static_cast<void>(values.needed(key));
+  for (const auto &[key, field] : needed) *field = *values.number(key);
+  times.closed = values.number("closed").value_or(times.closed);
+  times.open = values.number("open").value_or(times.open);
   times.period = values.above_zero("period").value_or(0);
   return OpeningLaw(times, values.subject());
 }
@@ -323,22 +307,15 @@ CaseOpening case_opening(const CaseValues &valve, const std::function<std::strin
 
 namespace {
 
-OpeningLaw law_of_command_line(const MarkOptions &options) {
-  const SeriesOptions &series = options.series;
-  OpeningTable table = read_cycle(series.cycle);
-  table.period = options.period;
-  table.interpolation = series.interpolation;
-  return OpeningLaw(std::move(table), series.cycle);
-}
-
 void read_valve(const MarkOptions &options, ValveSource &source) {
   source.has_open_state = !options.params_open.empty();
   if (options.series.times.empty()) {
     source.valve = make_valve(options);
-    source.law = OpeningLaw(opening_of(source.valve.get()));
+    source.law = OpeningLaw(opening_of(source.valve));
     return;
   }
-  source.law = law_of_command_line(options);
+  const SeriesOptions &series = options.series;
+  source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
   // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
