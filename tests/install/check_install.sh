@@ -32,7 +32,6 @@ all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)
 declare -A more_flags=([openmp_caller]=-fopenmp [overlap]=-pthread)
-expected=$source/tests/install/expected
 
 # The installed Fortran sources, in the order in which they use each other.
 fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
@@ -65,10 +64,15 @@ has_fortran_of() { # argument: name
   has Fortran && [ -e "$source/examples/$1.f90" ]
 }
 
+# Prints the part of expected.txt below the line "== NAME".
+expected_of() { # argument: name
+  awk -v name="$1" '/^== / { inside = $2 == name; next } inside' "$source/tests/install/expected.txt"
+}
+
 # An example must print the same however it was built, and in C and in Fortran.
 check_example() { # arguments: name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
-  diff "$expected/$1.txt" "$work/printed.txt" || problem "$2 does not print what it should"
+  expected_of "$1" | diff - "$work/printed.txt" || problem "$2 does not print what it should"
 }
 
 # The prosthesis of the example's JSON file must mark as many nodes at each opening as the example's program.
@@ -89,7 +93,7 @@ check_prosthesis_file() { # argument: the program
     "$1" mark "$work/box.vtk" --valve "$source/examples/prosthesis.json" --opening $opening --stats - |
       sed -n "s/.*\"n_marked\": \([0-9]*\).*/opening $opening, marked: \1/p"
   done >"$work/file.txt"
-  grep '^opening' "$expected/prosthesis.txt" | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
+  expected_of prosthesis | grep '^opening' | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
 }
 
 check_by_cmake() { # arguments: prefix, all|few
@@ -313,4 +317,4 @@ if [ "$is_configured_anew" ]; then
 fi
 
 awk '/^```text/ { inside = 1; next } /^```/ { inside = 0 } inside' "$source/examples/README.md" |
-  diff - "$expected/first_marking.txt" || problem "examples/README.md does not show what first_marking prints"
+  diff - <(expected_of first_marking) || problem "examples/README.md does not show what first_marking prints"
