@@ -115,7 +115,7 @@ check_by_cmake() { # arguments: prefix, all|few
 
   if has VTK; then
     empty_but_compilers "$work/cmake_vtk"
-    quietly configure_consumer "$source/tests/install/vtk_consumer" "$work/cmake_vtk" "$1"
+    quietly configure_consumer "$source/tests/install/consumer" "$work/cmake_vtk" "$1"
     quietly "$CMAKE" --build "$work/cmake_vtk"
     quietly "$work/cmake_vtk/vtk_consumer"
   fi
@@ -134,8 +134,7 @@ check_by_cmake() { # arguments: prefix, all|few
 # find_package must fail and say why.
 refused() { # arguments: text, option, prefix
   empty_but_compilers "$work/refused"
-  local consumer=$source/tests/install/refused_consumer
-  if configure_consumer "$consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
+  if configure_consumer "$source/tests/install/consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
     echo "find_package was not refused: $2"
     return 1
   fi
@@ -195,7 +194,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   ! has Fortran || [ "$2" = few ] || quietly "$out/test_f77"
   if has VTK && [ "$kind" = shared ]; then
     # shellcheck disable=SC2046
-    quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
+    quietly "$CC" "${c_flags[@]}" "$source/tests/install/consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
       $(flags --cflags --libs riis-vtk)
     quietly "$out/vtk_consumer"
   fi
