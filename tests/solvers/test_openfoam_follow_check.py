@@ -6,7 +6,7 @@ import shutil
 import sys
 import unittest
 
-from test_check import Files, text_of  # it also ends the test if there is no numpy
+from test_openfoam_check import Files, text_of  # it also ends the test if there is no numpy
 
 import numpy
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_script.sh SOURCE WORK
+# check_openfoam_script.sh SOURCE WORK
 # Checks that examples/openfoam/openfoam.sh refuses faults with the right messages. Functions here replace OpenFOAM's programs.
 # shellcheck disable=SC2317 # openfoam.sh calls the functions
 set -euo pipefail

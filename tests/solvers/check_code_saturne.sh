@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# check_example.sh SOURCE_DIR BUILD_DIR WORK_DIR CMAKE PYTHON
+# check_code_saturne.sh SOURCE_DIR BUILD_DIR WORK_DIR CMAKE PYTHON
 # Runs the closed valve of examples/code_saturne on 1 and 2 ranks with the riis of a build tree. The script checks the pressure
 # drop and the marks. Then it shows that bad input stops the solver with a message that names the time step, and that check.py
 # refuses bad records.
 set -euo pipefail
 source=$1 build=$2 work=$3 cmake=$4 python=$5
-here=$source/tests/saturne
+here=$source/tests/solvers
 
 problem() {
   echo "problem: $*" >&2
