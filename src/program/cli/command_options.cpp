@@ -77,7 +77,8 @@ void declare_skirt(Command &command, ValveOptions &options) {
       command.value("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
                     [&options](const std::string &text) { options.skirt = parse_positive_finite(text, "--skirt"); });
   command
-      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches: .vtp, .vtu or .stl", options.wall)
+      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, as --surface reads it",
+            options.wall)
       ->needs(skirt);
 }
 
@@ -94,12 +95,20 @@ void declare_tolerance(Command &command, ValveOptions &options) {
                 });
 }
 
+CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
+  return command
+      .values("--surface", "FILE",
+              "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
+              "repeated, a leaflet a file",
+              [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
+      ->allow_extra_args(false);
+}
+
 // Declares the options of a surface from a file, and the options of any surface's triangles.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
-  CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
+  CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall"})
     surface->excludes(command.option(name));
   command
@@ -117,10 +126,12 @@ void declare_file(Command &command, ValveOptions &options) {
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
   command
-      .value("--time", "T", "Time at which to take the motion --surface FILE.pvd",
+      .value("--time", "T", "Time at which to take the motion of --surface",
              [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
       ->needs(surface);
-  command.positive("--period", "P", "Period of --surface FILE.pvd, or of --cycle (default none)", options.period);
+  command.positive("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step)
+      ->needs(surface);
+  command.positive("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period);
 }
 
 void declare_unit(Command &command, ValveOptions &options) {
@@ -268,7 +279,7 @@ void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
         "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
         "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
         "--period",  "--interpolation", "--prefix",        "--time",           "--skirt",          "--wall",
-        "--warp"})
+        "--warp",    "--time-step"})
     if (command.knows(name)) command.option(name)->excludes(all_of_it);
 }
 
@@ -416,8 +427,7 @@ void declare_states(Command command, StatesOptions &options) {
   declare_warp(command, options);
   declare_skirt(command, options);
   declare_tolerance(command, options);
-  CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+  CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name :
        {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
     surface->excludes(command.option(name));

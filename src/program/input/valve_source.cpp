@@ -9,6 +9,7 @@
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/input/face_faults.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/output/outputs.hpp"
@@ -173,16 +174,53 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
 
 void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
 
+namespace {
+
+bool moves(const std::string &file) {
+  const std::string ending = ending_of(file);
+  return ending == ".pvd" || ending == ".dat";
+}
+
+}  // namespace
+
+void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject) {
+  options.surface_files = files;
+  options.surface = files.front();
+  if (files.size() > 1) options.surface += " and " + std::to_string(files.size() - 1) + " more";
+  for (const std::string &file : files)
+    if (moves(file) != moves(files.front()))
+      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, the other one does not");
+}
+
+bool is_motion(const ValveOptions &options) {
+  return !options.surface_files.empty() && moves(options.surface_files.front());
+}
+
+std::vector<std::string> leaflets_of_files(const ValveOptions &options) {
+  std::vector<std::string> names;
+  if (options.surface_files.size() > 1)
+    for (const std::string &file : options.surface_files) names.push_back(std::filesystem::path(file).stem().string());
+  return names;
+}
+
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  const char *path = options.surface.c_str();
   const bool by_pieces = options.leaflets == "connected";
-  riis_vtk_surface *handle = nullptr;
   const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  const riis_status status = riis_vtk_surface_read(path, leaflets, &handle);
-  check_read(status, options.surface, Content::surface);
-  SurfaceFile file(handle);
+  SurfaceFile file;
+  for (const std::string &path : options.surface_files) {
+    riis_vtk_surface *handle = nullptr;
+    check_read(riis_vtk_surface_read(path.c_str(), leaflets, &handle), path, Content::surface);
+    SurfaceFile next(handle);
+    if (file)
+      check(riis_vtk_surface_append(file.get(), next.get()), path);
+    else
+      file = std::move(next);
+  }
   if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
+  riis_surface_arrays arrays;
+  check(riis_vtk_surface_get_arrays(file.get(), &arrays, sizeof arrays));
+  warn_of_faces(options.surface, arrays);
   seconds.read += stage.seconds();
   return file;
 }
@@ -206,9 +244,17 @@ namespace {
 Motion read_motion(const ValveOptions &options) {
   const bool by_pieces = options.leaflets == "connected";
   const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  riis_vtk_motion *handle = nullptr;
-  check(riis_vtk_motion_read_pvd(options.surface.c_str(), leaflets, &handle));
-  Motion motion(handle);
+  Motion motion;
+  for (const std::string &path : options.surface_files) {
+    riis_vtk_motion *handle = nullptr;
+    check(ending_of(path) == ".dat" ? riis_vtk_motion_read_frames(path.c_str(), options.time_step, leaflets, &handle)
+                                    : riis_vtk_motion_read_pvd(path.c_str(), leaflets, &handle));
+    Motion next(handle);
+    if (motion)
+      check(riis_vtk_motion_append(motion.get(), next.get()), path);
+    else
+      motion = std::move(next);
+  }
   if (by_pieces) check(riis_vtk_motion_number_pieces(motion.get()));
   return motion;
 }
@@ -224,6 +270,7 @@ Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motio
   riis_surface_arrays arrays;
   riis_keyframe_arrays frames;
   check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
+  warn_of_faces(options.surface, arrays);
   check(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
   frames.period = options.period;
   riis_keyframes *handle = nullptr;
@@ -232,11 +279,6 @@ Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motio
 }
 
 }  // namespace
-
-bool is_motion_file(const std::string &surface) {
-  const std::string ending = surface.substr(surface.size() - std::min<std::size_t>(surface.size(), 4));
-  return ending == ".pvd" || ending == ".PVD";
-}
 
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
@@ -273,8 +315,8 @@ const std::set<std::string> meshes_of_meshio = {".inp", ".su2", ".med"};
 // ParaView opens these. They hold blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti", ".vtr",
                                                   ".vts",  ".pvti", ".pvtr",  ".pvts",   ".plt", ".tec"};
-const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
-const std::set<std::string> surfaces_of_meshio = {".obj", ".off"};
+const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2"};
+const std::set<std::string> surfaces_of_meshio = {".off"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
 // Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
@@ -325,8 +367,11 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
              with_ending(path, "vtu");
     if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
     if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";
-    return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
+    const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
+    return is_surface ? "; --surface takes a surface" : "";
   }
+  // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
+  if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }

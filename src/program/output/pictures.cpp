@@ -80,8 +80,8 @@ void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOp
   check_view("--movie-view", options.series.movie_view, n_valves, valve);
 }
 
-std::vector<const char *> leaflet_names(const ValveOptions &options) {
-  if (!options.surface.empty()) return {};
+std::vector<std::string> leaflet_names(const ValveOptions &options) {
+  if (!options.surface.empty()) return leaflets_of_files(options);
   if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
     return {"right", "left", "non-coronary", "skirt"};
   if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
@@ -150,11 +150,10 @@ struct JoinedMarks {
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   if (valves.size() == 1 && !all.is_series()) {
-    for (const char *name : leaflet_names(valves[0].options())) texts.emplace_back(name);
-    return texts;
+    return leaflet_names(valves[0].options());
   }
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    const std::vector<const char *> names = leaflet_names(valves[valve].options());
+    const std::vector<std::string> names = leaflet_names(valves[valve].options());
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
     const int32_t n = n_leaflets_of(valves[valve].surface());
     for (int32_t leaflet = 0; leaflet < n; ++leaflet) {

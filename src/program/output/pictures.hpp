@@ -18,8 +18,9 @@
 
 namespace riis::program {
 
-// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
-std::vector<const char *> leaflet_names(const ValveOptions &options);
+// Returns the names of a valve's leaflets, or of the files if each leaflet has one. Returns no names for a single file, because
+// its leaflets only have numbers.
+std::vector<std::string> leaflet_names(const ValveOptions &options);
 
 // Returns a title such as "Mitral valve". For a file, the title is the base name.
 std::string title_of_valve(const ValveOptions &options);

@@ -192,6 +192,28 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
   });
 }
 
+RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
+                                                 riis_vtk_motion **motion) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(path, "path");
+    require(motion, "motion");
+    if (!(time_step > 0 && is_time(time_step))) refuse_argument("time_step is ", time_step, "; it must be above 0");
+    *motion = naming(path, [&] {
+      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics are in a .dat file");
+      return motion_of(frames_of_text(path, time_step, LeafletArray(leaflets), caught), {path});
+    });
+  });
+}
+
+RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other) {
+  return guarded([&](const CaughtOutput &) {
+    append_frames(require(motion, "motion")->frames, require(other, "other")->frames);
+    motion->files.insert(motion->files.end(), other->files.begin(), other->files.end());
+    motion->paths.clear();
+    for (const std::string &file : motion->files) motion->paths.push_back(file.c_str());
+  });
+}
+
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths) {
   return guarded([&](const CaughtOutput &) {
