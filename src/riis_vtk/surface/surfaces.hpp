@@ -87,9 +87,9 @@ Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
-// Reads the frames of svMultiPhysics: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu or .vtp
-// file beside it: NAME_motion_open.dat takes NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face. The times
-// are multiples of the time step, from 0.
+// Reads the frames of svMultiPhysics: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu or
+// .vtp file beside it: NAME_motion_open.dat takes NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face.
+// The times are multiples of the time step, from 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
