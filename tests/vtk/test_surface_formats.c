@@ -64,7 +64,7 @@ static void add_points(int is_binary, int is_big) {
 
 /* Vertices have several texture coordinates and normals, as a textured model has. Corners count from the start or the end. */
 static void write_obj(void) {
-  add_text("# a model\nmtllib model.mtl\no valve\nvt 0 0\nvt 0.5 1\nvn 0 0 1\n");
+  add_text("# a model in C:\\models\\\nmtllib model.mtl\no valve\nvt 0 0\nvt 0.5 1\nvn 0 0 1\n");
   for (int i = 0; i < n_vertices; ++i)
     add_text(i % 2 ? "v %.17g %.17g \\\n  %.17g\n" : "v %.17g %.17g %.17g 1\r\n", xyz[i][0], xyz[i][1], xyz[i][2]);
   const char *const forms[4] = {" %d", " %d/1", " %d/2/1", " %d//1"};

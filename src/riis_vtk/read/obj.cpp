@@ -34,16 +34,17 @@ class ObjFile {
   }
 
  private:
-  // Takes a statement from the text, without its comment. A backslash at the end of a line joins the next line to it.
+  // Takes a statement from the text. A backslash at the end of a line joins the next line to it, unless it is in a comment.
   std::string_view statement(std::string_view &text) {
     joined_.clear();
     for (;;) {
       std::string_view line = take_line(text);
+      line = line.substr(0, line.find('#'));
       while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
       const bool goes_on = !line.empty() && line.back() == '\\' && !text.empty();
-      if (!goes_on && joined_.empty()) return line.substr(0, line.find('#'));
+      if (!goes_on && joined_.empty()) return line;
       joined_.append(line.substr(0, line.size() - (goes_on ? 1 : 0))).append(" ");
-      if (!goes_on) return std::string_view(joined_).substr(0, joined_.find('#'));
+      if (!goes_on) return joined_;
     }
   }
 
