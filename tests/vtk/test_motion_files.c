@@ -337,7 +337,7 @@ TEST(test_frames) {
   for (int64_t i = 0; i < 3 * 2 * sheet_n_vertices; ++i) {
     double at[3], by[3];
     sheet_vertex(i % sheet_n_vertices, 0.5 * (double)(i / (2 * sheet_n_vertices)), at, by);
-    for (int k = 0; k < 3; ++k) assert_true(frames.xyz[3 * i + k] == at[k]);
+    for (int k = 0; k < 3; ++k) assert_true(((const double *)frames.xyz)[3 * i + k] == at[k]);
   }
   expect_fine(riis_vtk_motion_read_frames(scratch_path("flap_motion_open.dat"), 0.25, NULL, &other));
   expect_refused(riis_vtk_motion_append(motion, other), RIIS_INVALID_ARGUMENT,

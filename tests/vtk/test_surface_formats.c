@@ -19,9 +19,9 @@ static const char *const endings[n_kinds] = {"obj", "ply", "vtk", "vtk", "ply", 
 
 /* A triangle, a quad, a pentagon and a concave quad, over vertices on a slope. No coordinate fits single precision. */
 enum { n_vertices = 11, n_faces = 4, n_corners = 16 };
-static const int sizes[n_faces] = {3, 4, 5, 4}, corners[n_corners] = {0, 1, 2, 1, 3, 4, 2, 3, 5, 6, 7, 4, 8, 9, 10, 2};
-static const double plane[n_vertices][2] = {{0, 0}, {1, 0}, {0, 1},  {2, 0},    {1, 1},   {3, 0},
-                                            {4, 1}, {3, 2}, {-2, 1}, {-1, 0.2}, {-0.9, 1}};
+static const int sizes[n_faces] = {3, 4, 5, 4}, corners[n_corners] = {0, 1, 2, 1, 3, 4, 2, 3, 5, 6, 7, 4, 8, 9, 2, 10};
+static const double plane[n_vertices][2] = {{0, 0}, {1, 0}, {0, 1},  {2, 0},     {1, 1},   {3, 0},
+                                            {4, 1}, {3, 2}, {-2, 1}, {-1, -0.5}, {-1, 0.3}};
 static double xyz[n_vertices][3];
 /* The triangles that the faces become. The concave quad is cut from its second corner. */
 enum { n_triangles = 8 };
@@ -240,7 +240,9 @@ static size_t write_for_damage(int kind) {
     return 0;
   }
   bytes[n_bytes] = 0;
-  const char *const begin = strstr(bytes, !strcmp(endings[kind], "ply") ? "end_header\n" : "double\n");
+  const int is_vtk = !strcmp(endings[kind], "vtk");
+  if (is_vtk) n_bytes = (size_t)(strstr(bytes, "\nCELL_DATA") - bytes);
+  const char *const begin = strstr(bytes, is_vtk ? "double\n" : "end_header\n");
   return (size_t)(strchr(begin, '\n') + 1 - bytes);
 }
 
@@ -260,19 +262,9 @@ TEST(test_damaged_texts) {
         case 1:
           remove_bytes(at, length);
           break;
-        case 2: /* the last face names a vertex far away */
-          at = n_bytes - 1;
-          if (kind == OBJ || kind == PLY_TEXT) {
-            if (kind == PLY_TEXT) {
-              bytes[n_bytes] = 0;
-              at = (size_t)(strstr(bytes, " 1 0.5\n4 8") - bytes);
-            }
-            insert_text(at, "99999");
-          } else {
-            bytes[n_bytes] = 0;
-            at = (size_t)(strstr(bytes, "\nCELL_DATA") - 1 - bytes);
-            insert_text(at, "99999");
-          }
+        case 2: /* the last corner of the last face is a vertex far away */
+          bytes[n_bytes] = 0;
+          insert_text(kind == PLY_TEXT ? (size_t)(strstr(bytes, " 1 0.5\n1 2") - bytes) : n_bytes - 1, "99999");
           break;
         case 3: /* a cut before the last number; a cut .obj has vertices only */
           if (kind == OBJ) {
@@ -341,7 +333,7 @@ TEST(test_messages) {
   expect_file_error("h.ply", "solid x\n", "is not a PLY file");
   expect_file_error("a.vtk", VTK_START "POLYGONS 1 4\n3 0 1 3\n", "a.vtk: cell 0 names point 3 of 3");
   expect_file_error("b.vtk", VTK_START "POLYGONS 1 4\n3 0 1 2\nPOLYGONS 1 4\n3 0 1 2\n", "has POLYGONS twice");
-  expect_file_error("c.vtk", VTK_START "POLYGONS 1 99\n3 0 1 2\n", "POLYGONS with 95 numbers too many");
+  expect_file_error("c.vtk", VTK_START "POLYGONS 1 9\n3 0 1 2\n", "POLYGONS with 5 numbers too many");
   expect_file_error("d.vtk", VTK_START "LINES 1 3\n2 0 1\n", "holds 0 vertices and 1 lines; a surface has faces only");
   expect_file_error("e.vtk", VTK_START, "holds no cells (is it truncated?)");
 }

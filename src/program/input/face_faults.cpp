@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
 
@@ -60,10 +61,9 @@ class Pieces {
 };
 
 // Returns a number for each vertex. Vertices at equal positions have equal numbers.
-std::vector<std::int64_t> places_of(const riis_surface_arrays &arrays) {
-  const std::int64_t n = arrays.n_vertices;
-  const auto *const xyz = static_cast<const double *>(arrays.x);
-  const auto position = [&](std::int64_t i) {
+std::vector<std::int64_t> places_of(const riis_triangles &triangles) {
+  const std::int64_t n = triangles.n_vertices;
+  const auto position = [xyz = triangles.xyz](std::int64_t i) {
     return std::array<double, 3>{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
   };
   std::vector<std::int64_t> order(static_cast<std::size_t>(n)), places(static_cast<std::size_t>(n));
@@ -82,21 +82,20 @@ struct Faults {
 
 class FaceCheck {
  public:
-  explicit FaceCheck(const riis_surface_arrays &arrays)
-      : arrays_(arrays), ids_(static_cast<const std::int64_t *>(arrays.vertex_ids)), places_(places_of(arrays)) {}
+  explicit FaceCheck(const riis_triangles &triangles) : triangles_(triangles), places_(places_of(triangles)) {}
 
   Faults run() {
     const std::vector<std::int64_t> faces = different_faces();
     Faults faults;
-    faults.n_equal = arrays_.n_faces - view(faces).size();
-    Pieces pieces(arrays_.n_faces);
+    faults.n_equal = triangles_.n_triangles - view(faces).size();
+    Pieces pieces(triangles_.n_triangles);
     const std::vector<char> is_open = join_along_sides(faces, pieces);
 
     struct Piece {
       std::int64_t n_faces[2] = {0, 0};  // of each orientation
       bool is_open = false;
     };
-    std::vector<Piece> all(static_cast<std::size_t>(arrays_.n_faces));
+    std::vector<Piece> all(static_cast<std::size_t>(triangles_.n_triangles));
     for (const std::int64_t face : faces) {
       const auto [root, is_turned] = pieces.find(face);
       ++view(all)[root].n_faces[is_turned ? 1 : 0];
@@ -112,17 +111,15 @@ class FaceCheck {
 
  private:
   std::int64_t corner(std::int64_t face, std::int64_t k) const {
-    const std::int64_t n = arrays_.corners_per_face;
-    return view(places_)[ids_[n * face + k % n]];
+    return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
   }
 
   // Returns the faces without those that have the corners of an earlier face.
   std::vector<std::int64_t> different_faces() const {
-    using Key = std::array<std::int64_t, 4>;
+    using Key = std::array<std::int64_t, 3>;
     std::vector<std::pair<Key, std::int64_t>> sorted;
-    for (std::int64_t face = 0; face < arrays_.n_faces; ++face) {
-      Key key{-1, -1, -1, -1};
-      for (std::int64_t k = 0; k < arrays_.corners_per_face; ++k) view(key)[k] = corner(face, k);
+    for (std::int64_t face = 0; face < triangles_.n_triangles; ++face) {
+      Key key{corner(face, 0), corner(face, 1), corner(face, 2)};
       std::sort(key.begin(), key.end());
       sorted.emplace_back(key, face);
     }
@@ -138,14 +135,13 @@ class FaceCheck {
   std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
     std::vector<Side> sides;
     for (const std::int64_t face : faces)
-      for (std::int64_t k = 0; k < arrays_.corners_per_face; ++k) {
+      for (std::int64_t k = 0; k < 3; ++k) {
         const std::int64_t from = corner(face, k), to = corner(face, k + 1);
-        const std::int32_t leaflet = arrays_.leaflet_id ? arrays_.leaflet_id[face] : 0;
-        if (from != to) sides.push_back({std::min(from, to), std::max(from, to), face, from < to, leaflet});
+        sides.push_back({std::min(from, to), std::max(from, to), face, from < to, triangles_.leaflet_id[face]});
       }
     const auto edge = [](const Side &side) { return std::tie(side.a, side.b, side.leaflet); };
     std::sort(sides.begin(), sides.end(), [&](const Side &s, const Side &t) { return edge(s) < edge(t); });
-    std::vector<char> is_open(static_cast<std::size_t>(arrays_.n_faces), 0);
+    std::vector<char> is_open(static_cast<std::size_t>(triangles_.n_triangles), 0);
     for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
       while (end < sides.size() && edge(sides[end]) == edge(sides[i])) ++end;
       if (end == i + 1) view(is_open)[sides[i].face] = 1;
@@ -154,22 +150,22 @@ class FaceCheck {
     return is_open;
   }
 
-  const riis_surface_arrays &arrays_;
-  const std::int64_t *ids_;
+  const riis_triangles &triangles_;
   std::vector<std::int64_t> places_;
 };
 
 }  // namespace
 
-void warn_of_faces(const std::string &name, const riis_surface_arrays &arrays) {
-  const Faults faults = FaceCheck(arrays).run();
+void warn_of_faces(const std::string &name, const riis_surface *surface) {
+  const riis_triangles triangles = triangles_of(surface);
+  const Faults faults = FaceCheck(triangles).run();
   if (faults.n_turned > 0)
-    warn(name + ": " + grouped(faults.n_turned) + " of " + counted(arrays.n_faces, "face") +
+    warn(name + ": " + grouped(faults.n_turned) + " of " + counted(triangles.n_triangles, "triangle") +
          (faults.n_turned == 1 ? " is" : " are") +
          " turned over against the others: normals and side change there; ParaView's filter Surface Normals turns them "
          "back");
   if (faults.n_equal > 0)
-    warn(name + ": " + counted(faults.n_equal, "face") + (faults.n_equal == 1 ? " is" : " are") +
+    warn(name + ": " + counted(faults.n_equal, "triangle") + (faults.n_equal == 1 ? " is" : " are") +
          " in the file twice: areas count both");
   if (faults.n_closed > 0)
     warn(name + ": " + counted(faults.n_closed, "piece") + (faults.n_closed == 1 ? " is" : " are") +

@@ -218,17 +218,16 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
       file = std::move(next);
   }
   if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
-  riis_surface_arrays arrays;
-  check(riis_vtk_surface_get_arrays(file.get(), &arrays, sizeof arrays));
-  warn_of_faces(options.surface, arrays);
   seconds.read += stage.seconds();
   return file;
 }
 
 Surface make_surface(const ValveSource &source, FileVelocity velocity) {
   if (source.keyframes) return surface_of_keyframes(source.options, source.keyframes.get());
-  return source.valve ? surface_of_valve(source.options, source.valve.get())
-                      : surface_of_file(source.options, source.file.get(), velocity);
+  if (source.valve) return surface_of_valve(source.options, source.valve.get());
+  Surface surface = surface_of_file(source.options, source.file.get(), velocity);
+  warn_of_faces(source.options.surface, surface.get());
+  return surface;
 }
 
 int64_t count_leaflets(const riis_surface *surface) {
@@ -270,7 +269,6 @@ Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motio
   riis_surface_arrays arrays;
   riis_keyframe_arrays frames;
   check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
-  warn_of_faces(options.surface, arrays);
   check(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
   frames.period = options.period;
   riis_keyframes *handle = nullptr;
@@ -300,6 +298,7 @@ Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *
   riis_surface *surface = nullptr;
   check(riis_surface_create_from_keyframes(keyframes, *options.time, 0, &options.surface_options, &surface),
         options.surface);
+  warn_of_faces(options.surface, surface);
   return Surface(surface);
 }
 
