@@ -207,10 +207,16 @@ RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_s
 
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other) {
   return guarded([&](const CaughtOutput &) {
-    append_frames(require(motion, "motion")->frames, require(other, "other")->frames);
-    motion->files.insert(motion->files.end(), other->files.begin(), other->files.end());
-    motion->paths.clear();
-    for (const std::string &file : motion->files) motion->paths.push_back(file.c_str());
+    require(motion, "motion");
+    require(other, "other");
+    std::vector<std::string> files = motion->files;
+    files.insert(files.end(), other->files.begin(), other->files.end());
+    std::vector<const char *> paths;
+    for (const std::string &file : files) paths.push_back(file.c_str());
+    append_frames(motion->frames, other->frames);
+    // The texts keep their places while the list of files moves.
+    motion->files = std::move(files);
+    motion->paths = std::move(paths);
   });
 }
 
