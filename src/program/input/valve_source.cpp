@@ -360,7 +360,8 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
-    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+    // meshio 5.3 fails to write the names of MED's groups to a .vtu.
+    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0)
       return "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., " +
              with_ending(path, "vtu");
