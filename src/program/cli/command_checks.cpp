@@ -27,6 +27,8 @@ void check_opening(const ValveOptions &options) {
 
 // Derives the scale and the default half thickness from the units.
 void finish_units(ValveOptions &options) {
+  if (options.surface_files.size() > 1 && !options.leaflets.empty())
+    refuse_usage("--leaflets has no effect with several files: each file is a leaflet");
   const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
   if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
     refuse_usage("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
@@ -41,13 +43,15 @@ void finish_units(ValveOptions &options) {
 
 // Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
-  const bool is_motion = is_motion_file(options.surface);
-  if (is_motion && !options.time && options.series.times.empty())
+  const bool moves = is_motion(options);
+  if (moves && !options.time && options.series.times.empty())
     refuse_usage("--surface " + options.surface + " is a motion: it needs --time T");
-  if (!is_motion && options.time)
-    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
-  if (command.has("--period") && !is_motion && options.series.cycle.empty())
+  if (!moves && options.time)
+    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
+  if (command.has("--period") && !moves && options.series.cycle.empty())
     refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
+  if (command.knows("--time-step") && command.has("--time-step") && !moves)
+    refuse_usage("--time-step needs a motion, --surface FILE.dat");
 }
 
 void check_open_state(const ValveOptions &options) {
@@ -72,8 +76,8 @@ void check_series(const Command &command, const MarkOptions &options) {
   }
   if (!options.surface.empty()) {
     if (!series.cycle.empty()) refuse_usage("--cycle has no effect with --surface");
-    if (!is_motion_file(options.surface))
-      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+    if (!is_motion(options))
+      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
     return;
   }
   if (series.cycle.empty()) refuse_usage("--times needs --cycle, the valve's opening in time");

@@ -94,7 +94,8 @@ void declare_shape(Command &command, ValveOptions &options) {
       command.parsed("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
                      options.skirt, parse_positive_finite);
   command
-      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches: .vtp, .vtu or .stl", options.wall)
+      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, as --surface reads it",
+            options.wall)
       ->needs(skirt);
 }
 
@@ -110,12 +111,20 @@ void declare_leaflets(Command &command, CLI::Option *surface, ValveOptions &opti
       ->needs(surface);
 }
 
+CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
+  return command
+      .values("--surface", "FILE",
+              "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
+              "repeated, a leaflet a file",
+              [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
+      ->allow_extra_args(false);
+}
+
 // Declares the options of a surface from a file, and the options of any surface's triangles.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
-  CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
+  CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall"})
     surface->excludes(command.option(name));
   declare_leaflets(command, surface, options);
@@ -129,9 +138,13 @@ void declare_file(Command &command, ValveOptions &options) {
   command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
-  command.parsed("--time", "T", "Time at which to take the motion --surface FILE.pvd", options.time, parse_number)
+  command.parsed("--time", "T", "Time at which to take the motion of --surface", options.time, parse_number)
       ->needs(surface);
-  command.parsed("--period", "P", "Period of --surface FILE.pvd, or of --cycle (default none)", options.period,
+  command
+      .parsed("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step,
+              parse_positive)
+      ->needs(surface);
+  command.parsed("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period,
                  parse_positive);
 }
 
@@ -270,7 +283,7 @@ void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
         "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
         "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
         "--period",  "--interpolation", "--prefix",        "--time",           "--skirt",          "--wall",
-        "--warp"})
+        "--warp",    "--time-step"})
     if (command.knows(name)) command.option(name)->excludes(all_of_it);
 }
 
@@ -417,8 +430,7 @@ void declare_states(Command command, StatesOptions &options) {
   declare_valve(command, options);
   declare_shape(command, options);
   declare_tolerance(command, options);
-  CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+  CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name :
        {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
     surface->excludes(command.option(name));

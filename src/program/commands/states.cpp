@@ -71,7 +71,7 @@ class Measured {
     MarkOptions as_file;
     static_cast<ValveOptions &>(as_file) = options;
     ValveSource source{as_file, nullptr, nullptr};
-    if (is_motion_file(options.surface)) {
+    if (is_motion(options)) {
       KeyframeFiles read = read_keyframes(options, seconds);
       times_ = std::move(read.times);
       source.options.time = times_.front();
@@ -143,7 +143,7 @@ bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const s
 }
 
 std::vector<std::string> names_of_leaflets(const StatesOptions &options, const std::vector<riis_leaflet> &leaflets) {
-  const std::vector<const char *> known = leaflet_names(options);
+  const std::vector<std::string> known = leaflet_names(options);
   std::vector<std::string> names;
   for (const riis_leaflet &leaflet : leaflets) {
     const auto at = static_cast<std::size_t>(leaflet.leaflet_id);

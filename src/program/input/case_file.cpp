@@ -23,9 +23,10 @@ namespace {
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
                                             "resistance", "times", "valves",         "check_leaks"};
 const std::vector<std::string> valve_keys = {
-    "name",           "valve",          "surface",       "leaflets",     "parameters", "open_parameters", "opening",
-    "half_thickness", "resistance",     "scale",         "surface_unit", "rotate",     "translate",       "tolerance",
-    "flip_normals",   "skip_zero_area", "triangulation", "period",       "warp",       "skirt",           "wall"};
+    "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
+    "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
+    "translate", "tolerance",      "flip_normals", "skip_zero_area", "triangulation", "period",
+    "warp",      "skirt",          "wall",         "time_step"};
 
 class CaseReader {
  public:
@@ -87,6 +88,19 @@ class CaseReader {
     return all_.files.back();
   }
 
+  // Returns the paths that a key gives, as one text or as an array of texts.
+  std::vector<std::string> files_of(const CaseValues &values, const char *key) {
+    if (!values.needed(key).is_array()) return {file_of(values, key)};
+    std::vector<std::string> files;
+    for (const Json &item : values.needed(key)) {
+      if (!item.is_string() || item.get<std::string>().empty()) values.refuse(key, item.dump() + " is not a path");
+      files.push_back(in_folder(item.get<std::string>()));
+    }
+    if (files.empty()) values.refuse(key, "it names no file");
+    all_.files.insert(all_.files.end(), files.begin(), files.end());
+    return files;
+  }
+
   std::string in_folder(const std::string &path) const {
     return (std::filesystem::path(path_).parent_path() / path).string();
   }
@@ -98,8 +112,10 @@ class CaseReader {
     options.prefix = name_of(values, n_valves);
     if (n_valves > 1) values.set_subject("valve \"" + options.prefix + "\"");
     source.subject = values.subject();
-    options.surface = file_of(values, "surface");
+    if (values.has("surface")) set_surface(options, files_of(values, "surface"), source.subject);
     options.leaflets = values.text("leaflets");
+    if (options.surface_files.size() > 1 && !options.leaflets.empty())
+      values.refuse("leaflets", "it has no effect, because each of several files is a leaflet");
     options.valve = values.text("valve");
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
@@ -167,7 +183,7 @@ class CaseReader {
   }
 
   void make_valve_of(const CaseValues &values, ValveSource &source) {
-    for (const char *key : {"leaflets", "skip_zero_area", "period"})
+    for (const char *key : {"leaflets", "skip_zero_area", "period", "time_step"})
       if (values.has(key)) values.refuse(key, "it needs \"surface\"");
     const std::string &kind = source.options.valve;
     if (is_valve_file(kind) && values.has("open_parameters"))
@@ -229,11 +245,13 @@ class CaseReader {
     for (const char *key :
          {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
-    if (is_motion_file(source.options.surface)) {
+    if (is_motion(source.options)) {
       if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
       source.options.period = values.above_zero("period").value_or(0);
-    } else if (values.has("period")) {
-      values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
+      source.options.time_step = values.above_zero("time_step").value_or(1);
+    } else {
+      for (const char *key : {"period", "time_step"})
+        if (values.has(key)) values.refuse(key, "it needs a \"surface\" that moves, a .pvd or .dat file");
     }
   }
 
@@ -349,7 +367,7 @@ void read_surfaces(Case &all) {
   for (ValveSource &source : all.valves) {
     const MarkOptions &options = source.options;
     if (source.valve || source.file || source.keyframes) continue;
-    if (!is_motion_file(options.surface)) {
+    if (!is_motion(options)) {
       source.file = read_surface(options, all.seconds);
       continue;
     }

@@ -174,10 +174,14 @@ std::vector<std::string> data_files_of(const std::string &path) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
     if (begin == std::string::npos) continue;
     text = text.substr(begin, end + 1 - begin);
-    const std::string name = text.substr(0, text.find(":/"));  // a dataset may follow the file
-    const fs::path place = fs::path(path).parent_path() / name;
-    std::error_code error;
-    if (fs::is_regular_file(place, error)) found.push_back(place.string());
+    // A dataset may follow the file: FILE.h5:/DATASET, or without "/".
+    for (const char *separator : {":/", ":"}) {
+      const fs::path place = fs::path(path).parent_path() / text.substr(0, text.find(separator));
+      std::error_code error;
+      if (!fs::is_regular_file(place, error)) continue;
+      found.push_back(place.string());
+      break;
+    }
   }
   return found;
 }

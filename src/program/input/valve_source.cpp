@@ -9,6 +9,7 @@
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/input/face_faults.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"
 
@@ -185,24 +186,62 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
 
 void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
 
+namespace {
+
+bool moves(const std::string &file) {
+  const std::string ending = ending_of(file);
+  return ending == ".pvd" || ending == ".dat";
+}
+
+}  // namespace
+
+void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject) {
+  options.surface_files = files;
+  options.surface = files.front();
+  if (files.size() > 1) options.surface += " and " + std::to_string(files.size() - 1) + " more";
+  for (const std::string &file : files)
+    if (moves(file) != moves(files.front()))
+      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, the other one does not");
+}
+
+bool is_motion(const ValveOptions &options) {
+  return !options.surface_files.empty() && moves(options.surface_files.front());
+}
+
+std::vector<std::string> leaflets_of_files(const ValveOptions &options) {
+  std::vector<std::string> names;
+  if (options.surface_files.size() > 1)
+    for (const std::string &file : options.surface_files) names.push_back(std::filesystem::path(file).stem().string());
+  return names;
+}
+
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  SurfaceFile file = read_surface_file(options.surface, array_of_leaflets(options));
+  SurfaceFile file;
+  for (const std::string &path : options.surface_files) {
+    SurfaceFile next = read_surface_file(path, array_of_leaflets(options));
+    if (file)
+      check(riis_vtk_surface_append(file.get(), next.get()), path);
+    else
+      file = std::move(next);
+  }
   if (options.leaflets == "connected") check(riis_vtk_surface_number_pieces(file.get()));
   seconds.read += stage.seconds();
   return file;
 }
 
 Surface make_surface(const ValveSource &source, FileVelocity velocity) {
-  if (source.keyframes)
-    return create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes, source.keyframes,
-                               *source.options.time, 0, &source.options.surface_options);
-  return source.valve ? surface_of_valve(source.options, source.valve)
-                      : surface_of_file(source.options, source.file.get(), velocity);
+  if (source.valve) return surface_of_valve(source.options, source.valve);
+  Surface surface = source.keyframes
+                        ? create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes,
+                                              source.keyframes, *source.options.time, 0, &source.options.surface_options)
+                        : surface_of_file(source.options, source.file.get(), velocity);
+  warn_of_faces(source.options.surface, surface);
+  return surface;
 }
 
-std::vector<const char *> leaflet_names(const ValveOptions &options) {
-  if (!options.surface.empty()) return {};
+std::vector<std::string> leaflet_names(const ValveOptions &options) {
+  if (!options.surface.empty()) return leaflets_of_files(options);
   if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
     return {"right", "left", "non-coronary", "skirt"};
   if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
@@ -218,12 +257,29 @@ int64_t count_leaflets(const riis_surface *surface) {
 
 // ---- Motion ----
 
-bool is_motion_file(const std::string &surface) { return has_ending(surface, ".pvd"); }
+namespace {
+
+Motion read_motion(const ValveOptions &options) {
+  Motion motion;
+  for (const std::string &path : options.surface_files) {
+    const char *const leaflets = array_of_leaflets(options);
+    auto next = ending_of(path) == ".dat"
+                    ? create<Motion>(riis_vtk_motion_read_frames, path.c_str(), options.time_step, leaflets)
+                    : create<Motion>(riis_vtk_motion_read_pvd, path.c_str(), leaflets);
+    if (motion)
+      check(riis_vtk_motion_append(motion, next), path);
+    else
+      motion = std::move(next);
+  }
+  if (options.leaflets == "connected") check(riis_vtk_motion_number_pieces(motion));
+  return motion;
+}
+
+}  // namespace
 
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  const auto motion = create<Motion>(riis_vtk_motion_read_pvd, options.surface.c_str(), array_of_leaflets(options));
-  if (options.leaflets == "connected") check(riis_vtk_motion_number_pieces(motion));
+  const Motion motion = read_motion(options);
   seconds.read += stage.seconds();
   int64_t n_files = 0;
   const char *const *paths = nullptr;
@@ -248,8 +304,8 @@ const std::set<std::string> meshes_of_meshio = {".inp", ".su2", ".med"};
 // ParaView opens these. They hold blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti", ".vtr",
                                                   ".vts",  ".pvti", ".pvtr",  ".pvts",   ".plt", ".tec"};
-const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
-const std::set<std::string> surfaces_of_meshio = {".obj", ".off"};
+const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2"};
+const std::set<std::string> surfaces_of_meshio = {".off"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
 // Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
@@ -294,14 +350,18 @@ std::string conversion_hint(const std::string &path, Content wanted, const std::
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
-    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+    // meshio 5.3 fails to write the names of MED's groups to a .vtu.
+    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0)
       return "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., " +
              with_ending(path, "vtu");
     if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
     if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";
-    return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
+    const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
+    return is_surface ? "; --surface takes a surface" : "";
   }
+  // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
+  if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }

@@ -67,6 +67,10 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
 // Checks the status of reading a mesh. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
 void check_mesh_read(riis_status status, const std::string &path);
+// Takes the files of --surface. Several files are one valve, and each file is a leaflet. `subject` begins refusals.
+void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject);
+// Returns the names of the leaflets of several files, which are the names of the files. Returns none for one file.
+std::vector<std::string> leaflets_of_files(const ValveOptions &options);
 // Reads the surface of --surface, with its --leaflets.
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
@@ -75,16 +79,17 @@ enum class FileVelocity { none, zero };
 // Makes the surface. A motion gives it the place at options.time, with velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
-// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
-std::vector<const char *> leaflet_names(const ValveOptions &options);
+// Returns the names of a valve's leaflets, or of the files if each leaflet has one. Returns no names for a single file, because
+// its leaflets only have numbers.
+std::vector<std::string> leaflet_names(const ValveOptions &options);
 int64_t count_leaflets(const riis_surface *surface);
 
-// --surface FILE.pvd: the surface of a motion given by frames.
+// --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.
 
-// Returns whether --surface is a motion, which ends in .pvd.
-bool is_motion_file(const std::string &surface);
+// Returns whether --surface is a motion. Its files end in .pvd or .dat.
+bool is_motion(const ValveOptions &options);
 
-// The motion of --surface FILE.pvd, the paths of the files with its frames, and their times.
+// The motion of --surface, the paths of the files with its frames, and their times.
 struct KeyframeFiles {
   Keyframes keyframes;
   std::vector<std::string> files;

@@ -59,7 +59,7 @@ void sweep_openings(const ValveOptions &options, riis_valve *valve, CrossingRepo
 }
 
 std::string leaflet_text(const ValveOptions &options, int32_t leaflet) {
-  const std::vector<const char *> names = leaflet_names(options);
+  const std::vector<std::string> names = leaflet_names(options);
   const auto at = static_cast<std::size_t>(leaflet);
   return at < names.size() ? names[at] : std::to_string(leaflet);
 }

@@ -69,12 +69,13 @@ struct NamedFile {
 using NamedFiles = std::vector<NamedFile>;
 
 NamedFiles inputs_of(const ValveOptions &options) {
-  return {{"--surface", options.surface},
-          {"--params", options.params},
-          {"--params-open", options.params_open},
-          {"--wall", options.wall},
-          {"--warp", options.warp},
-          {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
+  NamedFiles inputs = {{"--params", options.params},
+                       {"--params-open", options.params_open},
+                       {"--wall", options.wall},
+                       {"--warp", options.warp},
+                       {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
+  for (const std::string &path : options.surface_files) inputs.push_back({"--surface", path});
+  return inputs;
 }
 
 NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> &more_inputs) {

@@ -129,11 +129,10 @@ struct JoinedMarks {
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   if (valves.size() == 1 && !all.is_series()) {
-    for (const char *name : leaflet_names(valves[0].options())) texts.emplace_back(name);
-    return texts;
+    return leaflet_names(valves[0].options());
   }
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    const std::vector<const char *> names = leaflet_names(valves[valve].options());
+    const std::vector<std::string> names = leaflet_names(valves[valve].options());
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
     const int32_t n = n_leaflets_of(valves[valve].surface());
     for (int32_t leaflet = 0; leaflet < n; ++leaflet) {

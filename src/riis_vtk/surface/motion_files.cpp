@@ -143,6 +143,34 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
   });
 }
 
+RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
+                                                 riis_vtk_motion **motion) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(path, "path");
+    require(motion, "motion");
+    if (!(time_step > 0 && is_time(time_step))) refuse_argument("time_step is ", time_step, "; it must be above 0");
+    *motion = naming(path, [&] {
+      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics are in a .dat file");
+      return motion_of(frames_of_text(path, time_step, LeafletArray(leaflets), caught), {path});
+    });
+  });
+}
+
+RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other) {
+  return guarded([&](const CaughtOutput &) {
+    require(motion, "motion");
+    require(other, "other");
+    std::vector<std::string> files = motion->files;
+    files.insert(files.end(), other->files.begin(), other->files.end());
+    std::vector<const char *> paths;
+    for (const std::string &file : files) paths.push_back(file.c_str());
+    append_frames(motion->frames, other->frames);
+    // The texts keep their places while the list of files moves.
+    motion->files = std::move(files);
+    motion->paths = std::move(paths);
+  });
+}
+
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths) {
   return guarded([&](const CaughtOutput &) {
