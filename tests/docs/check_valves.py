@@ -26,7 +26,8 @@ MOST_ABOVE = 0.0051 if COUNT == 101 else 0.02  # of a least ratio
 
 def measured(program, folder, arguments):
     """Returns the least ratio of a free edge to its closed length, and the last orifice."""
-    run = subprocess.run([program, "states", "-", "--count", str(COUNT), *arguments], cwd=folder, capture_output=True, text=True, check=True)
+    command = [program, "states", "-", "--count", str(COUNT), *arguments]
+    run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True)
     rows = list(csv.DictReader(io.StringIO(run.stdout)))
     assert len(rows) == COUNT, len(rows)
     edges = [float(value) for row in rows for name, value in row.items() if name.endswith("_edge_ratio")]
