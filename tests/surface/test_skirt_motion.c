@@ -7,6 +7,7 @@
 
 #include "handles.h"
 #include "moving_surfaces.h"
+#include "sanitized.h"
 #include "shapes.h"
 #include "smooth_motion.h"
 #include "velocity_bound.h"
@@ -228,6 +229,7 @@ TEST(skirts_have_the_velocity_of_their_points) {
     for (int fixed = 0; fixed < 2; ++fixed) {
       double worst[n_motions] = {0};
       for (int motion = 0; motion < n_motions; ++motion) {
+        if (is_sanitized() && motion != (kind + 2 * fixed) % n_motions) continue;
         const int owned_before = n_owned();
         const double seconds = 0.01;
         state_of_skirt then, now;
