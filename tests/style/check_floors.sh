@@ -17,14 +17,15 @@ complain() {
   failed=1
 }
 
-# floor_of PRODUCT FOLDER: prints the position of a folder among the floors of a product, or fails.
+# floor_of PRODUCT FOLDER: sets `position` to the position of a folder among the floors of a product, or complains and fails.
 floor_of() {
-  local floor i=0
+  local floor
+  position=0
   for floor in ${floors[$1]}; do
-    [[ $floor != "$2" ]] || { echo "$i"; return; }
-    i=$((i + 1))
+    [[ $floor != "$2" ]] || return 0
+    position=$((position + 1))
   done
-  echo "src/$1/$2 is no floor: check_floors.sh has the list" >&2
+  complain "src/$1/$2 is no floor: check_floors.sh has the list"
   return 1
 }
 
@@ -56,17 +57,18 @@ done
 
 # check_floors PRODUCT: the includes of its floors. Paths of riis begin with the floor, and paths of riis_vtk with the product.
 check_floors() {
-  local folder own other file line first second included
+  local folder own position file line first second included
   for folder in "$1"/*/; do
     folder=$(basename "$folder")
-    own=$(floor_of "$1" "$folder") || { failed=1; continue; }
+    floor_of "$1" "$folder" || continue
+    own=$position
     while read -r file line first second; do
       n=$((n + 1))
       [[ $first != common ]] || continue
       included=$first
       [[ $1 == riis ]] || included=$second
-      other=$(floor_of "$1" "$included") || { failed=1; continue; }
-      ((other <= own)) || complain "src/$file:$line includes src/$1/$included, a floor above src/$1/$folder"
+      floor_of "$1" "$included" || continue
+      ((position <= own)) || complain "src/$file:$line includes src/$1/$included, a floor above src/$1/$folder"
     done < <(includes_of "$1/$folder")
   done
 }
