@@ -96,12 +96,16 @@ void declare_tolerance(Command &command, ValveOptions &options) {
 }
 
 CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
-  return command
-      .values("--surface", "FILE",
-              "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
-              "repeated, a leaflet a file",
-              [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
-      ->allow_extra_args(false);
+  CLI::Option *const surface =
+      command
+          .values("--surface", "FILE",
+                  "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
+                  "repeated, a leaflet a file",
+                  [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
+          ->allow_extra_args(false);
+  command.positive("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step)
+      ->needs(surface);
+  return surface;
 }
 
 // Declares the options of a surface from a file, and the options of any surface's triangles.
@@ -128,8 +132,6 @@ void declare_file(Command &command, ValveOptions &options) {
   command
       .value("--time", "T", "Time at which to take the motion of --surface",
              [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
-      ->needs(surface);
-  command.positive("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step)
       ->needs(surface);
   command.positive("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period);
 }
