@@ -172,6 +172,11 @@ TEST(test_exported_motion) {
   }
   RUN_FINE("mark", scratch_path("in.vtu"), THREE_FILES, "--time-step", "0.02", "--times", "0,0.03,0.1",
            "--half-thickness", "0.2", "--quiet", "--output", scratch_path("series.pvd"));
+  run_program("states", scratch_path("states.csv"), THREE_FILES, "--time-step", "0.02", NULL);
+  assert_int_equal(program_exit_code, 0);
+  assert_non_null(strstr(program_out, "non_coronary_open"));
+  RUN_REFUSED(2, "--time-step needs a motion, --surface FILE.dat", "states", scratch_path("states.csv"), "--surface",
+              scratch_path("squares.stl"), "--time-step", "0.02");
   RUN_REFUSED(2, "--time-step needs a motion, --surface FILE.dat", "mark", scratch_path("in.vtu"), "--surface",
               scratch_path("squares.stl"), "--time-step", "0.02");
 }

@@ -25,10 +25,14 @@ void check_opening(const ValveOptions &options) {
   if (options.opening && has_set_opening(options)) refuse_usage("--opening and --set opening exclude each other");
 }
 
-// Derives the scale and the default half thickness from the units.
-void finish_units(ValveOptions &options) {
+void check_surface_files(const Command &command, const ValveOptions &options) {
   if (options.surface_files.size() > 1 && !options.leaflets.empty())
     refuse_usage("--leaflets has no effect with several files: each file is a leaflet");
+  if (command.has("--time-step") && !is_motion(options)) refuse_usage("--time-step needs a motion, --surface FILE.dat");
+}
+
+// Derives the scale and the default half thickness from the units.
+void finish_units(ValveOptions &options) {
   const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
   if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
     refuse_usage("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
@@ -43,6 +47,7 @@ void finish_units(ValveOptions &options) {
 
 // Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
 void check_motion(const Command &command, const MarkOptions &options) {
+  check_surface_files(command, options);
   const bool moves = is_motion(options);
   if (moves && !options.time && options.series.times.empty())
     refuse_usage("--surface " + options.surface + " is a motion: it needs --time T");
@@ -50,8 +55,6 @@ void check_motion(const Command &command, const MarkOptions &options) {
     refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
   if (command.has("--period") && !moves && options.series.cycle.empty())
     refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
-  if (command.knows("--time-step") && command.has("--time-step") && !moves)
-    refuse_usage("--time-step needs a motion, --surface FILE.dat");
 }
 
 void check_open_state(const ValveOptions &options) {
@@ -172,6 +175,7 @@ SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions opti
 }
 
 StatesOptions finish_states(const Command &command, StatesOptions options) {
+  check_surface_files(command, options);
   check_set_opening(options, "has no effect: the table has all openings");
   finish_valve(command, options);
   return options;

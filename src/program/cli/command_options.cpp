@@ -112,12 +112,18 @@ void declare_leaflets(Command &command, CLI::Option *surface, ValveOptions &opti
 }
 
 CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
-  return command
-      .values("--surface", "FILE",
-              "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
-              "repeated, a leaflet a file",
-              [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
-      ->allow_extra_args(false);
+  CLI::Option *const surface =
+      command
+          .values("--surface", "FILE",
+                  "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
+                  "repeated, a leaflet a file",
+                  [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
+          ->allow_extra_args(false);
+  command
+      .parsed("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step,
+              parse_positive)
+      ->needs(surface);
+  return surface;
 }
 
 // Declares the options of a surface from a file, and the options of any surface's triangles.
@@ -139,10 +145,6 @@ void declare_file(Command &command, ValveOptions &options) {
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
   command.parsed("--time", "T", "Time at which to take the motion of --surface", options.time, parse_number)
-      ->needs(surface);
-  command
-      .parsed("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step,
-              parse_positive)
       ->needs(surface);
   command.parsed("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period,
                  parse_positive);
