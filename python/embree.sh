@@ -101,7 +101,7 @@ cost() {
   else
     embree=("-Wl,--start-group" "$1"/lib/*.a "-Wl,--end-group")
   fi
-  c++ -shared -fopenmp -Wl,--gc-sections "-Wl,--version-script=$root/src/riis/riis.map" "${objects[@]}" "${embree[@]}" \
+  c++ -shared -fopenmp -Wl,--gc-sections "-Wl,--version-script=$2/src/riis/riis.map" "${objects[@]}" "${embree[@]}" \
     -ltbb -o "$work/own.so"
   cc -std=gnu11 -O2 -I "$root/include" "$root/python/tests/embree_cost.c" -o "$work/embree_cost" -lm
   "$work/embree_cost" "$(realpath -- "$library")" "$work/own.so"

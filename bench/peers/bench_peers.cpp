@@ -27,11 +27,8 @@
 #if defined(RIIS_WITH_CGAL)
 #include "shared/cgal_reference.hpp"
 #endif
-#if defined(RIIS_WITH_FCPW)
-#include "fcpw_reference.hpp"
-#endif
-#if defined(RIIS_WITH_OPENVDB)
-#include "openvdb_reference.hpp"
+#if defined(RIIS_WITH_FCPW) || defined(RIIS_WITH_OPENVDB)
+#include "peer_references.hpp"
 #endif
 #if defined(RIIS_WITH_VTK)
 #include "shared/vtk_reference.hpp"

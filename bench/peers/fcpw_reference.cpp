@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fcpw_reference.hpp"
+#include "peer_references.hpp"
 
 #include <fcpw/fcpw.h>
 

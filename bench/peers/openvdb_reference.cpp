@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "openvdb_reference.hpp"
+#include "peer_references.hpp"
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>

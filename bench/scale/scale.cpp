@@ -280,8 +280,7 @@ int run(int argc, char **argv) {
     const double low = pieces.z_of(0), high = pieces.z_of(pieces.shape()[2] * (side - 1));
     if (with_leaks)
       all.options.check_leaks = all.valves[0].options.check_leaks =
-          LeakCheck{{0, 0, std::max(info.lower[2] - 0.3, low)},
-                    {0, 0, std::min(info.upper[2] + 0.3, high)},
+          LeakCheck{{0, 0, std::max(info.lower[2] - 0.3, low), 0, 0, std::min(info.upper[2] + 0.3, high)},
                     "--between",
                     exit_wrong_usage};
   }

@@ -214,9 +214,9 @@ RIIS_API riis_status riis_vtk_mesh_get_sharing(const riis_vtk_mesh *mesh, int64_
 /* Triangles or quads read from a file. */
 typedef struct riis_vtk_surface riis_vtk_surface;
 
-/* Reads a surface. Polygons and strips are cut into triangles. Quads stay quads if the file has only quads.
- *   path      ends in .vtp (faces only), .vtu (triangles, quads, polygons, strips; errors name other cells) or
- *             .stl
+/* Reads a surface. Polygons, strips and quadratic faces are cut into triangles. Quads stay quads if the file has only quads.
+ *   path      ends in .vtp or .vtk (faces only), .vtu (faces, also quadratic; errors name other cells), .stl, .obj
+ *             or .ply
  *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must
  *             exist. NULL stands for riis_leaflet, which may be missing
  * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the list of its
@@ -227,6 +227,10 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflet
  * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as in
  * an .stl file. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
+/* Adds the faces of another surface, for a valve with a file for each leaflet. Each surface is one leaflet: the
+ * first one is leaflet 0, the one added first is leaflet 1, and so on. Other leaflet ids are lost. If only one of
+ * the surfaces has quads, these are cut. `other` stays. Arrays that the surface gave before become invalid. */
+RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other);
 /* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
 /* Gives the arrays of the surface, for riis_surface_create_from_arrays. They are valid until the surface is
@@ -285,6 +289,18 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
+/* Reads a motion from the frames of svMultiPhysics, which riis export writes: the positions of all nodes, frame by
+ * frame. The faces are in a .vtu or .vtp file beside it. NAME_motion_open.dat takes the file NAME_motion_open,
+ * NAME_motion or NAME, each also followed by _mesh or _face.
+ *   path       ends in .dat
+ *   time_step  above 0: the time from a frame to the next one. The first frame is at 0
+ * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
+RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
+                                                 riis_vtk_motion **motion);
+/* Adds the faces of another motion with the same times. Each motion is one leaflet, as in riis_vtk_surface_append.
+ * riis_vtk_motion_get_files then gives the files of both. `other` stays.
+ * Errors: RIIS_INVALID_ARGUMENT naming the frame with another time. */
+RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);
 /* Gives the files that were read: one for each frame, or the one file with displacements.
  *   paths  (n_files): the path as given, for a .pvd file after its folder; valid until the motion is destroyed */
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,

@@ -5,8 +5,6 @@
 
 #include <atomic>
 
-#include "log.hpp"
-
 namespace riis_python {
 namespace {
 

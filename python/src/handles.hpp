@@ -85,6 +85,8 @@ class Inside {
 
 // Refuses a call that the log function makes, because the library is then inside another call.
 void check_not_logging();
+// Returns whether the calling thread is inside the log function.
+bool is_in_log_function() noexcept;
 
 // Calls the library without the interpreter's lock, so that other Python threads can run meanwhile. Returns the call's status,
 // and the message if it failed.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "log.hpp"
+#include "errors.hpp"
+#include "module.hpp"
 
 namespace riis_python {
 namespace {

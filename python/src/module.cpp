@@ -2,7 +2,6 @@
 #include "module.hpp"
 
 #include "arguments.hpp"
-#include "log.hpp"
 
 NB_MODULE(_riis, module) {
   using namespace riis_python;

@@ -94,6 +94,7 @@ void add_method(nb::module_ &module, const char *type, const char *name, Functio
 void warp_as_pickled(nb::handle valve, nb::handle state);
 void add_warp(nb::module_ &module);
 
+void add_log(nb::module_ &module);
 void add_valve(nb::module_ &module);
 void add_keyframes(nb::module_ &module);
 void add_surface(nb::module_ &module);

@@ -249,18 +249,12 @@ void riisValve::estimateDrop() {
   check(riis_surface_update(surface_.get(), valve_.get(), &placement_));
   riis_mark_options options = markOptions_;
   options.fields = RIIS_FIELD_POINT | RIIS_FIELD_NORMAL | RIIS_FIELD_RIM;
-  riis_marks *marks = nullptr;
-  check(riis_marks_create(&marks));
-  const riisPtr<riis_marks> owned(marks);
-  check(riis_mark_nodes(surface_.get(), cells_.get(), &options, marks));
+  const riisPtr<riis_marks> marks = made<riis_marks>([&](riis_marks **to) { check(riis_marks_create(to)); });
+  check(riis_mark_nodes(surface_.get(), cells_.get(), &options, marks.get()));
   riis_mark_list list;
-  check(riis_marks_get_list(marks, RIIS_LIST_MARKED, &list, sizeof list));
-  scalarField K(mesh_.nCells(), 0);
-  riis_resistance_arrays arrays;
-  check(riis_resistance_arrays_init(&arrays, sizeof arrays));
-  arrays.n_nodes = K.size();
-  arrays.K = K.data();
-  check(riis_marks_add_resistance(marks, &resistance_, &arrays));
+  check(riis_marks_get_list(marks.get(), RIIS_LIST_MARKED, &list, sizeof list));
+  scalarField K(mesh_.nCells());
+  computeResistance(marks.get(), resistance_, check, K, nullptr);
   const labelList side = sidesOf(mesh_, K, list);
   if (!returnReduce(gMax(mag(scalarField(K))()) > 0 && side.found(-1), orOp<bool>())) {
     return without("blood passes the closed band in this mesh");

@@ -56,22 +56,14 @@ riisValve::riisValve(const word &name, const word &modelType, const dictionary &
   restart();
 
   copyValve();
-  const vectorField &centres = mesh_.cellCentres();
-  const double *xyz = centres.empty() ? nullptr : centres[0].cdata();
-  riis_mesh *cells = nullptr;
-  check(riis_mesh_create(centres.size(), xyz, xyz + 1, xyz + 2, 3, &cells));
-  cells_.reset(cells);
-  riis_marks *result = nullptr;
-  check(riis_marks_create(&result));
-  result_.reset(result);
+  placeCells(mesh_, check, cells_);
+  result_ = made<riis_marks>([&](riis_marks **to) { check(riis_marks_create(to)); });
   keepState();
 }
 
 void riisValve::copyValve() {
   check(riis_valve_set_scalar(valve_.get(), "opening", opening_));
-  riis_valve *before = nullptr;
-  check(riis_valve_copy(valve_.get(), &before));
-  before_.reset(before);
+  before_ = made<riis_valve>([&](riis_valve **to) { check(riis_valve_copy(valve_.get(), to)); });
 }
 
 void riisValve::readAll() {
@@ -121,9 +113,8 @@ void riisValve::readAll() {
   readWarp(coeffs_.subOrEmptyDict("warp"));
   follow();
   readLaw(coeffs_.subDict("opening"));
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve_.get(), &placement_, &surface), coeffs_);
-  surface_.reset(surface);
+  surface_ = made<riis_surface>(
+      [&](riis_surface **to) { check(riis_surface_create(valve_.get(), &placement_, to), coeffs_); });
 
   check(riis_mark_options_init(&markOptions_, sizeof markOptions_));
   markOptions_.n_threads = placement_.n_threads;
@@ -158,10 +149,8 @@ void riisValve::readWarp(const dictionary &dict) {
   check(riis_warp_options_init(&options, sizeof options));
   options.noise = dict.getOrDefault<scalar>("noise", 0);
   options.placement = &placementAtRest_;
-  riis_warp *warp = nullptr;
   const riis_points points = pointsOf(sources);
-  check(riis_warp_create(&points, &options, &warp), dict);
-  warp_.reset(warp);
+  warp_ = made<riis_warp>([&](riis_warp **to) { check(riis_warp_create(&points, &options, to), dict); });
   if (warpMoves_) {
     if (follow_) {
       FatalIOErrorInFunction(dict) << "the warp of valve " << name_
@@ -327,9 +316,7 @@ void riisValve::mark() {
   if (warpMoves_) check(riis_valve_set_warp(before_.get(), warp_.get(), nullptr));
   if (mesh_.changing()) {
     follow();
-    const vectorField &centres = mesh_.cellCentres();
-    const double *xyz = centres.empty() ? nullptr : centres[0].cdata();
-    check(riis_mesh_update(cells_.get(), centres.size(), xyz, xyz + 1, xyz + 2, 3));
+    placeCells(mesh_, check, cells_);
     if (hasSensors()) readSensors(coeffs_.subDict("opening"));
   }
 
@@ -393,12 +380,7 @@ void riisValve::writeLeaflets() const {
 }
 
 void riisValve::addSup(fvMatrix<vector> &eqn, const label) {
-  if (eqn.dimensions() != dimForce / dimDensity) {
-    FatalErrorInFunction << "valve " << name_ << " at time " << mesh_.time().timeName() << ": the equation of "
-                         << eqn.psi().name() << " has the dimensions " << eqn.dimensions()
-                         << ". riisValve is for equations divided by a constant "
-                         << "density, with the dimensions " << dimForce / dimDensity << exit(FatalError);
-  }
+  checkDimensions(eqn.dimensions(), eqn.psi().name(), name_, mesh_);
   if (timeIndex_ != mesh_.time().timeIndex()) {
     mark();
     timeIndex_ = mesh_.time().timeIndex();

@@ -17,60 +17,46 @@
 namespace Foam {
 
 class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
-  word phi_, U_;
-  scalar rho_, proximal_, distal_, compliance_, venous_;
-  scalar stored_, before_;  // p_c now and at the end of the last step, Pa
-  label timeIndex_;
+  struct Vessels {
+    word phi{"phi"}, U{"U"};
+    scalar rho = 1, proximal = 0, distal = 1, compliance = 1, venous = 0;
+    scalar stored = 0, before = 0;  // p_c now and at the end of the last step, Pa
+    label timeIndex = -1;
+  } vessels_;
 
  public:
   TypeName("riisWindkessel");
 
   riisWindkesselFvPatchScalarField(const fvPatch &patch, const DimensionedField<scalar, volMesh> &field)
-      : fixedValueFvPatchScalarField(patch, field),
-        phi_("phi"),
-        U_("U"),
-        rho_(1),
-        proximal_(0),
-        distal_(1),
-        compliance_(1),
-        venous_(0),
-        stored_(0),
-        before_(0),
-        timeIndex_(-1) {}
+      : fixedValueFvPatchScalarField(patch, field) {}
 
   riisWindkesselFvPatchScalarField(const fvPatch &patch, const DimensionedField<scalar, volMesh> &field,
                                    const dictionary &dict)
-      : fixedValueFvPatchScalarField(patch, field, dict, false),
-        phi_(dict.getOrDefault<word>("phi", "phi")),
-        U_(dict.getOrDefault<word>("U", "U")),
-        rho_(fv::positive(dict, "rho")),
-        proximal_(fv::positive(dict, "proximalResistance")),
-        distal_(fv::positive(dict, "distalResistance")),
-        compliance_(fv::positive(dict, "compliance")),
-        venous_(dict.getOrDefault<scalar>("venousPressure", 0)),
-        stored_(dict.get<scalar>("pressure")),
-        before_(stored_),
-        timeIndex_(-1) {
+      : fixedValueFvPatchScalarField(patch, field, dict, false) {
+    vessels_.phi = dict.getOrDefault<word>("phi", vessels_.phi);
+    vessels_.U = dict.getOrDefault<word>("U", vessels_.U);
+    vessels_.rho = fv::positive(dict, "rho");
+    vessels_.proximal = fv::positive(dict, "proximalResistance");
+    vessels_.distal = fv::positive(dict, "distalResistance");
+    vessels_.compliance = fv::positive(dict, "compliance");
+    vessels_.venous = dict.getOrDefault<scalar>("venousPressure", vessels_.venous);
+    vessels_.stored = vessels_.before = dict.get<scalar>("pressure");
     fv::refuseOthers(dict, {"type", "patchType", "value", "phi", "U", "rho", "proximalResistance", "distalResistance",
                             "compliance", "venousPressure", "pressure"});
     if (dict.found("value")) {
       fvPatchScalarField::operator=(scalarField("value", dict, patch.size()));
     } else {
-      fvPatchScalarField::operator=(stored_ / unit());
+      fvPatchScalarField::operator=(vessels_.stored / unit());
     }
   }
 
   riisWindkesselFvPatchScalarField(const riisWindkesselFvPatchScalarField &from, const fvPatch &patch,
                                    const DimensionedField<scalar, volMesh> &field, const fvPatchFieldMapper &mapper)
-      : fixedValueFvPatchScalarField(from, patch, field, mapper) {
-    copy(from);
-  }
+      : fixedValueFvPatchScalarField(from, patch, field, mapper), vessels_(from.vessels_) {}
 
   riisWindkesselFvPatchScalarField(const riisWindkesselFvPatchScalarField &from,
                                    const DimensionedField<scalar, volMesh> &field)
-      : fixedValueFvPatchScalarField(from, field) {
-    copy(from);
-  }
+      : fixedValueFvPatchScalarField(from, field), vessels_(from.vessels_) {}
 
   riisWindkesselFvPatchScalarField(const riisWindkesselFvPatchScalarField &from)
       : riisWindkesselFvPatchScalarField(from, from.internalField()) {}
@@ -84,16 +70,18 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
 
   void updateCoeffs() override {
     if (updated()) return;
+    Vessels &now = vessels_;
     const Time &time = db().time();
-    if (timeIndex_ != time.timeIndex()) {
-      timeIndex_ = time.timeIndex();
-      before_ = stored_;
+    if (now.timeIndex != time.timeIndex()) {
+      now.timeIndex = time.timeIndex();
+      now.before = now.stored;
     }
-    const scalarField &phi = patch().lookupPatchField<surfaceScalarField, scalar>(phi_);
-    const vectorField &U = patch().lookupPatchField<volVectorField, vector>(U_);
+    const scalarField &phi = patch().lookupPatchField<surfaceScalarField, scalar>(now.phi);
+    const vectorField &U = patch().lookupPatchField<volVectorField, vector>(now.U);
     const scalar flow = gSum(phi), dt = time.deltaTValue();
-    stored_ = (before_ + dt / compliance_ * (flow + venous_ / distal_)) / (1 + dt / (compliance_ * distal_));
-    operator==((stored_ + proximal_ * flow - 0.5 * rho_ * neg(phi) * magSqr(U)) / unit());
+    now.stored = (now.before + dt / now.compliance * (flow + now.venous / now.distal)) /
+                 (1 + dt / (now.compliance * now.distal));
+    operator==((now.stored + now.proximal * flow - 0.5 * now.rho * neg(phi) * magSqr(U)) / unit());
     fixedValueFvPatchScalarField::updateCoeffs();
   }
 
@@ -101,33 +89,21 @@ class riisWindkesselFvPatchScalarField : public fixedValueFvPatchScalarField {
   void write(Ostream &os) const override {
     fvPatchScalarField::write(os);
     const int digits = os.precision(17);
-    os.writeEntryIfDifferent<word>("phi", "phi", phi_);
-    os.writeEntryIfDifferent<word>("U", "U", U_);
-    os.writeEntry("rho", rho_);
-    os.writeEntry("proximalResistance", proximal_);
-    os.writeEntry("distalResistance", distal_);
-    os.writeEntry("compliance", compliance_);
-    os.writeEntry("venousPressure", venous_);
-    os.writeEntry("pressure", stored_);
+    os.writeEntryIfDifferent<word>("phi", "phi", vessels_.phi);
+    os.writeEntryIfDifferent<word>("U", "U", vessels_.U);
+    os.writeEntry("rho", vessels_.rho);
+    os.writeEntry("proximalResistance", vessels_.proximal);
+    os.writeEntry("distalResistance", vessels_.distal);
+    os.writeEntry("compliance", vessels_.compliance);
+    os.writeEntry("venousPressure", vessels_.venous);
+    os.writeEntry("pressure", vessels_.stored);
     os.precision(digits);
     writeEntry("value", os);
   }
 
  private:
   // Returns the pressure in Pa of a unit of the field, which is kinematic or not.
-  scalar unit() const { return internalField().dimensions() == dimPressure ? 1 : rho_; }
-  void copy(const riisWindkesselFvPatchScalarField &from) {
-    phi_ = from.phi_;
-    U_ = from.U_;
-    rho_ = from.rho_;
-    proximal_ = from.proximal_;
-    distal_ = from.distal_;
-    compliance_ = from.compliance_;
-    venous_ = from.venous_;
-    stored_ = from.stored_;
-    before_ = from.before_;
-    timeIndex_ = from.timeIndex_;
-  }
+  scalar unit() const { return internalField().dimensions() == dimPressure ? 1 : vessels_.rho; }
 };
 
 makePatchTypeField(fvPatchScalarField, riisWindkesselFvPatchScalarField);

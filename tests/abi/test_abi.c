@@ -826,6 +826,7 @@ TEST(test_signatures) {
             (const riis_vtk_mesh *, int64_t, uint8_t *, int64_t *, riis_vtk_sharing *, int64_t));
   SIGNATURE(riis_vtk_surface_read, int32_t, (const char *, const char *, riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_number_pieces, int32_t, (riis_vtk_surface *));
+  SIGNATURE(riis_vtk_surface_append, int32_t, (riis_vtk_surface *, const riis_vtk_surface *));
   SIGNATURE(riis_vtk_surface_destroy, void, (riis_vtk_surface **));
   SIGNATURE(riis_vtk_surface_get_arrays, int32_t, (const riis_vtk_surface *, riis_surface_arrays *, int64_t));
   SIGNATURE(riis_vtk_surface_write, int32_t, (const riis_surface *, const char *));
@@ -836,6 +837,8 @@ TEST(test_signatures) {
             (const char *, const char *, int64_t, const double *, const char *, riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_get_files, int32_t, (const riis_vtk_motion *, int64_t *, const char *const **));
   SIGNATURE(riis_vtk_motion_number_pieces, int32_t, (riis_vtk_motion *));
+  SIGNATURE(riis_vtk_motion_append, int32_t, (riis_vtk_motion *, const riis_vtk_motion *));
+  SIGNATURE(riis_vtk_motion_read_frames, int32_t, (const char *, double, const char *, riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_destroy, void, (riis_vtk_motion **));
   SIGNATURE(riis_vtk_motion_get_arrays, int32_t, (const riis_vtk_motion *, riis_surface_arrays *, int64_t));
   SIGNATURE(riis_vtk_motion_get_frames, int32_t, (const riis_vtk_motion *, riis_keyframe_arrays *, int64_t));

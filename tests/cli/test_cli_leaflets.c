@@ -97,6 +97,112 @@ TEST(test_leaflet_refusals) {
   RUN_REFUSED(2, "--leaflets: the value is empty", "mark", mesh, "--surface", scratch_path("s.vtp"), "--leaflets", "");
 }
 
+/* Several files are one valve, and each file is a leaflet with the name of the file. */
+TEST(test_files_of_leaflets) {
+  const char *names[3] = {"low.obj", "middle.ply", "deep.vtk"};
+  static char mesh[256], paths[3][256];
+  snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
+  for (int i = 0; i < 3; ++i) {
+    char text[512];
+    const double z = heights[i];
+    const char *format =
+        i == 0 ? "v -1 -1 %g\nv 1 -1 %g\nv 1 1 %g\nv -1 1 %g\nf 1 2 3 4\n"
+        : i == 1
+            ? "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n-1 -1 %g\n1 -1 %g\n1 1 "
+              "%g\n-1 1 %g\n4 0 1 2 3\n"
+            : "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n-1 -1 %g 1 -1 %g 1 1 %g -1 "
+              "1 %g\nPOLYGONS 2 8\n3 0 1 2\n3 0 2 3\n";
+    snprintf(text, sizeof text, format, z, z, z, z);
+    scratch_write_text(names[i], text);
+    snprintf(paths[i], sizeof paths[i], "%s", scratch_path(names[i]));
+  }
+#define THREE_FILES "--surface", paths[0], "--surface", paths[1], "--surface", paths[2]
+  RUN_FINE("mark", mesh, THREE_FILES, "--half-thickness", "0.2", "--output", scratch_path("out.vtu"));
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
+  assert_non_null(strstr(program_out, "low.obj and 2 more: 6 triangles, 3 leaflets, area 12\n"));
+  RUN_FINE("surface", THREE_FILES, "--output", scratch_path("all.vtp"));
+  RUN_LEAFLETS("all.vtp", "--quiet");
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
+  run_program("states", scratch_path("states.csv"), THREE_FILES, NULL);
+  assert_int_equal(program_exit_code, 0);
+  for (int i = 0; i < 3; ++i) {
+    char name[32];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(names[i], "."), names[i]);
+    if (!strstr(program_out, name)) fail_msg("no %s in:\n%s", name, program_out);
+  }
+  run_program("check", "leaks", mesh, THREE_FILES, "--half-thickness", "0.2", "--between", "0,0,-0.6", "0,0,0.3", NULL);
+  assert_non_null(strstr(program_out, "low.obj and 2 more: 6 triangles, 3 leaflets, area 12\n"));
+  scratch_write_text("case.json",
+                     "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.2, \"valves\": [{\"surface\": [\"low.obj\", "
+                     "\"middle.ply\", \"deep.vtk\"]}]}");
+  RUN_FINE("mark", "--case", scratch_path("case.json"), "--output", scratch_path("out.vtu"), "--quiet");
+  expect_leaflets(scratch_path("out.vtu"), (int[3]){0, 1, 2});
+  RUN_REFUSED(2, "--leaflets has no effect with several files: each file is a leaflet", "mark", mesh, THREE_FILES,
+              "--leaflets", "connected");
+  RUN_REFUSED(2, "--surface: one of ", "mark", mesh, "--surface", paths[0], "--surface", "a.pvd");
+  RUN_REFUSED(1, "none.obj: cannot be read: No such file or directory", "mark", mesh, "--surface", paths[0],
+              "--surface", "none.obj");
+  RUN_REFUSED(2, "is also the file of --surface", "mark", mesh, THREE_FILES, "--stats", paths[2]);
+  scratch_write_text("bad.json", "{\"mesh\": \"in.vtu\", \"valves\": [{\"surface\": [\"low.obj\", 3]}]}");
+  RUN_REFUSED(1, "surface: 3 is not a path", "mark", "--case", scratch_path("bad.json"));
+}
+
+/* riis export writes the motion of each leaflet, and the program reads it as a series. */
+TEST(test_exported_motion) {
+  static char paths[3][256];
+  const char *leaflets[3] = {"right", "left", "non_coronary"};
+  run_program("export", scratch_path("uris"), "--valve", "trileaflet", "--half-thickness", "0.2", "--resistance", "1e4",
+              "--time-step", "0.02", "--opening-seconds", "0.1", "--closing-seconds", "0.1", NULL);
+  assert_int_equal(program_exit_code, 0);
+  for (int i = 0; i < 3; ++i) {
+    char name[64];
+    snprintf(name, sizeof name, "uris/%s_open.dat", leaflets[i]);
+    snprintf(paths[i], sizeof paths[i], "%s", scratch_path(name));
+  }
+  for (int opening = 0; opening < 2; ++opening) {
+    RUN_FINE("surface", THREE_FILES, "--time-step", "0.02", "--time", opening ? "0.1" : "0", "--output",
+             scratch_path("read.vtp"));
+    const char *found = strstr(program_out, " triangles, 3 leaflets, area ");
+    if (!found) fail_msg("%s", program_out);
+    const double area = strtod(strstr(found, "area ") + 5, NULL);
+    RUN_FINE("surface", "--valve", "trileaflet", "--half-thickness", "0.2", "--triangulation", "fixed", "--opening",
+             opening ? "1" : "0", "--output", scratch_path("made.vtp"));
+    assert_true(fabs(area / strtod(strstr(program_out, "area ") + 5, NULL) - 1) < 1e-5);
+  }
+  RUN_FINE("mark", scratch_path("in.vtu"), THREE_FILES, "--time-step", "0.02", "--times", "0,0.03,0.1",
+           "--half-thickness", "0.2", "--quiet", "--output", scratch_path("series.pvd"));
+  RUN_REFUSED(2, "--time-step needs a motion, --surface FILE.dat", "mark", scratch_path("in.vtu"), "--surface",
+              scratch_path("squares.stl"), "--time-step", "0.02");
+}
+
+/* One line each tells of faces that give other sides or areas than expected. */
+TEST(test_face_warnings) {
+  static const struct {
+    const char *faces, *line;
+    int n_lines;
+  } files[] = {
+      {"f 1 2 3\nf 1 3 4\n", "", 0},
+      {"f 1 2 3\nf 4 3 1\n", "1 of 2 triangles is turned over against the others: normals and side change there", 1},
+      {"f 1 2 3\nf 1 3 4\nf 2 3 1\n", "1 triangle is in the file twice: areas count both", 1},
+      {"f 1 2 3\nf 1 3 5\nf 1 5 2\nf 3 2 5\n", "1 piece is closed, as a thick leaflet is: areas count both faces", 1},
+      {"f 1 2 3\nf 1 3 5\nf 1 5 2\nf 2 3 5\n", "1 of 4 triangles is turned over", 2}};
+  for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+    char text[512];
+    snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n%s", files[i].faces);
+    scratch_write_text("faces.obj", text);
+    run_program("surface", "--surface", scratch_path("faces.obj"), "--output", scratch_path("faces.vtp"), "--quiet",
+                NULL);
+    assert_int_equal(program_exit_code, 0);
+    int n_lines = 0;
+    for (const char *at = program_err; (at = strchr(at, '\n')); ++at) ++n_lines;
+    if (n_lines != files[i].n_lines || !strstr(program_err, files[i].line)) fail_msg("%s%s", text, program_err);
+    run_program("surface", "--surface", scratch_path("faces.obj"), "--output", scratch_path("faces.vtp"), "--strict",
+                NULL);
+    assert_int_equal(program_exit_code, n_lines > 0 ? 4 : 0);
+  }
+}
+
 static double n_marked_in(const char *path, const char *name) {
   static double values[n_box];
   double n = 0;

@@ -89,8 +89,8 @@ TEST(test_options) {
               "opening=1");
   RUN_REFUSED(2, "--steps has no effect with --times", "mark", mesh, "--cycle", cycle, "--times", "0,1", "--steps",
               "2");
-  RUN_REFUSED(2, "--times has no effect with --surface a.stl: a motion is a .pvd file", "mark", mesh, "--times", "0,1",
-              "--surface", "a.stl");
+  RUN_REFUSED(2, "--times has no effect with --surface a.stl: a motion is a .pvd or .dat file", "mark", mesh, "--times",
+              "0,1", "--surface", "a.stl");
   RUN_REFUSED(2, "--cycle has no effect with --surface", "mark", mesh, "--times", "0,1", "--surface", "a.pvd",
               "--cycle", cycle);
   RUN_REFUSED(2, "--time excludes --times", "mark", mesh, "--times", "0,1", "--surface", "a.pvd", "--time", "0");

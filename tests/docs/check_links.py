@@ -2,8 +2,8 @@
 """check_links.py FOLDER: what the documents and the sources below the folder refer to must exist.
 
 Links in Markdown documents lead to existing files and headings. Sources and documents name pages in the form docs/*.md, or
-docs/*.md, "Heading". A number of a section is refused, because it shifts. Source files that docs/walks.md, docs/theory and
-docs/design name must exist. A formula begins and ends on one line. A page of docs/theory or docs/design has at most 4000 words.
+docs/*.md, "Heading". A number of a section is refused, because it shifts. Files of the repository that documents name must
+exist. A formula begins and ends on one line. A page of docs/theory or docs/design has at most 4000 words.
 """
 import functools
 import pathlib
@@ -99,15 +99,21 @@ def long_pages(folder):
 
 
 def missing_sources(folder):
-    """Yields the source files that docs/walks.md and the pages of docs/theory and docs/design name and that do not exist."""
+    """Yields the files of this repository that documents name in code and that do not exist. A name may be a pattern, or have
+    words in capitals that the reader replaces. A source without its folder counts only in pages about the sources. CHANGELOG.md
+    may name files of the past."""
     parts = ("include", "src", "fortran", "tests")
     sources = [path.relative_to(folder).as_posix() for part in parts for path in (folder / part).rglob("*")]
-    for page in [*folder.glob("docs/walks.md"), *pages_of_books(folder)]:
-        named = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", page.read_text(encoding="utf-8"))
-        if not named and page.name == "walks.md":
+    about_sources = [folder / "CONTRIBUTING.md", folder / "docs/walks.md", *pages_of_books(folder)]
+    for page in documents_of(folder):
+        text = page.read_text(encoding="utf-8")
+        short = re.findall(r"`([\w/]+\.(?:cpp|hpp|h))`", text) if page in about_sources else []
+        if not short and page.name == "walks.md":
             yield "docs/walks.md names no file"
-        for name in named:
-            if not (folder / name).exists() and not any(source.endswith(f"/{name}") for source in sources):
+        paths = re.findall(rf"`((?:{'|'.join(FOLDERS)})/[\w./*-]*)`", text) if page.name != "CHANGELOG.md" else []
+        for name in [*short, *paths]:
+            pattern = re.sub(r"\b(?:[A-Z]+|X\.Y)\b", "*", name)
+            if not any(folder.glob(pattern)) and not (name in short and any(path.endswith(f"/{name}") for path in sources)):
                 yield f"{page.relative_to(folder)}: {name}: there is no such file"
 
 

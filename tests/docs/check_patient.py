@@ -42,7 +42,7 @@ def check_surface(patient, root, triangles):
     for (a, b), n in edges.items():
         assert n == 1 and edges.get((b, a)) == 1, f"the edge from {a} to {b} has {n} triangles, its reverse {edges.get((b, a))}"
     # The volume of the radii: 1/2 r^2 over angles and heights. Waves of the wall are a thousandth of it.
-    n_angles, n_heights = 360, 300
+    n_angles, n_heights = 120, 100
     height = patient.TOP - patient.BOTTOM
     expected = sum((root.tube_radius(angle, z) + root.sinus(angle, z)) ** 2 / 2
                    for angle in (360 * (i + 0.5) / n_angles for i in range(n_angles))

@@ -57,7 +57,7 @@ class Checks(unittest.TestCase):
 
     def test_links(self):
         good = {"README.md": "# A\n[b](docs/b.md#two-words) [a](#a) [web](https://example.org) `[c](c.md)`\n",
-                "docs/b.md": "## Two words\n```sh\n[d](d.md)\n```\n![a](a.png)\n", "docs/a.png": "",
+                "docs/b.md": "## Two words\n```sh\n[d](d.md)\n```\n![a](a.png) `src/x/*/NAME.cpp` `bin/a`\n", "docs/a.png": "",
                 "docs/walks.md": "| `part/a.cpp` | it works |\n",
                 "src/x/part/a.cpp": '// The proof is in docs/b.md, "Two\n// words".',
                 "docs/theory/t.md": "# T\n[b](../b.md) $x$ `$HOME`\n```math\n$\n```\nHere is `a.cpp`.\n",
@@ -69,6 +69,7 @@ class Checks(unittest.TestCase):
             ("README.md", "#two-words", "#three", "docs/b.md#three: there is no such heading"),
             ("docs/b.md", "a.png", "b.png", "docs/b.md: b.png: there is no such file"),
             ("docs/walks.md", "a.cpp", "z.cpp", "docs/walks.md: part/z.cpp: there is no such file"),
+            ("docs/b.md", "src/x/*", "src/y/*", "docs/b.md: src/y/*/NAME.cpp: there is no such file"),
             ("docs/theory/t.md", "`a.cpp`", "`z.cpp`", "docs/theory/t.md: z.cpp: there is no such file"),
             ("docs/theory/t.md", "../b.md", "b.md", "docs/theory/t.md: b.md: there is no such file"),
             ("docs/theory/t.md", "$x$", "$x", "docs/theory/t.md:2: a formula must begin and end on one line"),

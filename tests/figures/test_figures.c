@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include "answers.h"
 #include "expect.h"
 #include "scratch.h"
 #include "virtual_display.h"
@@ -18,7 +19,7 @@ enum { n_of_paper = 11, n_kinds = 4, n_figures = n_of_paper + n_kinds };
 /* The kinds with a table of states, and the number of openings in each. For the fifth kind, aortic, the page says that there
  * is no table. */
 static const char *const kinds[n_kinds] = {"trileaflet", "coapting", "mitral", "bileaflet"};
-static const int n_openings[n_kinds] = {5, 2, 2, 5};
+static const int n_openings[n_kinds] = {3, 2, 2, 2};
 
 static char *page;
 
@@ -39,13 +40,21 @@ static int run_program(const char *arguments) {
   return run(RIIS_PYTHON, all);
 }
 
-/* Draws the page with a JSON file whose plots follow the figures. Returns the program's exit status. */
+/* Draws a page that will be refused. Returns the exit status. */
+static int run_refused(const char *arguments) {
+  char all[4096];
+  const int n = snprintf(all, sizeof all, "'" RIIS_PROGRAMS "' %s", arguments);
+  assert_true(n > 0 && (size_t)n < sizeof all);
+  return answer_of(RIIS_DRAW_PAGE, all);
+}
+
+/* Draws the page with a JSON file of faulty plots. Returns the exit status. */
 static int run_with_plots(const char *name, const char *json) {
   char arguments[1024];
   scratch_write("plots.json", json, strlen(json));
   const int n = snprintf(arguments, sizeof arguments, "%s ", scratch_path(name));
   snprintf(arguments + n, sizeof arguments - (size_t)n, "%s", scratch_path("plots.json"));
-  return run_program(arguments);
+  return run_refused(arguments);
 }
 
 static const char *table_path(const char *kind) {
@@ -94,6 +103,7 @@ static int draw_page(void **state) {
 
 static int remove_page(void **state) {
   free(page);
+  end_answers();
   return scratch_teardown(state);
 }
 
@@ -386,7 +396,7 @@ TEST(test_tables_refused) {
     scratch_write_text(wrong[i].name, wrong[i].table);
     const int n = snprintf(arguments, sizeof arguments, "%s", scratch_path("wrong.html"));
     snprintf(arguments + n, sizeof arguments - (size_t)n, " %s", scratch_path(wrong[i].name));
-    assert_int_equal(run_program(arguments), 1);
+    assert_int_equal(run_refused(arguments), 1);
     char *printed = scratch_read(scratch_path("printed"), NULL);
     if (!strstr(printed, wrong[i].text)) fail_msg("'%s' is not in '%s'", wrong[i].text, printed);
     assert_null(strstr(printed, "figure 1"));

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include "answers.h"
 #include "expect.h"
 #include "scratch.h"
 
@@ -28,12 +29,12 @@ static int run(const char *command, const char *word, const char *other_word, co
 
 /* Draws one kind of valve, or all kinds for "". */
 static int draw(const char *curves, const char *kind) {
-  char path[1024];
-  snprintf(path, sizeof path, "%s", scratch_path(curves));
-  const size_t folder = (size_t)(strrchr(path, '/') - path);
-  char out[1024];
-  snprintf(out, sizeof out, "%.*s", (int)folder, path);
-  return run("'" RIIS_PYTHON "' -B '" RIIS_DRAW_PARAMETERS "'", path, out, kind);
+  char words[2048];
+  const char *path = scratch_path(curves);
+  const int folder = (int)(strrchr(path, '/') - path);
+  const int n = snprintf(words, sizeof words, "'%s' '%.*s' %s", path, folder, path, kind);
+  assert_true(n > 0 && (size_t)n < sizeof words);
+  return answer_of(RIIS_DRAW_PARAMETERS, words);
 }
 
 static int setup(void **state) {
@@ -239,4 +240,9 @@ TEST(test_refused_arguments) {
   assert_int_equal(draw("curves.json", "tricuspid"), 2);
 }
 
-int main(void) { return run_cases(setup, scratch_teardown); }
+static int teardown(void **state) {
+  end_answers();
+  return scratch_teardown(state);
+}
+
+int main(void) { return run_cases(setup, teardown); }

@@ -14,9 +14,9 @@ seed=${RIIS_FUZZ_SEED:-1}
 [[ $seed != random ]] || seed=$(od -An -N4 -tu4 /dev/urandom | tr -d ' ')
 
 # Each harness gets its share of the time.
-declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [pvtu]=1 [json]=3 [stl]=2 [command_line]=2 [cycle]=1 [msh]=2 [xdmf]=1
-  [foam]=2)
-harnesses=(api vtk vtu vtp pvd pvtu json stl command_line cycle msh xdmf foam)
+declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [pvtu]=1 [json]=3 [stl]=2 [obj]=1 [ply]=2 [command_line]=2 [cycle]=1
+  [msh]=2 [xdmf]=1 [foam]=2)
+harnesses=(api vtk vtu vtp pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
 # options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input and the
 # memory, most of which the address sanitizer keeps for itself. No input of the allowed size should reach these limits.

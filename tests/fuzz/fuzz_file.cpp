@@ -78,7 +78,7 @@ void read_motion() {
   riis_vtk_motion *read = nullptr;
   riis_status status = riis_vtk_motion_read_files(2, paths, times, nullptr, &read);
   use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
-  if (ending == "stl") return;
+  if (ending != "vtp" && ending != "vtu") return;
   read = nullptr;
   status = riis_vtk_motion_read_displacements(paths[0], "d", 0, nullptr, nullptr, &read);
   use_motion(status, read, "input." RIIS_FUZZ_ENDING ": ");
@@ -124,7 +124,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *bytes, std::size_t siz
   if (ending == "vtk" || ending == "vtu") read_mesh();
   if (ending == "pvd") read_collection();
   if (ending == "pvtu") read_pieces();
-  if (ending == "vtk" || ending == "pvd" || ending == "pvtu") return 0;
+  if (ending == "pvd" || ending == "pvtu") return 0;
   read_surface();
   read_motion();
   return 0;

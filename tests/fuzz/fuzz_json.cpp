@@ -11,7 +11,7 @@
 #include "program/input/case.hpp"
 #include "program/input/json.hpp"
 #include "program/input/parameters.hpp"
-#include "program/input/valve_file.hpp"
+#include "program/input/valve_source.hpp"
 
 namespace {
 
@@ -54,10 +54,9 @@ void read_parameters(const char *kind) {
 
 void read_valve() {
   is_taken([] {
-    riis::program::ValveFile valve_file(file().path());
-    EXPECT(riis_valve_set_scalar(valve_file.valve(), "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
-    valve_file.check_opening();
-    const Valve valve = valve_file.take_valve();
+    riis::program::NewValve fresh(file().path(), "");
+    EXPECT(riis_valve_set_scalar(fresh, "opening", 0.5) == RIIS_OK, "%s", riis_last_error());
+    const Valve valve = fresh.take();
     double opening = -1;
     EXPECT(riis_valve_get(valve.get(), "opening", 1, &opening) == RIIS_OK && opening == 0.5, "opening %g", opening);
   });

@@ -32,7 +32,6 @@ all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)
 declare -A more_flags=([openmp_caller]=-fopenmp [overlap]=-pthread)
-expected=$source/tests/install/expected
 
 # The installed Fortran sources, in the order in which they use each other.
 fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_frames riis_surfaces riis_adjacencies riis_meshes
@@ -65,10 +64,15 @@ has_fortran_of() { # argument: name
   has Fortran && [ -e "$source/examples/$1.f90" ]
 }
 
+# Prints the part of expected.txt below the line "== NAME".
+expected_of() { # argument: name
+  awk -v name="$1" '/^== / { inside = $2 == name; next } inside' "$source/tests/install/expected.txt"
+}
+
 # An example must print the same however it was built, and in C and in Fortran.
 check_example() { # arguments: name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
-  diff "$expected/$1.txt" "$work/printed.txt" || problem "$2 does not print what it should"
+  expected_of "$1" | diff - "$work/printed.txt" || problem "$2 does not print what it should"
 }
 
 # The prosthesis of the example's JSON file must mark as many nodes at each opening as the example's program.
@@ -89,7 +93,7 @@ check_prosthesis_file() { # argument: the program
     "$1" mark "$work/box.vtk" --valve "$source/examples/prosthesis.json" --opening $opening --stats - |
       sed -n "s/.*\"n_marked\": \([0-9]*\).*/opening $opening, marked: \1/p"
   done >"$work/file.txt"
-  grep '^opening' "$expected/prosthesis.txt" | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
+  expected_of prosthesis | grep '^opening' | diff - "$work/file.txt" || problem "prosthesis.json is not that of prosthesis.c"
 }
 
 check_by_cmake() { # arguments: prefix, all|few
@@ -111,7 +115,7 @@ check_by_cmake() { # arguments: prefix, all|few
 
   if has VTK; then
     empty_but_compilers "$work/cmake_vtk"
-    quietly configure_consumer "$source/tests/install/vtk_consumer" "$work/cmake_vtk" "$1"
+    quietly configure_consumer "$source/tests/install/consumer" "$work/cmake_vtk" "$1"
     quietly "$CMAKE" --build "$work/cmake_vtk"
     quietly "$work/cmake_vtk/vtk_consumer"
   fi
@@ -130,8 +134,7 @@ check_by_cmake() { # arguments: prefix, all|few
 # find_package must fail and say why.
 refused() { # arguments: text, option, prefix
   empty_but_compilers "$work/refused"
-  local consumer=$source/tests/install/refused_consumer
-  if configure_consumer "$consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
+  if configure_consumer "$source/tests/install/consumer" "$work/refused" "$3" "$2" >"$work/refused.txt" 2>&1; then
     echo "find_package was not refused: $2"
     return 1
   fi
@@ -191,7 +194,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   ! has Fortran || [ "$2" = few ] || quietly "$out/test_f77"
   if has VTK && [ "$kind" = shared ]; then
     # shellcheck disable=SC2046
-    quietly "$CC" "${c_flags[@]}" "$source/tests/install/vtk_consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
+    quietly "$CC" "${c_flags[@]}" "$source/tests/install/consumer/vtk_consumer.c" -o "$out/vtk_consumer" \
       $(flags --cflags --libs riis-vtk)
     quietly "$out/vtk_consumer"
   fi
@@ -323,4 +326,4 @@ if [ "$is_configured_anew" ]; then
 fi
 
 awk '/^```text/ { inside = 1; next } /^```/ { inside = 0 } inside' "$source/examples/README.md" |
-  diff - "$expected/first_marking.txt" || problem "examples/README.md does not show what first_marking prints"
+  diff - <(expected_of first_marking) || problem "examples/README.md does not show what first_marking prints"

@@ -60,20 +60,22 @@ format() {
 }
 
 shell() {
-  local file first scripts=() status=0
+  local file first scripts=() readers status=0
+  ending '(\.sh|(^|/)run)$'
+  readers=("${found[@]}")
   for file in "${files[@]}"; do
     first=
     IFS= read -r -n 40 first <"$file" 2>/dev/null || true
     if [[ $first =~ ^\#!.*[/\ ](ba|da)?sh$ ]]; then
       scripts+=("$file")
-    elif [[ $file == *.sh ]] && ! grep -qsE -- "(shellcheck source=|^\. )$file( |\$)" "${files[@]}"; then
+    elif [[ $file == *.sh ]] && ! grep -qsE -- "(shellcheck source=|^\. )$file( |\$)" "${readers[@]}"; then
       echo "$file has no #!, and no script reads it" >&2
       status=1
     fi
   done
   # Scripts that `run` reads are checked together with `run`, because they use its variables.
   [[ ! -e run ]] || shellcheck --check-sourced -x -P . run || status=1
-  shellcheck -x -P . "${scripts[@]}" || status=1
+  printf '%s\0' "${scripts[@]}" | xargs -0 -P "$(nproc)" -n 8 shellcheck -x -P . || status=1
   found=("${scripts[@]}")
   return "$status"
 }

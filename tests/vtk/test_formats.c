@@ -6,6 +6,7 @@
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "expect.h"
 #include "formats_shim.h"
@@ -225,6 +226,37 @@ TEST(test_xdmf_for_others) {
   free(text);
 }
 
+/* meshio and dolfinx write a mesh once, and a series in time includes it. meshio writes it behind the series. FEniCS's
+ * checkpoints name datasets without "/". */
+TEST(test_xdmf_of_series) {
+  scratch_write_text("tet.xdmf", xdmf);
+  rewrite("tet.xdmf", "tet.vtu", "");
+  const char *const pointers[] = {
+      "xpointer(//Grid[@Name=&quot;mesh&quot;]/*[self::Topology or self::Geometry])",
+      "xpointer(/Xdmf/Domain/Grid[@GridType='Uniform'][1]/*[self::Topology or self::Geometry])"};
+  const char *mesh = strstr(xdmf, "<Grid"), *attribute = strstr(xdmf, "<Attribute");
+  for (int i = 0; i < 2; ++i) {
+    char text[4096];
+    snprintf(text, sizeof text,
+             "<Xdmf xmlns:x=\"http://www.w3.org/2003/XInclude\"><Domain><Grid Name=\"s\" GridType=\"Collection\" "
+             "CollectionType=\"Temporal\">\n<Grid><x:include xpointer=\"%s\"/><Time Value=\"0\"/>%.*s</Grid>\n"
+             "<Grid><x:include xpointer=\"%s\"/><Time Value=\"1\"/></Grid></Grid>%.*s</Grid></Domain></Xdmf>\n",
+             pointers[i], (int)(strstr(attribute, "</Grid>") - attribute), attribute, pointers[i],
+             (int)(attribute - mesh), mesh);
+    scratch_write_text("series.xdmf", text);
+    rewrite("series.xdmf", "series.vtu", "");
+    expect_same("series.vtu", "tet.vtu", SHIM_BITS, 1);
+  }
+  rewrite("tet.xdmf", "out.xdmf", "");
+  if (!scratch_exists("out.h5")) return;
+  char *text = scratch_read(scratch_path("out.xdmf"), NULL);
+  for (char *at = text; (at = strstr(at, ".h5:/")); ++at) memmove(at + 4, at + 5, strlen(at + 4));
+  scratch_write_text("checkpoint.xdmf", text);
+  free(text);
+  rewrite("checkpoint.xdmf", "checkpoint.vtu", "");
+  expect_same("checkpoint.vtu", "tet.vtu", SHIM_BITS, 1);
+}
+
 #ifdef RIIS_MESHIO_PYTHON
 static void run_python(const char *script) {
   char command[1024];
@@ -279,6 +311,46 @@ TEST(test_meshio) { skip(); }
 #endif
 
 /* ---- Files that cannot be read ---- */
+
+/* Version 2 has the cells of two physical groups twice, with numbers of their own. */
+TEST(test_gmsh_groups) {
+  char text[2048] =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n"
+      "$EndNodes\n$Elements\n6\n";
+  const char *once = "1 4 2 1 1 1 2 3 4\n2 4 2 1 1 2 3 4 5\n";
+  char *const end = text + strlen(text);
+  /* The third group has the first cell turned over, as gmsh writes a group of a negative number. The last cell is twice in one
+   * group, which stays. */
+  sprintf(end, "%s3 4 2 2 1 1 2 3 4\n4 4 2 2 1 2 3 4 5\n5 4 2 3 1 2 1 3 4\n6 4 2 1 1 2 3 4 5\n$EndElements\n", once);
+  scratch_write_text("twice.msh", text);
+  rewrite("twice.msh", "twice.vtu", "3 elements of further physical groups are the cells of the first ones");
+  int64_t n_points = 0, n_cells = 0;
+  assert_int_equal(shim_read_points(scratch_path("twice.vtu"), &n_points, &n_cells, NULL, NULL), 1);
+  assert_int_equal(n_points, 5);
+  assert_int_equal(n_cells, 3);
+  const int64_t corners[12] = {0, 1, 2, 3, 1, 2, 3, 4, 1, 2, 3, 4};
+  int64_t found[12];
+  assert_int_equal(shim_read_corners(scratch_path("twice.vtu"), NULL), 12);
+  shim_read_corners(scratch_path("twice.vtu"), found);
+  assert_memory_equal(found, corners, sizeof corners);
+#ifdef RIIS_GMSH
+  char geo[4096], options[256];
+  snprintf(geo, sizeof geo, "%sPhysical Volume(11) = {hex[1], 201};\n", geometry);
+  scratch_write_text("groups.geo", geo);
+  snprintf(options, sizeof options, "-3 -format msh41 -bin %s", scratch_path("groups.geo"));
+  run_gmsh(options, "once.msh");
+  rewrite("once.msh", "once.vtu", "");
+  for (int is_binary = 0; is_binary < 2; ++is_binary) {
+    snprintf(options, sizeof options, "-save %s -format msh22 %s", scratch_path("once.msh"), is_binary ? "-bin" : "");
+    run_gmsh(options, "twice.msh");
+    riis_vtk_mesh *mesh = NULL;
+    expect_fine(riis_vtk_mesh_read(scratch_path("twice.msh"), &mesh));
+    expect_fine(riis_vtk_mesh_write(mesh, scratch_path("twice.vtu")));
+    riis_vtk_mesh_destroy(&mesh);
+    expect_same("twice.vtu", "once.vtu", SHIM_FLOATS, 30);
+  }
+#endif
+}
 
 static const char msh22[] =
     "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"

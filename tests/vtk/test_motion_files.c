@@ -287,6 +287,100 @@ TEST(test_quads_are_cut_once) {
   }
 }
 
+/* Writes the frames of the sheet as svMultiPhysics reads them. */
+static void write_dat(const char *name, int n_frames) {
+  static char text[1 << 20];
+  char *end = text + sprintf(text, "%d %d\n", n_frames, sheet_n_vertices);
+  for (int frame = 0; frame < n_frames; ++frame)
+    for (int64_t i = 0; i < sheet_n_vertices; ++i) {
+      double at[3], by[3];
+      sheet_vertex(i, 0.5 * frame, at, by);
+      end += sprintf(end, "%.17g %.17g %.17g\n", at[0], at[1], at[2]);
+    }
+  scratch_write_text(name, text);
+}
+
+/* svMultiPhysics's frames are in a text file, and their faces in a file beside it. Several motions become one. */
+TEST(test_frames) {
+  const char *const names[] = {"flap.vtu", "flap_mesh.vtu", "flap_motion.vtu", "flap_motion_open.vtp"};
+  write_dat("flap_motion_open.dat", 3);
+  riis_vtk_motion *motion = NULL, *other = NULL;
+  expect_refused(riis_vtk_motion_read_frames(scratch_path("flap_motion_open.dat"), 0.5, NULL, &motion), RIIS_FILE_ERROR,
+                 "no file beside it has their faces: flap.vtu is missing");
+  for (int i = 0; i < 4; ++i) {
+    sheet_write(names[i], 0.3, NULL);
+    expect_fine(riis_vtk_motion_read_frames(scratch_path("flap_motion_open.dat"), 0.5, NULL, &motion));
+    riis_keyframes *keyframes = keyframes_of(motion, 0, RIIS_INTERPOLATION_LINEAR);
+    riis_surface *surface = NULL;
+    expect_fine(riis_surface_create_from_keyframes(keyframes, 0.25, 0, NULL, &surface));
+    expect_sheet(surface, 0.25, 1, -1);
+    riis_surface_destroy(&surface);
+    riis_keyframes_destroy(&keyframes);
+    assert_int_equal(unlink(scratch_path(names[i])), 0);
+  }
+  sheet_write("flap.vtu", 0, NULL);
+  expect_fine(riis_vtk_motion_read_frames(scratch_path("flap_motion_open.dat"), 0.5, NULL, &motion));
+  expect_fine(riis_vtk_motion_read_frames(scratch_path("flap_motion_open.dat"), 0.5, NULL, &other));
+  expect_fine(riis_vtk_motion_append(motion, other));
+  riis_vtk_motion_destroy(&other);
+  riis_surface_arrays faces;
+  riis_keyframe_arrays frames;
+  int64_t n_files = 0;
+  expect_fine(riis_vtk_motion_get_arrays(motion, &faces, sizeof faces));
+  expect_fine(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
+  expect_fine(riis_vtk_motion_get_files(motion, &n_files, NULL));
+  assert_int_equal(n_files, 2);
+  assert_int_equal(frames.n_keys, 3);
+  assert_int_equal(frames.n_vertices, 2 * sheet_n_vertices);
+  assert_int_equal(faces.leaflet_id[0], 0);
+  assert_int_equal(faces.leaflet_id[faces.n_faces - 1], 1);
+  for (int64_t i = 0; i < 3 * 2 * sheet_n_vertices; ++i) {
+    double at[3], by[3];
+    sheet_vertex(i % sheet_n_vertices, 0.5 * (double)(i / (2 * sheet_n_vertices)), at, by);
+    for (int k = 0; k < 3; ++k) assert_true(((const double *)frames.xyz)[3 * i + k] == at[k]);
+  }
+  expect_fine(riis_vtk_motion_read_frames(scratch_path("flap_motion_open.dat"), 0.25, NULL, &other));
+  expect_refused(riis_vtk_motion_append(motion, other), RIIS_INVALID_ARGUMENT,
+                 "frame 1 is at the time 0.5 in one motion and at 0.25 in the other");
+  riis_vtk_motion_destroy(&other);
+  write_dat("flap_two.dat", 2);
+  expect_fine(riis_vtk_motion_read_frames(scratch_path("flap_two.dat"), 0.5, NULL, &other));
+  expect_refused(riis_vtk_motion_append(motion, other), RIIS_INVALID_ARGUMENT, "the motions have 3 and 2 frames");
+  riis_vtk_motion_destroy(&other);
+  riis_vtk_motion_destroy(&motion);
+}
+
+TEST(test_frames_are_refused) {
+  static const struct {
+    const char *text, *part;
+  } bad[] = {{"1 3\n0 0 0 1 0 0 0 1 0\n7\n", "line 3: the file holds more than 1 frames of 3 nodes"},
+             {"2 3\n0 0 0 1 0 0 0 1 0\n", "claims 3 nodes in each frame, but only"},
+             {"1 3\n0 0 0 1 0 0 0 1 x\n", "line 2: \"x\" is not a number"},
+             {"1 3\n0 0 0 1 0 0 0 inf 0\n", "y of point 2 of frame 0 is inf"},
+             {"0 3\n", "line 1: there are 0 frames; 1 to 1000000 are read"},
+             {"1 4\n0 0 0 1 0 0 0 1 0 1 1 1\n", "has 4 nodes; "},
+             {"1 99999999999999\n0 0 0\n", "claims 99999999999999 nodes in each frame"},
+             {"1\n", "is truncated"}};
+  riis_vtk_motion *motion = NULL;
+  scratch_write_text("bad.vtp",
+                     "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData>\n"
+                     "<Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points><DataArray type=\"Float64\" "
+                     "NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>"
+                     "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray>"
+                     "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray></Polys>"
+                     "</Piece></PolyData></VTKFile>\n");
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+    scratch_write_text("bad_open.dat", bad[i].text);
+    expect_refused(riis_vtk_motion_read_frames(scratch_path("bad_open.dat"), 1, NULL, &motion), RIIS_FILE_ERROR,
+                   bad[i].part);
+    assert_null(motion);
+  }
+  expect_refused(riis_vtk_motion_read_frames(scratch_path("bad_open.dat"), 0, NULL, &motion), RIIS_INVALID_ARGUMENT,
+                 "time_step is 0; it must be above 0");
+  expect_refused(riis_vtk_motion_read_frames(scratch_path("bad.vtp"), 1, NULL, &motion), RIIS_FILE_ERROR,
+                 "frames of svMultiPhysics are in a .dat file");
+}
+
 /* Corners in .stl files may come together during the motion, but must not separate. */
 TEST(test_corners_of_stl) {
   const char *facets =

@@ -84,7 +84,7 @@ TEST(test_bad_data_sets) {
   expect_collection("lost.pvd", COLLECTION(DATA_SET("0", "a.vtp") DATA_SET("1", "sub/b.vtp")),
                     "sub/b.vtp: ", "No such file or directory");
   expect_collection("self.pvd", COLLECTION(DATA_SET("0", "self.pvd")),
-                    "self.pvd: ", "a surface must be a .vtp, .vtu or .stl file");
+                    "self.pvd: ", "a surface must be a .vtp, .vtu, .vtk, .stl, .obj or .ply file");
 }
 
 TEST(test_too_many_data_sets) {

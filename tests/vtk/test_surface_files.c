@@ -244,6 +244,71 @@ TEST(test_unstructured_grid) {
   expect_faces("grid.vtu", 3, 1.5, leaflets);
 }
 
+/* Quadratic faces are cut at their nodes, and keep their area, winding and leaflet. The nodes lie on a plane, at the middles
+ * of sides and faces. */
+TEST(test_quadratic_faces) {
+  /* The corners of a square, the middles of its sides, its middle, the middle of its diagonal, and the middle of half of it. */
+  const char *points = "0 0 0  2 0 0  2 2 0  0 2 0  1 0 0  2 1 0  1 2 0  0 1 0  1 1 0  0.6 0.6 0";
+  static const struct {
+    int type, n_triangles;
+    double area;
+    const char *corners;
+  } cells[4] = {{22, 4, 2, "0 1 3 4 8 7"},
+                {34, 6, 2, "0 1 3 4 8 7 9"},
+                {23, 6, 4, "0 1 2 3 4 5 6 7"},
+                {28, 8, 4, "0 1 2 3 4 5 6 7 8"}};
+  for (int i = 0; i < 4; ++i) {
+    char text[2048];
+    const int n = i == 0 ? 6 : i + 6;
+    snprintf(text, sizeof text,
+             "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\n"
+             "<Piece NumberOfPoints=\"10\" NumberOfCells=\"2\"><CellData>%s</CellData>\n"
+             "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">%s</DataArray></Points>\n"
+             "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 %s</DataArray>\n"
+             "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3 %d</DataArray>\n"
+             "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 %d</DataArray></Cells>\n"
+             "</Piece></UnstructuredGrid></VTKFile>\n",
+             LEAFLETS("Int64", "2 1"), points, cells[i].corners, 3 + n, cells[i].type);
+    scratch_write_text("quadratic.vtu", text);
+    const int32_t leaflets[9] = {2, 1, 1, 1, 1, 1, 1, 1, 1};
+    expect_faces("quadratic.vtu", 1 + cells[i].n_triangles, 2 + cells[i].area, leaflets);
+  }
+}
+
+/* Each of several surfaces becomes a leaflet, whatever its own leaflets are. Quads are cut beside triangles. */
+TEST(test_append) {
+  riis_vtk_surface *all = NULL, *other = NULL;
+  riis_surface_arrays arrays;
+  write_polydata("quads.vtp", "NumberOfPolys=\"2\"", CELLS("0 1 2 3 1 4 5 2", "4 8"), "", LEAFLETS("UInt8", "5 9"));
+  write_polydata("triangle.vtp", "NumberOfPolys=\"1\"", CELLS("0 1 3", "3"), "", "");
+  expect_fine(riis_vtk_surface_read(scratch_path("quads.vtp"), NULL, &all));
+  expect_fine(riis_vtk_surface_read(scratch_path("quads.vtp"), NULL, &other));
+  expect_fine(riis_vtk_surface_append(all, other));
+  expect_fine(riis_surface_arrays_init(&arrays, sizeof arrays));
+  expect_fine(riis_vtk_surface_get_arrays(all, &arrays, sizeof arrays));
+  assert_int_equal(arrays.corners_per_face, 4);
+  assert_int_equal(arrays.n_vertices, 14);
+  const int64_t quads[16] = {0, 1, 2, 3, 1, 4, 5, 2, 7, 8, 9, 10, 8, 11, 12, 9};
+  assert_int_equal(arrays.n_faces, 4);
+  assert_memory_equal(arrays.vertex_ids, quads, sizeof quads);
+  assert_true(arrays.leaflet_id[1] == 0 && arrays.leaflet_id[2] == 1);
+  riis_vtk_surface_destroy(&other);
+  expect_fine(riis_vtk_surface_read(scratch_path("triangle.vtp"), NULL, &other));
+  expect_fine(riis_vtk_surface_append(all, other));
+  expect_fine(riis_vtk_surface_get_arrays(all, &arrays, sizeof arrays));
+  assert_int_equal(arrays.corners_per_face, 3);
+  assert_int_equal(arrays.n_faces, 9);
+  const int64_t *ids = arrays.vertex_ids;
+  const int64_t first[6] = {0, 1, 2, 0, 2, 3}, last[3] = {14, 15, 17};
+  assert_memory_equal(ids, first, sizeof first);
+  assert_memory_equal(ids + 24, last, sizeof last);
+  const int32_t leaflets[9] = {0, 0, 0, 0, 1, 1, 1, 1, 2};
+  assert_memory_equal(arrays.leaflet_id, leaflets, sizeof leaflets);
+  expect_refused(riis_vtk_surface_append(all, NULL), RIIS_INVALID_ARGUMENT, "other is NULL");
+  riis_vtk_surface_destroy(&other);
+  riis_vtk_surface_destroy(&all);
+}
+
 static const float stl_triangles[3][9] = {
     /* The second triangle has no area. */
     {0, 0, 0, 1, 0, 0, 0, 1, 0},
@@ -367,8 +432,8 @@ static void expect_file_error(const char *name, const char *part_of_text) {
 TEST(test_not_surfaces) {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
   expect_file_error("missing.vtp", "No such file or directory");
-  scratch_write_text("surface.obj", "v 0 0 0\n");
-  expect_file_error("surface.obj", "a surface must be a .vtp, .vtu or .stl file");
+  scratch_write_text("surface.off", "v 0 0 0\n");
+  expect_file_error("surface.off", "a surface must be a .vtp, .vtu, .vtk, .stl, .obj or .ply file");
   scratch_write_text("empty.stl", "");
   expect_file_error("empty.stl", "is empty");
   scratch_write_text("garbage.vtp", "garbage");

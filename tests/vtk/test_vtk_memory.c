@@ -37,6 +37,15 @@ static riis_status write_mesh(void) { return riis_vtk_mesh_write(mesh, scratch_p
 static riis_status write_surface(void) { return riis_vtk_surface_write(surface, scratch_path("written.vtp")); }
 static riis_status read_vtp(void) { return riis_vtk_surface_read(scratch_path("surface.vtp"), NULL, &read_surface); }
 static riis_status read_stl(void) { return riis_vtk_surface_read(scratch_path("surface.stl"), NULL, &read_surface); }
+static riis_status read_obj(void) { return riis_vtk_surface_read(scratch_path("surface.obj"), NULL, &read_surface); }
+static riis_status read_ply(void) { return riis_vtk_surface_read(scratch_path("surface.ply"), NULL, &read_surface); }
+static riis_status read_frames(void) {
+  return riis_vtk_motion_read_frames(scratch_path("flap_open.dat"), 1, NULL, &motion);
+}
+static void surface_read(void) { expect_fine(read_obj()); }
+static riis_status append(void) { return riis_vtk_surface_append(read_surface, read_surface); }
+static void frames_read(void) { expect_fine(read_frames()); }
+static riis_status append_motion(void) { return riis_vtk_motion_append(motion, motion); }
 static riis_status read_pvd(void) { return riis_vtk_motion_read_pvd(scratch_path("motion.pvd"), NULL, &motion); }
 static riis_status read_stls(void) {
   static const double times[2] = {0, 1};
@@ -63,6 +72,11 @@ static const struct {
     {"write .vtp", nothing, write_surface, "written.vtp"},
     {"read .vtp", nothing, read_vtp, "surface.vtp"},
     {"read .stl", nothing, read_stl, "surface.stl"},
+    {"read .obj", nothing, read_obj, "surface.obj"},
+    {"read .ply", nothing, read_ply, "surface.ply"},
+    {"append", surface_read, append, ""},
+    {"read .dat", nothing, read_frames, "flap_open.dat"},
+    {"append motion", frames_read, append_motion, ""},
     {"read .pvd", nothing, read_pvd, "motion.pvd"},
     {"read .stl files", nothing, read_stls, "surface.stl"},
     {"displacements", nothing, read_displacements, "displaced.vtp"},
@@ -145,6 +159,20 @@ static int set_up(void **state) {
   assert_int_equal(shim_write_box(scratch_path("box.vtu"), SHIM_RAW, 6, lower, upper, 1), 1);
   assert_int_equal(shim_write_box(scratch_path("box.vtk"), SHIM_LEGACY_BINARY, 6, lower, upper, 0), 1);
   scratch_write_text("surface.stl", triangle);
+  char frame[4096], *end = frame + sprintf(frame, "1 %d\n", sheet_n_vertices);
+  for (int64_t i = 0; i < sheet_n_vertices; ++i) {
+    double at[3];
+    sheet_vertex(i, 0, at, NULL);
+    end += sprintf(end, "%g %g %g\n", at[0], at[1], at[2]);
+  }
+  scratch_write_text("flap_open.dat", frame);
+  sheet_write("flap.vtp", 0, NULL);
+  scratch_write_text("surface.obj", "v 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nf 1 2 3\n");
+  scratch_write_text(
+      "surface.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty uchar part\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+      "0\n0 1 0\n7 3 0 1 2\n");
   static char displacements[16384];
   sheet_displacement(sheet_displacement(displacements, "d_0", 0), "d_1", 1);
   const sheet_extras extras = {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for Python: study.py tries it in a heart without space, and tests/openfoam/test_left_heart.py in invented blood.
+// The search for Python: study.py tries it in a heart without space, and tests/solvers/test_left_heart.py in invented blood.
 #include "volumeSearch.H"
 
 extern "C" {

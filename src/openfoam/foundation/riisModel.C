@@ -38,7 +38,6 @@ class riisModel : public fvModel {
   mutable riisNetSource source_;
 
   void readAll(const dictionary &whole);
-  void updateCells();
   void printForce() const;
   void refuse(const char *equation, const word &field) const;
 
@@ -91,9 +90,7 @@ riisModel::riisModel(const word &name, const word &modelType, const fvMesh &mesh
   static_assert(sizeof(scalar) == sizeof(double), "riis needs OpenFOAM in double precision");
   riis_set_log(riisWarn, nullptr);
   readAll(dict);
-  riis_marks *marks = nullptr;
-  check(riis_marks_create(&marks));
-  marks_.reset(marks);
+  marks_ = made<riis_marks>([&](riis_marks **to) { check(riis_marks_create(to)); });
   opening_ = law_.at(mesh.time().value(), check);
   Info << "riis " << name << ": starts at time " << timeName(mesh) << " with opening " << opening_ << endl;
 }
@@ -121,9 +118,7 @@ void riisModel::readAll(const dictionary &whole) {
   }
 
   valve_ = readValve(dict.subDict("valve"), check);
-  riis_valve *before = nullptr;
-  check(riis_valve_copy(valve_.get(), &before));
-  before_.reset(before);
+  before_ = made<riis_valve>([&](riis_valve **to) { check(riis_valve_copy(valve_.get(), to)); });
   check(riis_surface_options_init(&placement_, sizeof placement_));
   const dictionary &placement = dict.subDict("placement");
   refuseOthers(placement, {"scale", "rotationAxis", "rotationAngle", "translation", "flipNormals"});
@@ -131,9 +126,8 @@ void riisModel::readAll(const dictionary &whole) {
   placement_.half_thickness = dimensionedScalar("halfThickness", dimLength, dict).value();
   placement_.n_threads = getOr<label>(dict, "nThreads", 1);
   readResistance(dict, check, resistance_);
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve_.get(), &placement_, &surface), dict);
-  surface_.reset(surface);
+  surface_ =
+      made<riis_surface>([&](riis_surface **to) { check(riis_surface_create(valve_.get(), &placement_, to), dict); });
   check(riis_mark_options_init(&markOptions_, sizeof markOptions_));
   markOptions_.n_threads = placement_.n_threads;
   markOptions_.fields =
@@ -144,19 +138,6 @@ bool riisModel::read(const dictionary &dict) {
   if (!fvModel::read(dict)) return false;
   readAll(dict);
   return true;
-}
-
-void riisModel::updateCells() {
-  const vectorField &centres = mesh().cellCentres();
-  const double *xyz = centres.empty() ? nullptr : &centres[0][0];
-  if (cells_) {
-    check(riis_mesh_update(cells_.get(), centres.size(), xyz, xyz + 1, xyz + 2, 3));
-  } else {
-    riis_mesh *cells = nullptr;
-    check(riis_mesh_create(centres.size(), xyz, xyz + 1, xyz + 2, 3, &cells));
-    cells_.reset(cells);
-  }
-  meshChanged_ = false;
 }
 
 // Prints the force of the flow on the valve at the end of the last step.
@@ -175,7 +156,8 @@ void riisModel::correct() {
   if (timeIndex_ == time.timeIndex()) return;
   if (timeIndex_ > time.startTimeIndex()) printForce();
   timeIndex_ = time.timeIndex();
-  if (meshChanged_) updateCells();
+  if (meshChanged_) placeCells(mesh(), check, cells_);
+  meshChanged_ = false;
 
   check(riis_valve_set_scalar(before_.get(), "opening", opening_));
   opening_ = law_.at(time.value(), check);
@@ -199,12 +181,7 @@ void riisModel::correct() {
 }
 
 void riisModel::addSup(const volVectorField &U, fvMatrix<vector> &eqn) const {
-  if (eqn.dimensions() != dimForce / dimDensity) {
-    FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh()) << ": the equation of " << U.name()
-                         << " has the dimensions " << eqn.dimensions()
-                         << ". riisValve is for equations divided by a constant "
-                         << "density, with the dimensions " << dimForce / dimDensity << exit(FatalError);
-  }
+  checkDimensions(eqn.dimensions(), U.name(), name(), mesh());
   if (timeIndex_ != mesh().time().timeIndex()) {
     FatalErrorInFunction << "valve " << name() << " at time " << timeName(mesh()) << ": the solver has not called "
                          << "fvModels().correct() in this step" << exit(FatalError);

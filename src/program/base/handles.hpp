@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds handles of riis_vtk's objects to the handles of riis.hpp. Returns the content of handles, and arrays of triangles, as
-// structs.
+// Adds handles of riis_vtk's objects to the handles of riis.hpp. Returns the content of handles as structs.
 #pragma once
 
 #include <riis/riis_vtk.h>
 #include <riis/riis.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "common/array_view.hpp"
@@ -19,41 +21,61 @@ using Motion = Handle<riis_vtk_motion, riis_vtk_motion_destroy>;
 using Film = Handle<riis_vtk_film, riis_vtk_film_destroy>;
 using SurfaceFile = Handle<riis_vtk_surface, riis_vtk_surface_destroy>;
 
-// The functions below return the content of handles as structs.
-inline riis_triangles triangles_of(const riis_surface *surface) {
-  riis_triangles triangles{};
-  check(riis_surface_get_triangles(surface, &triangles, sizeof triangles));
-  return triangles;
+// Makes an object by a call of the library whose last argument receives it. `subject` begins refusals, as in check.
+template <class Object, class Call, class... Arguments>
+Object create_for(const std::string &subject, const Call &call, const Arguments &...arguments) {
+  Object object;
+  check(call(arguments..., object.out()), subject);
+  return object;
 }
-inline riis_surface_info info_of(const riis_surface *surface) {
-  riis_surface_info info{};
-  check(riis_surface_get_info(surface, &info, sizeof info));
-  return info;
-}
-inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
-  riis_mark_list list{};
-  check(riis_marks_get_list(marks, which, &list, sizeof list));
-  return list;
-}
-inline riis_leak_list list_of(const riis_leaks *leaks) {
-  riis_leak_list list{};
-  check(riis_leaks_get_list(leaks, &list, sizeof list));
-  return list;
+template <class Object, class Call, class... Arguments>
+Object create(const Call &call, const Arguments &...arguments) {
+  return create_for<Object>("", call, arguments...);
 }
 
-// Returns arrays that borrow vertices (3, n) and the corners (3, n) of triangles.
-inline riis_surface_arrays arrays_of(const std::vector<double> &xyz, const std::vector<int64_t> &corners) {
-  riis_surface_arrays arrays;
-  check(riis_surface_arrays_init(&arrays, sizeof arrays));
-  arrays.n_vertices = view(xyz).size() / 3;
-  arrays.x = xyz.data();
-  arrays.y = xyz.data() + 1;
-  arrays.z = xyz.data() + 2;
-  arrays.stride = 3;
-  arrays.n_faces = view(corners).size() / 3;
-  arrays.vertex_ids = corners.data();
-  arrays.id_bits = 64;
-  return arrays;
+// The functions below return the content of handles as structs.
+inline riis_triangles triangles_of(const riis_surface *surface) {
+  return get<riis_triangles>(riis_surface_get_triangles, surface);
+}
+inline riis_surface_info info_of(const riis_surface *surface) {
+  return get<riis_surface_info>(riis_surface_get_info, surface);
+}
+inline riis_mark_list list_of(const riis_marks *marks, int32_t which) {
+  return get<riis_mark_list>(riis_marks_get_list, marks, which);
+}
+inline riis_mark_stats stats_of(const riis_marks *marks) { return get<riis_mark_stats>(riis_marks_get_stats, marks); }
+
+// Returns the parameters of a valve, and the values of one of them.
+inline std::vector<riis_parameter> all_parameters(const riis_valve *valve) {
+  std::int64_t n = 0;
+  check(riis_valve_get_n_parameters(valve, &n));
+  std::vector<riis_parameter> parameters;
+  for (std::int64_t i = 0; i < n; ++i) parameters.push_back(get<riis_parameter>(riis_valve_get_parameter, valve, i));
+  return parameters;
+}
+inline std::vector<double> values_of(const riis_valve *valve, const riis_parameter &parameter) {
+  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
+  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+  return values;
+}
+// Returns whether all parameters but the named ones have their default values.
+inline bool has_default_values(const riis_valve *valve, const std::set<std::string> &others) {
+  const std::vector<riis_parameter> all = all_parameters(valve);
+  return std::all_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
+    const std::vector<double> values = values_of(valve, parameter);
+    return others.count(parameter.name) > 0 || std::equal(values.begin(), values.end(), parameter.default_values);
+  });
+}
+
+// Returns points that borrow their coordinates, (3, n).
+inline riis_points points_of(const std::vector<double> &xyz) {
+  auto points = defaults<riis_points>();
+  points.n_points = view(xyz).size() / 3;
+  points.x = xyz.data();
+  points.y = xyz.data() + 1;
+  points.z = xyz.data() + 2;
+  points.stride = 3;
+  return points;
 }
 
 }  // namespace riis::program

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <riis/riis_vtk.h>
+#include <riis/riis.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -16,28 +17,32 @@ namespace riis::program {
 
 // The options for the surface and its placement. Every command has some or all of them.
 struct ValveOptions {
-  ValveOptions() { check(riis_surface_options_init(&surface_options, sizeof surface_options)); }
-
-  std::string valve = "aortic";  // a kind, or a .json file; unused if there is a surface
-  std::string placed;            // the file of a placed valve, whose kind is then `valve`; "": none
-  std::string surface;           // a file, or "" for the valve
-  std::string leaflets;          // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
-  std::optional<double> time;    // the time of a surface that moves
-  double period = 0;             // period of the surface's motion or of the cycle; 0 if there is none
+  std::string valve = "aortic";            // a kind, or a .json file; unused if there is a surface
+  std::string placed;                      // the file of a placed valve, whose kind is then `valve`; "": none
+  std::string surface;                     // a file, or "" for the valve; of several files a name for all
+  std::vector<std::string> surface_files;  // the files of the surface, one for each leaflet if there are several
+  double time_step = 1;                    // the time between frames of svMultiPhysics
+  std::string leaflets;        // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
+  std::optional<double> time;  // the time of a surface that moves
+  double period = 0;           // period of the surface's motion or of the cycle; 0 if there is none
   std::string params, params_open;    // JSON files; "": none
   std::vector<std::string> settings;  // NAME=VALUE, in the order of typing
   std::optional<double> opening;      // from 0 to 1
   std::optional<double> skirt;        // length of a skirt in the mesh's unit; with a wall, the longest to accept
   std::string wall;                   // a file with the wall that the skirt reaches; "": none
   std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
-  riis_surface_options surface_options;
+  riis_surface_options surface_options = defaults<riis_surface_options>();
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale
-  // These members tell whether the user gave the values as numbers.
+  // Whether the user gave the values as numbers. A case and the checks of the command line set these members.
   bool has_scale = false, has_half_thickness = false, has_tolerance = false;
   std::int32_t n_threads = 0;  // 0: the library chooses by the amount of work
   bool quiet = false;
   bool strict = false;  // a warning changes the exit status
 };
+
+// The position of each name is the value of the RIIS_SEARCH_* or RIIS_MEASURE_* that it stands for.
+inline const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
+inline const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 
 // The names of the views that pictures and movies accept. A name's position is the value of its RIIS_VTK_VIEW_*.
 inline const std::vector<std::string> view_names = {"side",       "top",       "oblique",       "three",
@@ -62,21 +67,21 @@ struct SeriesOptions {
 
 // Two points that the valve should separate, and their texts for messages.
 struct LeakCheck {
-  double from[3], to[3];
+  const double *point(int end) const { return points.data() + 3 * end; }
+
+  std::vector<double> points;  // (3, 2)
   std::string subject;
   ExitCode exit_code = exit_wrong_usage;
 };
 
 // The options of riis mark. riis surface and riis check use some of them. riis surface has no mesh.
 struct MarkOptions : ValveOptions {
-  MarkOptions() { check(riis_mark_options_init(&mark_options, sizeof mark_options)); }
-
   std::string mesh;  // "" if there is none
   std::vector<std::string>
       pieces;              // the files of a mesh in pieces; empty before its list is read, and for other meshes
   bool needs_mesh = true;  // whether a case must name a mesh
   bool at_cells = false;   // whether the centres of cells are marked
-  riis_mark_options mark_options;
+  riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
   std::optional<double> resistance;           // R, for an array of K
   std::string output, surface_output, stats;  // "" if not wanted

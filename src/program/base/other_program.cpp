@@ -29,7 +29,7 @@ class Files {
   Files(const Files &) = delete;
   Files &operator=(const Files &) = delete;
 
-  void open(int to, const char *path, int flags) { posix_spawn_file_actions_addopen(&actions_, to, path, flags, 0600); }
+  void read_nothing() { posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0); }
   void pass(int from, int to) { posix_spawn_file_actions_adddup2(&actions_, from, to); }
 
   // Starts the words as a program. Returns 0, or why it could not be run.
@@ -67,21 +67,11 @@ void read_lines(std::FILE *file, const std::function<void(const std::string &)> 
 
 }  // namespace
 
-ProgramEnd run_program(const std::vector<std::string> &words, const std::string &log) {
-  Files files;
-  files.open(STDIN_FILENO, "/dev/null", O_RDONLY);
-  files.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
-  files.open(STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
-  pid_t process = 0;
-  const int error = files.start(words, process);
-  return {error, error != 0 ? -1 : status_of(process)};
-}
-
 TemporaryFile temporary_file() { return TemporaryFile(std::tmpfile()); }
 
-LinesEnd read_program(const std::vector<std::string> &words, std::FILE *input,
-                      const std::function<void(const std::string &)> &read) {
-  LinesEnd end{{0, -1}, ""};
+ProgramEnd run_program(const std::vector<std::string> &words, std::FILE *input,
+                       const std::function<void(const std::string &)> &read) {
+  ProgramEnd end;
   const TemporaryFile messages = temporary_file();
   int ends[2];
   if (!messages || pipe2(ends, O_CLOEXEC) != 0) {
@@ -90,7 +80,7 @@ LinesEnd read_program(const std::vector<std::string> &words, std::FILE *input,
   }
   const TemporaryFile output(fdopen(ends[0], "r"));
   Files files;
-  files.pass(fileno(input), STDIN_FILENO);
+  input ? files.pass(fileno(input), STDIN_FILENO) : files.read_nothing();
   files.pass(ends[1], STDOUT_FILENO);
   files.pass(fileno(messages.get()), STDERR_FILENO);
   pid_t process = 0;
@@ -113,21 +103,20 @@ void run_view(int argc, char **argv) {
   const std::string python = python_of_user();
   const std::string looks_for_package =
       "import importlib.util as u, sys; sys.exit(0 if u.find_spec('riis') and u.find_spec('riis.__main__') else 3)";
-  const ProgramEnd end = run_program({python, "-c", looks_for_package}, "/dev/null");
+  const ProgramEnd end = run_program({python, "-c", looks_for_package});
   if (end.error != 0 || end.status != 0) {
     const char *const fault = end.error != 0    ? " cannot be run"
                               : end.status == 3 ? " does not find the Python package riis"
                                                 : " fails when it imports the Python package riis";
-    throw Refusal{exit_bad_data,
-                  "view: " + python + fault +
-                      "; install it by 'python3 -m venv ~/venv' and '~/venv/bin/pip install \".[view]\"' in the "
-                      "sources of riis, and set RIIS_PYTHON=~/venv/bin/python"};
+    refuse_data("view: " + python + fault +
+                "; install it by 'python3 -m venv ~/venv' and '~/venv/bin/pip install \".[view]\"' in the "
+                "sources of riis, and set RIIS_PYTHON=~/venv/bin/python");
   }
   std::vector<char *> words{const_cast<char *>(python.c_str()), const_cast<char *>("-m"), const_cast<char *>("riis")};
   for (int i = 1; i < argc; ++i) words.push_back(argv[i]);
   words.push_back(nullptr);
   execvp(words[0], words.data());
-  throw Refusal{exit_bad_data, "view: " + python + ": " + std::strerror(errno)};
+  refuse_data("view: " + python + ": " + system_text(errno));
 }
 
 }  // namespace riis::program

@@ -10,14 +10,6 @@
 
 namespace riis::program {
 
-struct ProgramEnd {
-  int error;   // why the program could not be run, as errno has it, or 0
-  int status;  // its exit status, or -1 if a signal ended it
-};
-// Runs the words as a program and waits for its end. A first word without a slash is looked for in PATH. The program reads
-// nothing, its output is lost, and its messages are written to a file.
-ProgramEnd run_program(const std::vector<std::string> &words, const std::string &log);
-
 struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };
@@ -26,12 +18,16 @@ using TemporaryFile = std::unique_ptr<std::FILE, CloseFile>;
 // Returns NULL, and sets errno, if the file cannot be made.
 TemporaryFile temporary_file();
 
-struct LinesEnd : ProgramEnd {
-  std::string last_message;  // the last line on its stderr
+struct ProgramEnd {
+  int error = 0;               // why the program could not be run, as errno has it, or 0
+  int status = -1;             // its exit status, or -1 if a signal ended it
+  std::string last_message{};  // the last line on its stderr
 };
-// Runs the words as run_program does. The program reads `input` from its position, and `read` gets each line of its output.
-LinesEnd read_program(const std::vector<std::string> &words, std::FILE *input,
-                      const std::function<void(const std::string &)> &read);
+// Runs the words as a program and waits for its end. A first word without a slash is looked for in PATH. The program reads
+// `input` from its position, or nothing if it is NULL. `read` gets each line of the output.
+ProgramEnd run_program(
+    const std::vector<std::string> &words, std::FILE *input = nullptr,
+    const std::function<void(const std::string &)> &read = [](const std::string &) {});
 
 // Returns the Python that the program starts: `python3`, or the one that the environment variable RIIS_PYTHON names.
 std::string python_of_user();

@@ -48,14 +48,11 @@ void StepProgress::begin(std::size_t step) {
   if (has_line_ && now - last_ < std::chrono::milliseconds(200) && step + 1 < n_steps_) return;
   last_ = now;
   has_line_ = true;
-  const double left = seconds() / static_cast<double>(step) * static_cast<double>(n_steps_ - step);
+  const double left = std::chrono::duration<double>(now - begin_).count() / static_cast<double>(step) *
+                      static_cast<double>(n_steps_ - step);
   // The blanks at the end overwrite the rest of a longer previous line.
   std::cerr << "\rriis: " << what_ << ": step " << step + 1 << " of " << n_steps_ << ", "
             << static_cast<long long>(left + 0.5) << " s left   " << std::flush;
-}
-
-double StepProgress::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
 }
 
 }  // namespace riis::program

@@ -40,7 +40,6 @@ class StepProgress {
   StepProgress &operator=(const StepProgress &) = delete;
 
   void begin(std::size_t step);
-  double seconds() const;
 
  private:
   std::string what_;

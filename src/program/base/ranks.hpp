@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -65,6 +66,12 @@ std::vector<T> gather(const std::vector<T> &own) {
   const std::vector<std::byte> bytes = gather_bytes(own.data(), own.size() * sizeof(T), sizeof(T));
   const auto *const begin = reinterpret_cast<const T *>(bytes.data());
   return {begin, begin + bytes.size() / sizeof(T)};
+}
+
+// Returns the sum over all ranks.
+inline std::int64_t sum(std::int64_t own) {
+  const std::vector<std::int64_t> all = gather(std::vector<std::int64_t>{own});
+  return std::accumulate(all.begin(), all.end(), std::int64_t{0});
 }
 
 // Moves each element to a rank. rank_of(element) names the rank. Returns the elements that came to this rank.

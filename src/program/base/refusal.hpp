@@ -18,6 +18,7 @@ struct Refusal {
   riis_status status = RIIS_INVALID_ARGUMENT;
 };
 
+[[noreturn]] inline void refuse_data(const std::string &text) { throw Refusal{exit_bad_data, text}; }
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
 // Returns the library's message. A struct field at its start is replaced by the option of the command line that sets the field.

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -17,19 +18,25 @@ namespace riis::program {
 namespace {
 
 template <class Number>
-Number parse(const std::string &text, const std::string &subject, const char *kind) {
+std::optional<Number> whole_number_in(const std::string &text) {
   // std::from_chars does not accept a plus sign, so it is skipped.
   const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
   const char *last = text.data() + text.size();
   Number number{};
   const auto [end, error] = std::from_chars(first, last, number);
-  if (error != std::errc() || end != last) {
-    throw Refusal{exit_wrong_usage, subject + ": '" + text + "' is not " + kind};
-  }
-  return number;
+  return error == std::errc() && end == last ? std::optional(number) : std::nullopt;
+}
+
+template <class Number>
+Number parse(const std::string &text, const std::string &subject, const char *kind) {
+  const auto number = whole_number_in<Number>(text);
+  if (!number) refuse_usage(subject + ": '" + text + "' is not " + kind);
+  return *number;
 }
 
 }  // namespace
+
+std::optional<double> number_in(const std::string &text) { return whole_number_in<double>(text); }
 
 double parse_number(const std::string &text, const std::string &subject) {
   return parse<double>(text, subject, "a number that fits a double");
@@ -41,11 +48,7 @@ std::int32_t parse_integer(const std::string &text, const std::string &subject) 
 
 std::vector<double> parse_list(const std::string &text, const std::string &subject) {
   std::vector<double> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    numbers.push_back(parse_number(text.substr(begin, end - begin), subject));
-    begin = end + 1;
-  }
+  for (const std::string &part : split(text, ",")) numbers.push_back(parse_number(part, subject));
   return numbers;
 }
 
@@ -53,8 +56,7 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
                                const std::string &form) {
   std::vector<double> numbers = parse_list(text, subject);
   if (numbers.size() != n) {
-    throw Refusal{exit_wrong_usage,
-                  subject + ": '" + text + "' has " + std::to_string(numbers.size()) + " numbers; it takes " + form};
+    refuse_usage(subject + ": '" + text + "' has " + std::to_string(numbers.size()) + " numbers; it takes " + form);
   }
   return numbers;
 }
@@ -65,10 +67,32 @@ std::string shortest(double number) {
   return {text, static_cast<std::size_t>(end - text)};
 }
 
+std::string printed(const char *format, double number) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, number);
+  return text;
+}
+
+std::vector<std::string> split(const std::string &text, const char *marks) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(marks, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 std::string joined_by(const std::vector<std::string> &parts, const char *between) {
   std::string text;
   for (const std::string &part : parts) text += (text.empty() ? "" : between) + part;
   return text;
+}
+
+std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
+  return joined_by(parts, between);
 }
 
 std::string one_of(const std::vector<std::string> &names) {
@@ -77,6 +101,8 @@ std::string one_of(const std::vector<std::string> &names) {
     text += (i == 0 ? "" : i + 1 < names.size() ? ", " : " or ") + names[i];
   return text;
 }
+
+std::string system_text(int error) { return std::generic_category().message(error); }
 
 // ---- Text file ----
 
@@ -90,7 +116,7 @@ bool has_ending(const std::string &path, const std::string &ending) { return end
 
 void refuse_file(const std::string &path, const std::string &reason) {
   constexpr std::size_t longest = 300;
-  throw Refusal{exit_bad_data, path + ": " + (reason.size() > longest ? reason.substr(0, longest) + " ..." : reason)};
+  refuse_data(path + ": " + (reason.size() > longest ? reason.substr(0, longest) + " ..." : reason));
 }
 
 std::string text_of_file(const std::string &path) {
@@ -99,7 +125,7 @@ std::string text_of_file(const std::string &path) {
   std::ostringstream text;
   if (file) text << file.rdbuf();
   // Opening a folder as a file succeeds. Only reading it fails, so folders are recognised here.
-  if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + std::generic_category().message(errno));
+  if (!file.is_open() || errno != 0) refuse_file(path, "cannot be read: " + system_text(errno));
   if (text.str().empty()) refuse_file(path, "is empty");
   return text.str();
 }
@@ -111,28 +137,16 @@ namespace {
 // The library's limit for a time.
 constexpr double largest_time = 1e30;
 
-[[noreturn]] void refuse_times(const std::string &subject, const std::string &reason) {
-  throw Refusal{exit_wrong_usage, subject + ": " + reason};
-}
-
 [[noreturn]] void refuse_count(const std::string &subject, double n) {
-  refuse_times(subject, shortest(n) + " times are too many; a series has at most " + std::to_string(most_times));
+  refuse_usage(subject + ": " + shortest(n) + " times are too many; a series has at most " +
+               std::to_string(most_times));
 }
 
 double parse_time(const std::string &text, const std::string &subject) {
   const double time = parse_number(text, subject);
-  if (!(std::abs(time) <= largest_time)) refuse_times(subject, text + " is not finite and at most 1e30 in magnitude");
+  if (!(std::abs(time) <= largest_time))
+    refuse_usage(subject + ": " + text + " is not finite and at most 1e30 in magnitude");
   return time;
-}
-
-std::vector<std::string> pieces_between(const std::string &text, char mark) {
-  std::vector<std::string> pieces;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(mark, begin), text.size());
-    pieces.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return pieces;
 }
 
 // Removes the rounding error of a sum of steps. For example, 0.07000000000000001 becomes 0.07.
@@ -145,12 +159,12 @@ double tidied(double time, double step) {
 }
 
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
-  if (!(step > 0)) refuse_times(subject, "the step " + shortest(step) + " is not above 0");
-  if (stop < start) refuse_times(subject, "the stop " + shortest(stop) + " is before the start " + shortest(start));
+  if (!(step > 0)) refuse_usage(subject + ": the step " + shortest(step) + " is not above 0");
+  if (stop < start) refuse_usage(subject + ": the stop " + shortest(stop) + " is before the start " + shortest(start));
   // The small additions keep rounding from losing the last step if the step divides the span.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
-  if (n < 2) refuse_times(subject, "the step " + shortest(step) + " is beyond the stop " + shortest(stop));
+  if (n < 2) refuse_usage(subject + ": the step " + shortest(step) + " is beyond the stop " + shortest(stop));
   std::vector<double> times;
   for (double i = 0; i < n; ++i) times.push_back(std::min(tidied(start + i * step, step), stop));
   return times;
@@ -160,14 +174,14 @@ std::vector<double> stepped(double start, double stop, double step, const std::s
 
 std::vector<double> parse_times(const std::string &text, const std::string &subject) {
   std::vector<double> times;
-  const std::vector<std::string> range = pieces_between(text, ':');
+  const std::vector<std::string> range = split(text, ":");
   if (range.size() == 3) {
     times =
         stepped(parse_time(range[0], subject), parse_time(range[1], subject), parse_time(range[2], subject), subject);
   } else if (range.size() == 1) {
-    for (const std::string &piece : pieces_between(text, ',')) times.push_back(parse_time(piece, subject));
+    for (const std::string &piece : split(text, ",")) times.push_back(parse_time(piece, subject));
   } else {
-    refuse_times(subject, "'" + text + "' is neither START:STOP:STEP nor a list of times");
+    refuse_usage(subject + ": '" + text + "' is neither START:STOP:STEP nor a list of times");
   }
   check_times(times, subject);
   return times;
@@ -177,28 +191,13 @@ void check_times(const std::vector<double> &times, const std::string &subject) {
   if (times.size() > most_times) refuse_count(subject, static_cast<double>(times.size()));
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (!(times[i] > times[i - 1]))
-      refuse_times(subject,
-                   "the time " + shortest(times[i]) + " is not above the time before it, " + shortest(times[i - 1]));
+      refuse_usage(subject + ": the time " + shortest(times[i]) + " is not above the time before it, " +
+                   shortest(times[i - 1]));
   }
-  if (times.empty()) refuse_times(subject, "a series has one time or more");
+  if (times.empty()) refuse_usage(subject + ": a series has one time or more");
 }
 
 // ---- CSV ----
-
-namespace {
-
-std::vector<std::string> csv_lines(const std::string &text) {
-  std::vector<std::string> lines(1);
-  for (const char c : text) {
-    if (c == '\n')
-      lines.emplace_back();
-    else if (c != '\r')
-      lines.back() += c;
-  }
-  return lines;
-}
-
-}  // namespace
 
 std::string trimmed(const std::string &text) {
   const auto is_blank = [](unsigned char c) { return c <= ' '; };
@@ -208,13 +207,7 @@ std::string trimmed(const std::string &text) {
 }
 
 std::vector<std::string> csv_cells(const std::string &line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',' || c == ';')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
+  std::vector<std::string> cells = split(line, ",;");
   for (std::string &cell : cells) cell = trimmed(cell);
   return cells;
 }
@@ -231,7 +224,7 @@ CsvFile csv_of_text(const std::string &path, const std::string &text, const std:
                     const std::string &form, std::size_t n_cells) {
   CsvFile file;
   std::size_t number = 0;
-  for (const std::string &whole : csv_lines(text)) {
+  for (const std::string &whole : split(text, "\n")) {
     const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
     if (line.empty()) continue;
     if (line[0] == '#') {

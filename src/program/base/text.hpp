@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace riis::program {
 // In: words of the command line. Out: numbers, in any locale. Other characters after the number are wrong usage. `subject` names
 // the value in the refusal.
 
+// Returns the number that the whole text is, or nothing.
+std::optional<double> number_in(const std::string &text);
 double parse_number(const std::string &text, const std::string &subject);
 std::int32_t parse_integer(const std::string &text, const std::string &subject);
 // Reads numbers separated by commas.
@@ -21,14 +24,26 @@ std::vector<double> parse_list(const std::string &text, const std::string &subje
 std::vector<double> parse_list(const std::string &text, const std::string &subject, std::size_t n,
                                const std::string &form);
 
+// Returns a number in a format of printf, such as "%.3g".
+std::string printed(const char *format, double number);
 // Returns the shortest text that reads back as the same number, in any locale.
 std::string shortest(double number);
 
+// Returns numbers with a text between them.
+std::string numbers_text(const double *numbers, std::size_t n, const char *between,
+                         std::string (*as_text)(double) = shortest);
+
 inline std::string quoted(const std::string &text) { return "\"" + text + "\""; }
 
+// Returns the parts of a text between these characters.
+std::vector<std::string> split(const std::string &text, const char *marks);
 // Returns the parts with a text between them. one_of returns a list for a sentence, such as "m, cm or mm".
 std::string joined_by(const std::vector<std::string> &parts, const char *between);
 std::string one_of(const std::vector<std::string> &names);
+
+inline bool is_control(unsigned char c) { return c < ' ' || c == 127; }
+// Returns the system's message for errno.
+std::string system_text(int error);
 
 // In: a path. Out: its ending, or the text of the file. Refusals name the file.
 

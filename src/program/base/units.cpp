@@ -2,7 +2,6 @@
 
 #include "program/base/units.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -47,6 +47,7 @@ struct Box {
   }
   void grow(const double *point) { grow(point, point); }
   void grow(const Box &other) { grow(other.lower, other.upper); }
+  bool contains(const double *point) const { return meets(point, point); }
   bool meets(const double *other_lower, const double *other_upper) const {
     for (int k = 0; k < 3; ++k)
       if (upper[k] < other_lower[k] || lower[k] > other_upper[k]) return false;
@@ -60,16 +61,19 @@ inline Box empty_box() {
   return {{far, far, far}, {-far, -far, -far}};
 }
 
+// The number of valves that fit into a mesh for which no other unit is possible.
+inline constexpr double largest_mesh = 40;
+
 // The sizes of a mesh and of a valve in it. The functions below tell whether they fit together, and which unit and which half
 // thickness would fit. The program's warnings and the lights of Python's view share these rules.
 struct Sizes {
   Box mesh, surface;
   double median_edge;  // of the mesh; 0 if unknown
   double half_thickness;
-  double translation[3];  // of the surface; it has the mesh's unit already
-  bool is_unit_known;     // the user named the unit, so only the position can be wrong if the sizes fit
-  bool has_usual_half;    // the half thickness is the default of a parametric valve
-  double most_sure;       // a mesh of unknown unit that is more valves wide may have another unit
+  double translation[3]{};          // of the surface; it has the mesh's unit already
+  bool is_unit_known = false;       // the user named the unit, so only the position can be wrong if the sizes fit
+  bool has_usual_half = false;      // the half thickness is the default of a parametric valve
+  double most_sure = largest_mesh;  // a mesh of unknown unit that is more valves wide may have another unit
 };
 
 // Both limits of the half thickness are shares of the surface's largest side. The paper's half thickness, 0.1 cm, is 0.04 of the
@@ -84,8 +88,6 @@ bool is_too_small(double half_thickness, const Sizes &sizes);
 // this length does not fit either.
 double better_half_thickness(const Sizes &sizes);
 
-// The number of valves that fit into a mesh for which no other unit is possible.
-inline constexpr double largest_mesh = 40;
 // Returns whether a mesh whose lengths are multiplied by the factor has the size and the edges of a mesh with this valve.
 bool sizes_fit_at(double factor, const Sizes &sizes);
 // Returns the factor that makes the mesh's lengths fit the surface's. Returns none if they already fit, or if no power of ten

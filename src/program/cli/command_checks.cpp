@@ -27,6 +27,8 @@ void check_opening(const ValveOptions &options) {
 
 // Derives the scale and the default half thickness from the units.
 void finish_units(ValveOptions &options) {
+  if (options.surface_files.size() > 1 && !options.leaflets.empty())
+    refuse_usage("--leaflets has no effect with several files: each file is a leaflet");
   const bool is_file = !options.surface.empty() || is_valve_file(options.valve);
   if (!is_file && options.surface_unit && options.surface_unit != Unit::centimetre)
     refuse_usage("--surface-unit: the parameters of the " + options.valve + " valve are in centimetres, not in " +
@@ -40,14 +42,16 @@ void finish_units(ValveOptions &options) {
 }
 
 // Refuses a motion without a time, a time without a motion, and a period without a motion or a cycle.
-void check_motion(const Command &command, const ValveOptions &options, bool has_times, bool has_cycle) {
-  const bool is_motion = is_motion_file(options.surface);
-  if (is_motion && !options.time && !has_times)
+void check_motion(const Command &command, const MarkOptions &options) {
+  const bool moves = is_motion(options);
+  if (moves && !options.time && options.series.times.empty())
     refuse_usage("--surface " + options.surface + " is a motion: it needs --time T");
-  if (!is_motion && options.time)
-    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd file");
-  if (command.has("--period") && !is_motion && !has_cycle)
+  if (!moves && options.time)
+    refuse_usage("--time has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
+  if (command.has("--period") && !moves && options.series.cycle.empty())
     refuse_usage("--period needs a motion, --surface FILE.pvd, or --cycle");
+  if (command.knows("--time-step") && command.has("--time-step") && !moves)
+    refuse_usage("--time-step needs a motion, --surface FILE.dat");
 }
 
 void check_open_state(const ValveOptions &options) {
@@ -57,17 +61,9 @@ void check_open_state(const ValveOptions &options) {
 
 // Refuses an open state without an opening. Most valves are closed by default, so it would have no effect, and the user would not
 // notice.
-void check_open_state_is_met(const ValveOptions &options, bool has_cycle) {
-  if (!options.params_open.empty() && !sets_opening(options) && !has_cycle)
+void check_open_state_is_met(const MarkOptions &options) {
+  if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
     refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");
-}
-
-void finish_valve(const Command &command, ValveOptions &options) {
-  use_placed_valve(options);
-  check_opening(options);
-  check_open_state(options);
-  check_motion(command, options, false, false);
-  finish_units(options);
 }
 
 void check_series(const Command &command, const MarkOptions &options) {
@@ -75,17 +71,41 @@ void check_series(const Command &command, const MarkOptions &options) {
   if (!series.case_file.empty()) return;
   if (series.times.empty()) {
     for (const char *name : {"--cycle", "--movie", "--series-table", "--all-cells"})
-      if (command.knows(name) && command.has(name)) refuse_usage(std::string(name) + " needs --times");
+      if (command.has(name)) refuse_usage(std::string(name) + " needs --times");
     return;
   }
   if (!options.surface.empty()) {
     if (!series.cycle.empty()) refuse_usage("--cycle has no effect with --surface");
-    if (!is_motion_file(options.surface))
-      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd file");
+    if (!is_motion(options))
+      refuse_usage("--times has no effect with --surface " + options.surface + ": a motion is a .pvd or .dat file");
     return;
   }
   if (series.cycle.empty()) refuse_usage("--times needs --cycle, the valve's opening in time");
   check_set_opening(options, "has no effect with --times: see --cycle");
+}
+
+void check_valve(const Command &command, ValveOptions &options) {
+  options.has_scale = command.has("--scale");
+  options.has_half_thickness = command.has("--half-thickness");
+  options.has_tolerance = command.has("--tolerance");
+  use_placed_valve(options);
+  check_opening(options);
+  check_open_state(options);
+}
+
+void finish_valve(const Command &command, ValveOptions &options) {
+  check_valve(command, options);
+  finish_units(options);
+}
+
+// Finishes the options of a surface in a mesh. Options that the command lacks have no effect. `sweeps_openings` says whether the
+// command itself opens the valve.
+void finish_surface_in_place(const Command &command, MarkOptions &options, bool sweeps_openings = false) {
+  check_valve(command, options);
+  check_series(command, options);
+  check_motion(command, options);
+  if (!sweeps_openings) check_open_state_is_met(options);
+  finish_units(options);
 }
 
 void check_distance(const Command &command, const MarkOptions &options) {
@@ -108,14 +128,8 @@ void check_folder_name(const std::string &folder) {
 }  // namespace
 
 MarkOptions finish_mark(const Command &command, MarkOptions options) {
-  const bool has_case = !options.series.case_file.empty(), has_cycle = !options.series.cycle.empty();
-  use_placed_valve(options);
-  check_opening(options);
-  check_open_state(options);
-  check_series(command, options);
-  check_motion(command, options, !options.series.times.empty(), has_cycle);
-  check_open_state_is_met(options, has_cycle);
-  finish_units(options);
+  const bool has_case = !options.series.case_file.empty();
+  finish_surface_in_place(command, options);
   check_distance(command, options);
   if (!is_prefix(options.prefix))
     refuse_usage("--prefix: '" + options.prefix.substr(0, 64) + "' must be 1 to 64 letters, digits, _, - and .");
@@ -134,53 +148,39 @@ MarkOptions finish_mark(const Command &command, MarkOptions options) {
 }
 
 MarkOptions finish_surface(const Command &command, MarkOptions options) {
-  finish_valve(command, options);
-  check_open_state_is_met(options, false);
+  finish_surface_in_place(command, options);
   if (!has_output(options)) refuse_usage("nothing to do: --output or --picture is needed");
   return options;
 }
 
 MarkOptions finish_crossings(const Command &command, MarkOptions options) {
-  finish_valve(command, options);
+  finish_surface_in_place(command, options, true);
   return options;
 }
 
 MarkOptions finish_leaks(const Command &command, MarkOptions options) {
   if (options.mesh.empty() && options.series.case_file.empty()) refuse_usage("MESH is required");
-  finish_valve(command, options);
-  check_open_state_is_met(options, false);
+  finish_surface_in_place(command, options);
   return options;
 }
 
 SizeFieldOptions finish_size_field(const Command &command, SizeFieldOptions options) {
-  const bool has_cycle = !options.series.cycle.empty();
-  use_placed_valve(options);
-  check_opening(options);
-  check_open_state(options);
-  if (options.series.case_file.empty()) {
-    check_series(command, options);
-    check_motion(command, options, !options.series.times.empty(), has_cycle);
-  }
+  finish_surface_in_place(command, options, true);
   if (command.has("--count") && (sets_opening(options) || !options.surface.empty()))
     refuse_usage("--count has no effect: there is only one opening");
-  finish_units(options);
   return options;
 }
 
-StatesOptions finish_states(const Command &, StatesOptions options) {
-  use_placed_valve(options);
+StatesOptions finish_states(const Command &command, StatesOptions options) {
   check_set_opening(options, "has no effect: the table has all openings");
-  check_open_state(options);
-  finish_units(options);
+  finish_valve(command, options);
   return options;
 }
 
-ExportOptions finish_export(const Command &, ExportOptions options) {
-  use_placed_valve(options);
+ExportOptions finish_export(const Command &command, ExportOptions options) {
   check_folder_name(options.folder);
   check_set_opening(options, "has no effect: the valve opens and closes in an export");
-  check_open_state(options);
-  finish_units(options);
+  finish_valve(command, options);
   if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))
     refuse_usage("riis export needs --opening-seconds and --closing-seconds, or --cycle");
   // Blood has 1060 kg/m3 and 0.004 Pa s. The solver's units are those of the mesh, with grams beside cm and mm.
@@ -190,9 +190,8 @@ ExportOptions finish_export(const Command &, ExportOptions options) {
   return options;
 }
 
-ParamsOptions finish_params(const Command &, ParamsOptions options) {
-  use_placed_valve(options);
-  check_opening(options);
+ParamsOptions finish_params(const Command &command, ParamsOptions options) {
+  finish_valve(command, options);
   return options;
 }
 

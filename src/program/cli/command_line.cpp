@@ -42,6 +42,8 @@ std::string name_of(const CLI::App &app) {
   return (app.get_parent() ? name_of(*app.get_parent()) + " " : "") + app.get_name();
 }
 
+[[noreturn]] void refuse_empty(const std::string &name) { refuse_usage(name + ": the value is empty"); }
+
 // Refuses "--output= mesh.vtu", because CLI11 would read it as "--output=mesh.vtu".
 void check_equals_signs(int argc, char **argv) {
   for (int i = 1; i < argc && argv[i] != std::string("--"); ++i) {
@@ -147,43 +149,41 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
   app.set_help_flag("-h,--help", "Print this and exit");
   app.footer(help_of("riis"));
   app.require_subcommand(1);
-  MarkOptions mark, surface, crossings, leaks;
-  SizeFieldOptions field;
-  StatesOptions states;
-  ExportOptions exported;
-  ParamsOptions params;
-  PlaceOptions placed;
-  std::string topic;
-  const auto command = [](CLI::App &in, const char *name, const char *what, const char *help) {
+  const auto named = [](CLI::App &in, const char *name, const char *what) {
     CLI::App *made = in.add_subcommand(name, what);
-    made->footer(help_of(help));
+    made->footer(help_of(name));
     return made;
   };
-  const Command marks(command(app, "mark", "Mark the nodes of a mesh near a valve, at one time or at many", "mark"));
-  const Command surfaces(command(app, "surface", "Write or draw the triangles of a valve, without a mesh", "surface"));
-  const Command table(command(app, "states", "Measure a valve at openings from 0 to 1", "states"));
-  CLI::App *checks = command(app, "check", "Look for leaflets that cross, or for ways through a valve", "check");
+  // For each command that has options: the command, and the call that makes the request of these options.
+  std::vector<std::pair<const CLI::App *, std::function<Request()>>> commands;
+  const auto add = [&](CLI::App &in, const char *name, const char *what, auto declare, auto finish, auto options) {
+    const Command command(named(in, name, what));
+    const auto parsed = std::make_shared<decltype(options)>(std::move(options));
+    declare(command, *parsed);
+    commands.emplace_back(in.get_subcommand(name), [=]() -> Request { return finish(command, std::move(*parsed)); });
+  };
+  add(app, "mark", "Mark the nodes of a mesh near a valve, at one time or at many", declare_mark, finish_mark,
+      MarkOptions());
+  add(app, "surface", "Write or draw the triangles of a valve, without a mesh", declare_surface, finish_surface,
+      MarkOptions());
+  add(app, "states", "Measure a valve at openings from 0 to 1", declare_states, finish_states, StatesOptions());
+  CLI::App *checks = named(app, "check", "Look for leaflets that cross, or for ways through a valve");
   checks->require_subcommand(1);
-  const Command crossing(
-      command(*checks, "crossings", "Tell whether leaflets go through each other, at 101 openings", "crossings"));
-  const Command leak(command(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", "leaks"));
-  const Command fields(
-      command(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", "size-field"));
-  const Command frames(command(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", "export"));
-  const Command values(command(app, "params", "Print the parameters of a valve", "params"));
-  const Command places(command(app, "place", "Find a valve's sizes and placement from a patient's landmarks", "place"));
-  command(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)", "view");
-  CLI::App *help = command(app, "help", "Explain a topic, or list the topics", "help");
+  add(*checks, "crossings", "Tell whether leaflets go through each other, at 101 openings", declare_crossings,
+      finish_crossings, MarkOptions());
+  add(*checks, "leaks", "Tell whether a mesh lets flow through the marked valve", declare_leaks, finish_leaks,
+      MarkOptions());
+  add(app, "size-field", "Write the edge lengths that a mesh needs near a valve, for gmsh", declare_size_field,
+      finish_size_field, SizeFieldOptions());
+  add(app, "export", "Write the motion of leaflets as svMultiPhysics reads it", declare_export, finish_export,
+      ExportOptions());
+  add(app, "params", "Print the parameters of a valve", declare_params, finish_params, ParamsOptions());
+  add(app, "place", "Find a valve's sizes and placement from a patient's landmarks", declare_place, finish_place,
+      PlaceOptions());
+  named(app, "view", "Show a valve in a mesh, in a browser (by the Python package riis)");
+  CLI::App *help = named(app, "help", "Explain a topic, or list the topics");
+  std::string topic;
   help->add_option("TOPIC", topic, "One of the topics that riis help lists");
-  declare_mark(marks, mark);
-  declare_surface(surfaces, surface);
-  declare_states(table, states);
-  declare_crossings(crossing, crossings);
-  declare_leaks(leak, leaks);
-  declare_size_field(fields, field);
-  declare_export(frames, exported);
-  declare_params(values, params);
-  declare_place(places, placed);
   const auto asks_for_help = [](const std::string &word) { return word == "--help" || word == "-h"; };
   if (argc > 1 && std::string("view") == argv[1] && std::none_of(argv + 2, argv + argc, asks_for_help))
     run_view(argc, argv);
@@ -206,15 +206,9 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     write_text("-", text_of_topic(topic));
     return std::nullopt;
   }
-  if (marks.parsed()) return finish_mark(marks, std::move(mark));
-  if (surfaces.parsed()) return finish_surface(surfaces, std::move(surface));
-  if (table.parsed()) return finish_states(table, std::move(states));
-  if (crossing.parsed()) return finish_crossings(crossing, std::move(crossings));
-  if (leak.parsed()) return finish_leaks(leak, std::move(leaks));
-  if (fields.parsed()) return finish_size_field(fields, std::move(field));
-  if (frames.parsed()) return finish_export(frames, std::move(exported));
-  if (places.parsed()) return finish_place(places, std::move(placed));
-  return finish_params(values, std::move(params));
+  for (const auto &[parsed, request] : commands)
+    if (parsed->parsed()) return request();
+  return std::nullopt;
 }
 
 namespace {
@@ -223,10 +217,9 @@ std::string option_name(const std::string &names) { return names.substr(0, names
 
 }  // namespace
 
-bool Command::parsed() const { return app_->parsed(); }
 CLI::Option *Command::option(const std::string &name) const { return app_->get_option(name); }
 bool Command::knows(const std::string &name) const { return app_->get_option_no_throw(name) != nullptr; }
-bool Command::has(const std::string &name) const { return option(name)->count() > 0; }
+bool Command::has(const std::string &name) const { return knows(name) && option(name)->count() > 0; }
 
 CLI::Option *Command::finished(CLI::Option *option, const char *type) const {
   if (type) option->type_name(type);
@@ -258,16 +251,6 @@ CLI::Option *Command::values(const std::string &names, const char *type, const c
   return finished(app_->add_option_function<std::vector<std::string>>(names, taken, help), type);
 }
 
-CLI::Option *Command::number(const std::string &names, const char *type, const char *help, double &to) {
-  return value(names, type, help,
-               [&to, name = option_name(names)](const std::string &text) { to = parse_number(text, name); });
-}
-
-CLI::Option *Command::positive(const std::string &names, const char *type, const char *help, double &to) {
-  return value(names, type, help,
-               [&to, name = option_name(names)](const std::string &text) { to = parse_positive(text, name); });
-}
-
 CLI::Option *Command::choice(const std::string &names, const char *help, const std::vector<std::string> &words,
                              std::int32_t &to, const char *type) {
   return value(names, type, help, [&to, &words](const std::string &text) { to = position_of(text, words); })
@@ -278,16 +261,8 @@ CLI::Option *Command::flag(const std::string &names, const char *help, bool &to)
   return finished(app_->add_flag(names, to, help), nullptr);
 }
 
-void refuse_empty(const std::string &name) { refuse_usage(name + ": the value is empty"); }
-
 std::int32_t position_of(const std::string &name, const std::vector<std::string> &names) {
   return static_cast<std::int32_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
-double parse_positive(const std::string &text, const std::string &subject) {
-  const double number = parse_number(text, subject);
-  if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
-  return number;
 }
 
 }  // namespace riis::program

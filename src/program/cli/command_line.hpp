@@ -31,8 +31,7 @@ class Command {
  public:
   explicit Command(CLI::App *app) : app_(app) {}
 
-  bool parsed() const;
-  bool has(const std::string &name) const;    // whether the user gave the option
+  bool has(const std::string &name) const;    // whether the command has this option, and the user gave it
   bool knows(const std::string &name) const;  // whether the command has this option
   CLI::Option *option(const std::string &name) const;
   // Sets the heading in the help for the options declared next.
@@ -45,8 +44,13 @@ class Command {
   CLI::Option *text(const std::string &names, const char *type, const char *help, std::string &to);
   using TakeAll = std::function<void(const std::vector<std::string> &)>;
   CLI::Option *values(const std::string &names, const char *type, const char *help, const TakeAll &take);
-  CLI::Option *number(const std::string &names, const char *type, const char *help, double &to);
-  CLI::Option *positive(const std::string &names, const char *type, const char *help, double &to);
+  // Sets `to` to the result of parse(value, the option's name), which refuses bad values.
+  template <class To, class Parse>
+  CLI::Option *parsed(const std::string &names, const char *type, const char *help, To &to, const Parse &parse) {
+    return value(names, type, help, [&to, parse, name = names.substr(0, names.find(','))](const std::string &text) {
+      to = parse(text, name);
+    });
+  }
   // Sets `to` to the position of the given word in `words`.
   CLI::Option *choice(const std::string &names, const char *help, const std::vector<std::string> &words,
                       std::int32_t &to, const char *type = "HOW");
@@ -59,18 +63,10 @@ class Command {
   const char *group_ = "Options";
 };
 
-[[noreturn]] void refuse_empty(const std::string &name);
-
 // Returns the position of a word in a list, or the list's length if it is not there.
 std::int32_t position_of(const std::string &name, const std::vector<std::string> &names);
 
-// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
-double parse_positive(const std::string &text, const std::string &subject);
-
 // Declares the options of each command, and checks that they fit together.
-
-// The largest number of openings that riis states accepts.
-inline constexpr std::int32_t most_states = 100001;
 
 void declare_mark(Command command, MarkOptions &options);
 void declare_surface(Command command, MarkOptions &options);

@@ -7,19 +7,23 @@
 
 #include "program/base/text.hpp"
 #include "program/input/opening_law.hpp"
-#include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/leaks.hpp"
 
 namespace riis::program {
 namespace {
 
-// The position of each name is the value of the RIIS_SEARCH_* or RIIS_MEASURE_* that it stands for.
-const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
-const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
+// The largest number of openings that riis states and riis size-field accept.
+constexpr std::int32_t most_states = 100001;
 
 // The position of each name is the value of LandmarkWarp that it stands for.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
+
+// Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
+double parse_positive(const std::string &text, const std::string &subject) {
+  const double number = parse_number(text, subject);
+  if (!(number > 0)) refuse_usage(subject + ": " + text + " is not above 0");
+  return number;
+}
 
 double parse_positive_finite(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
@@ -27,12 +31,21 @@ double parse_positive_finite(const std::string &text, const std::string &subject
   return number;
 }
 
-std::int32_t parse_count(const std::string &text, const std::string &subject, std::int32_t least, std::int32_t most) {
+double parse_opening(const std::string &text, const std::string &subject) {
+  const double opening = parse_number(text, subject);
+  if (!(opening >= 0 && opening <= 1)) refuse_usage(subject + ": " + text + " is not from 0 to 1");
+  return opening;
+}
+
+// Reads a number of openings.
+std::int32_t parse_count(const std::string &text, const std::string &subject) {
   const std::int32_t n = parse_integer(text, subject);
-  if (n < least || n > most)
-    refuse_usage(subject + ": " + text + " is not from " + std::to_string(least) + " to " + std::to_string(most));
+  if (n < 2 || n > most_states)
+    refuse_usage(subject + ": " + text + " is not from 2 to " + std::to_string(most_states));
   return n;
 }
+
+std::optional<Unit> parse_unit(const std::string &text, const std::string &) { return unit_of(text); }
 
 TimeSpan parse_span(const std::string &text, const std::string &subject) {
   const std::size_t colon = text.find(':');
@@ -47,65 +60,74 @@ TimeSpan parse_span(const std::string &text, const std::string &subject) {
 
 // ---- Groups of options ----
 
+void declare_settings(Command &command, const char *help, ValveOptions &options) {
+  command
+      .values("--set", "NAME=VALUE", help,
+              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
+      ->allow_extra_args(false);
+}
+
+CLI::Option *declare_unit_of(Command &command, const char *name, const char *help, std::optional<Unit> &to) {
+  return command.parsed(name, "m|cm|mm", help, to, parse_unit)->check(CLI::IsMember(unit_names()));
+}
+
 void declare_valve(Command &command, ValveOptions &options) {
   command.group("Valve");
   command.text("--valve", "KIND|FILE.json",
                "aortic (default), mitral, coapting, trileaflet, bileaflet, or a file of patches", options.valve);
   command.text("--params,--params-closed", "FILE.json", "Parameters of the valve, or of its closed state",
                options.params);
-  command
-      .values("--set", "NAME=VALUE", "Set one parameter to a number or X,Y,Z; may be repeated",
-              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
-      ->allow_extra_args(false);
+  declare_settings(command, "Set one parameter to a number or X,Y,Z; may be repeated", options);
 }
 
 void declare_opening(Command &command, ValveOptions &options) {
-  command.value("--opening", "X", "How far the valve is open, from 0, closed, to 1, open",
-                [&options](const std::string &text) {
-                  options.opening = parse_number(text, "--opening");
-                  if (!(*options.opening >= 0 && *options.opening <= 1))
-                    refuse_usage("--opening: " + text + " is not from 0 to 1");
-                });
+  command.parsed("--opening", "X", "How far the valve is open, from 0, closed, to 1, open", options.opening,
+                 parse_opening);
 }
 
-void declare_open_state(Command &command, ValveOptions &options) {
+// Declares the options of a valve's shape besides its opening.
+void declare_shape(Command &command, ValveOptions &options) {
   command.text("--params-open", "FILE.json", "Parameters of the state that the valve opens to", options.params_open);
-}
-
-void declare_skirt(Command &command, ValveOptions &options) {
+  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
+               options.warp);
   CLI::Option *const skirt =
-      command.value("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
-                    [&options](const std::string &text) { options.skirt = parse_positive_finite(text, "--skirt"); });
+      command.parsed("--skirt", "L", "Length of a skirt to the wall, in the mesh's unit; with --wall, the longest",
+                     options.skirt, parse_positive_finite);
   command
-      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches: .vtp, .vtu or .stl", options.wall)
+      .text("--wall", "FILE", "A surface in the mesh's frame that the skirt reaches, as --surface reads it",
+            options.wall)
       ->needs(skirt);
 }
 
-void declare_warp(Command &command, ValveOptions &options) {
-  command.text("--warp", "FILE.json|.csv", "Landmarks on the valve and in the patient, to which it is warped",
-               options.warp);
+void declare_tolerance(Command &command, ValveOptions &options) {
+  command.parsed("--tolerance", "F", "Largest deviation of triangles from the smooth valve, in half thicknesses",
+                 options.surface_options.tolerance, parse_number);
 }
 
-void declare_tolerance(Command &command, ValveOptions &options) {
-  command.value("--tolerance", "F", "Largest deviation of triangles from the smooth valve, in half thicknesses",
-                [&options](const std::string &text) {
-                  options.has_tolerance = true;
-                  options.surface_options.tolerance = parse_number(text, "--tolerance");
-                });
+void declare_leaflets(Command &command, CLI::Option *surface, ValveOptions &options) {
+  command
+      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
+            options.leaflets)
+      ->needs(surface);
+}
+
+CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
+  return command
+      .values("--surface", "FILE",
+              "A file in place of a valve: .vtp, .vtu, .vtk, .stl, .obj, .ply, or a motion, .pvd or .dat; may be "
+              "repeated, a leaflet a file",
+              [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
+      ->allow_extra_args(false);
 }
 
 // Declares the options of a surface from a file, and the options of any surface's triangles.
 void declare_file(Command &command, ValveOptions &options) {
   riis_surface_options &how = options.surface_options;
   command.group("Surface");
-  CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd for a motion", options.surface);
+  CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name : {"--valve", "--opening", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall"})
     surface->excludes(command.option(name));
-  command
-      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
-            options.leaflets)
-      ->needs(surface);
+  declare_leaflets(command, surface, options);
   command
       .value("--skip-zero-area", nullptr, "Leave out triangles of --surface that have no area",
              [&how](const std::string &) { how.zero_area = RIIS_ZERO_AREA_SKIP; })
@@ -116,26 +138,23 @@ void declare_file(Command &command, ValveOptions &options) {
   command.choice("--triangulation", "Triangles adapted to each opening (default), or fixed, the same at every opening",
                  triangulation_names(), how.triangulation);
   for (const char *name : {"--tolerance", "--triangulation"}) surface->excludes(command.option(name));
-  command
-      .value("--time", "T", "Time at which to take the motion --surface FILE.pvd",
-             [&options](const std::string &text) { options.time = parse_number(text, "--time"); })
+  command.parsed("--time", "T", "Time at which to take the motion of --surface", options.time, parse_number)
       ->needs(surface);
-  command.positive("--period", "P", "Period of --surface FILE.pvd, or of --cycle (default none)", options.period);
+  command
+      .parsed("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step,
+              parse_positive)
+      ->needs(surface);
+  command.parsed("--period", "P", "Period of the motion of --surface, or of --cycle (default none)", options.period,
+                 parse_positive);
 }
 
 void declare_unit(Command &command, ValveOptions &options) {
   command.group("Placement (x -> scale * rotation * x + translation)");
-  CLI::Option *const scale = command.value("--scale", "S", "Factor from the surface's unit to the mesh's (default 1)",
-                                           [&options](const std::string &text) {
-                                             options.has_scale = true;
-                                             options.surface_options.scale = parse_number(text, "--scale");
-                                           });
-  const auto unit = [&](const char *name, const char *help, std::optional<Unit> &to) {
-    return command.value(name, "m|cm|mm", help, [&to](const std::string &text) { to = unit_of(text); })
-        ->check(CLI::IsMember(unit_names()));
-  };
-  unit("--unit", "Unit of the mesh, in place of --scale", options.unit)->excludes(scale);
-  unit("--surface-unit", "Unit of the file that holds the surface or the patches", options.surface_unit);
+  CLI::Option *const scale = command.parsed("--scale", "S", "Factor from the surface's unit to the mesh's (default 1)",
+                                            options.surface_options.scale, parse_number);
+  declare_unit_of(command, "--unit", "Unit of the mesh, in place of --scale", options.unit)->excludes(scale);
+  declare_unit_of(command, "--surface-unit", "Unit of the file that holds the surface or the patches",
+                  options.surface_unit);
 }
 
 void declare_placement(Command &command, ValveOptions &options) {
@@ -154,20 +173,15 @@ void declare_placement(Command &command, ValveOptions &options) {
 }
 
 void declare_half_thickness(Command &command, ValveOptions &options) {
-  command.value("--half-thickness", "L", "Half thickness of the band (default 0.1 times the scale)",
-                [&options](const std::string &text) {
-                  options.has_half_thickness = true;
-                  options.surface_options.half_thickness = parse_positive(text, "--half-thickness");
-                });
+  command.parsed("--half-thickness", "L", "Half thickness of the band (default 0.1 times the scale)",
+                 options.surface_options.half_thickness, parse_positive);
 }
 
 // Declares all options that determine a placed surface, except for its half thickness.
 void declare_surface_in_place(Command &command, ValveOptions &options) {
   declare_valve(command, options);
   declare_opening(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
+  declare_shape(command, options);
   declare_file(command, options);
   declare_placement(command, options);
 }
@@ -189,23 +203,24 @@ void declare_threads(Command &command, MarkOptions &options) {
 void declare_search(Command &command, MarkOptions &options) {
   command.choice("--search", "auto (default), exhaustive, neighbor, clusters or paper", search_names,
                  options.mark_options.search);
-  command.positive("--distance-limit", "L", "Report distances up to this one (default the half thickness)",
-                   options.mark_options.distance_limit);
+  command.parsed("--distance-limit", "L", "Report distances up to this one (default the half thickness)",
+                 options.mark_options.distance_limit, parse_positive);
   declare_threads(command, options);
 }
 
 void declare_marking(Command &command, MarkOptions &options) {
   command.group("Marking");
   declare_half_thickness(command, options);
-  command.value("--resistance", "R", "Write riis_K, R/eps times the delta function at each node",
-                [&options](const std::string &text) { options.resistance = parse_number(text, "--resistance"); });
-  command.number("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance);
+  command.parsed("--resistance", "R", "Write riis_K, R/eps times the delta function at each node", options.resistance,
+                 parse_number);
+  command.parsed("--far-distance", "X", "riis_distance of nodes beyond the limit (default 1e30)", options.far_distance,
+                 parse_number);
   command
       .choice("--distance", "Distances to triangles (default), or by sampling or minimization", distance_names,
               options.surface_options.measure)
       ->excludes(command.option("--surface"));
-  command.positive("--distance-tolerance", "F", "Tolerance of sampling or minimization, in half thicknesses",
-                   options.surface_options.measure_tolerance);
+  command.parsed("--distance-tolerance", "F", "Tolerance of sampling or minimization, in half thicknesses",
+                 options.surface_options.measure_tolerance, parse_positive);
   declare_search(command, options);
   command
       .value("--steps", "N", "Also time N steps: each moves the opening by 0.02 and marks again",
@@ -268,7 +283,7 @@ void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
         "--set",     "--tolerance",     "--triangulation", "--skip-zero-area", "--flip-normals",   "--scale",
         "--unit",    "--surface-unit",  "--rotate",        "--translate",      "--half-thickness", "--cycle",
         "--period",  "--interpolation", "--prefix",        "--time",           "--skirt",          "--wall",
-        "--warp"})
+        "--warp",    "--time-step"})
     if (command.knows(name)) command.option(name)->excludes(all_of_it);
 }
 
@@ -276,8 +291,8 @@ void declare_series(Command &command, MarkOptions &options) {
   SeriesOptions &series = options.series;
   command.group("Series in time, and several valves");
   CLI::Option *const times =
-      command.value("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output then takes a .pvd",
-                    [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
+      command.parsed("--times", "START:STOP:STEP|T,T,...", "Mark at each of these times; --output then takes a .pvd",
+                     series.times, parse_times);
   declare_cycle(command, series.cycle, series.interpolation);
   CLI::Option *const all_of_it = declare_case(command, series);
   command.flag("--all-cells", "Write the whole mesh each time, not only the cells near the sweep", series.all_cells);
@@ -285,8 +300,8 @@ void declare_series(Command &command, MarkOptions &options) {
   CLI::Option *const movie =
       command.text("--movie", "OUT.mp4|OUT.gif", "Draw each time and make a movie of it, by ffmpeg", series.movie);
   command
-      .value("--frame-rate", "N", "Frames of the movie per second (default 10)",
-             [&series](const std::string &text) { series.frame_rate = parse_positive_finite(text, "--frame-rate"); })
+      .parsed("--frame-rate", "N", "Frames of the movie per second (default 10)", series.frame_rate,
+              parse_positive_finite)
       ->needs(movie);
   command.choice("--movie-view", "As --view (default oblique)", view_names, series.movie_view, "VIEW")->needs(movie);
   exclude_by_case(command, all_of_it);
@@ -294,13 +309,20 @@ void declare_series(Command &command, MarkOptions &options) {
   command.option("--time")->excludes(times);
 }
 
-constexpr const char *mesh_help = "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM";
+void declare_mesh(Command &command, MarkOptions &options) {
+  command.group("Mesh");
+  command.text("MESH", "FILE", "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM",
+               options.mesh);
+}
+
+void declare_allow_none(Command &command, MarkOptions &options) {
+  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+}
 
 }  // namespace
 
 void declare_mark(Command command, MarkOptions &options) {
-  command.group("Mesh");
-  command.text("MESH", "FILE", mesh_help, options.mesh);
+  declare_mesh(command, options);
   command.flag("--cells", "Mark the centres of the cells, not the nodes; arrays are then arrays of cells",
                options.at_cells);
   declare_surface_in_place(command, options);
@@ -312,7 +334,7 @@ void declare_mark(Command command, MarkOptions &options) {
   command.text("--prefix", "NAME", "Names of the arrays: NAME_marked and so on (default riis)", options.prefix)
       ->needs(output);
   command.flag("--replace", "Replace arrays of these names that the mesh already has", options.replace)->needs(output);
-  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  declare_allow_none(command, options);
   command.text("--surface-output", "OUT.vtp", "Write the placed triangles", options.surface_output);
   declare_pictures(command, options);
   declare_stats(command, options);
@@ -340,23 +362,25 @@ void declare_crossings(Command command, MarkOptions &options) {
 }
 
 void declare_leaks(Command command, MarkOptions &options) {
-  command.group("Mesh");
-  command.text("MESH", "FILE", mesh_help, options.mesh);
+  declare_mesh(command, options);
   command
       .values("--between", "X,Y,Z X,Y,Z", "Say whether unmarked nodes join these two points, and where",
-              [&options](const std::vector<std::string> &points) { options.check_leaks = leak_check_between(points); })
+              [&options](const std::vector<std::string> &ends) {
+                options.check_leaks = LeakCheck{{}, "--between"};
+                for (const std::string &end : ends)
+                  for (const double x : parse_list(end, "--between", 3, "X,Y,Z"))
+                    options.check_leaks->points.push_back(x);
+              })
       ->expected(2)
       ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   options.measures = true;
   command
       .flag("--first-passage", "Also tell at which opening unmarked nodes first join the points", options.first_passage)
       ->needs(command.option("--between"));
-  CLI::Option *const resistance =
-      command.value("--resistance", "R", "Resistance of the valve, for the ideal leak",
-                    [&options](const std::string &text) { options.resistance = parse_positive(text, "--resistance"); });
-  CLI::Option *const drop =
-      command.value("--drop", "DP", "Pressure drop over the closed valve, for the ideal leak",
-                    [&options](const std::string &text) { options.drop = parse_number(text, "--drop"); });
+  CLI::Option *const resistance = command.parsed("--resistance", "R", "Resistance of the valve, for the ideal leak",
+                                                 options.resistance, parse_positive);
+  CLI::Option *const drop = command.parsed("--drop", "DP", "Pressure drop over the closed valve, for the ideal leak",
+                                           options.drop, parse_number);
   drop->needs(resistance);
   resistance->needs(drop);
   declare_surface_in_place(command, options);
@@ -365,7 +389,7 @@ void declare_leaks(Command command, MarkOptions &options) {
   declare_search(command, options);
   exclude_by_case(command, declare_case(command, options.series));
   command.group("Output");
-  command.flag("--allow-none", "Exit with status 0 and without a warning if no node is marked", options.allow_none);
+  declare_allow_none(command, options);
   declare_stats(command, options);
   declare_loudness(command, options);
 }
@@ -374,28 +398,22 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
   command
       .text("OUT", "OUT.dat|-", "The grid of edge lengths, for gmsh's field \"Structured\"; - is stdout", options.field)
       ->required();
-  const auto length = [&](const char *name, const char *help, std::optional<double> &to) {
-    command.value(name, "L", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
-  };
-  const auto factor = [&](const char *name, const char *help, double &to) {
-    command.value(name, "F", help, [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
-  };
-  factor("--band-edge", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge);
-  factor("--growth", "Growth of the edge length by distance outside the band (default 0.3)", options.growth);
-  length("--largest-edge", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
-         options.largest_edge);
-  length("--spacing", "Spacing of the grid, in the mesh's unit (default half a half thickness)", options.spacing);
-  command.value("--count", "N", "Number of openings (default 41)", [&options](const std::string &text) {
-    options.n_openings = parse_count(text, "--count", 2, most_states);
-  });
+  command.parsed("--band-edge", "F", "Edge length in the band, in half thicknesses (default 0.95)", options.band_edge,
+                 parse_positive_finite);
+  command.parsed("--growth", "F", "Growth of the edge length by distance outside the band (default 0.3)",
+                 options.growth, parse_positive_finite);
+  command.parsed("--largest-edge", "L", "Largest edge length, in the mesh's unit (default 4 half thicknesses)",
+                 options.largest_edge, parse_positive_finite);
+  command.parsed("--spacing", "L", "Spacing of the grid, in the mesh's unit (default half a half thickness)",
+                 options.spacing, parse_positive_finite);
+  command.parsed("--count", "N", "Number of openings (default 41)", options.n_openings, parse_count);
   declare_threads(command, options);
   declare_loudness(command, options);
   declare_placed_valve(command, options);
   SeriesOptions &series = options.series;
   command.group("Motion in time, and several valves");
-  CLI::Option *const times =
-      command.value("--times", "START:STOP:STEP|T,T,...", "Times of a motion, in place of openings",
-                    [&series](const std::string &text) { series.times = parse_times(text, "--times"); });
+  CLI::Option *const times = command.parsed("--times", "START:STOP:STEP|T,T,...",
+                                            "Times of a motion, in place of openings", series.times, parse_times);
   declare_cycle(command, series.cycle, series.interpolation);
   CLI::Option *const all_of_it = declare_case(command, series);
   exclude_by_case(command, all_of_it);
@@ -406,25 +424,17 @@ void declare_size_field(Command command, SizeFieldOptions &options) {
 void declare_states(Command command, StatesOptions &options) {
   command.text("OUT", "OUT.csv|-", "The table: free edges, leaflet areas and the orifice; - is stdout", options.output)
       ->required();
-  command.value("--count", "N", "Number of openings (default 101)", [&options](const std::string &text) {
-    options.n_states = parse_count(text, "--count", 2, most_states);
-  });
+  command.parsed("--count", "N", "Number of openings (default 101)", options.n_states, parse_count);
   command.flag("--coaptation", "Also give the area and the length over which leaflets touch", options.has_contacts);
   declare_loudness(command, options);
   declare_valve(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
+  declare_shape(command, options);
   declare_tolerance(command, options);
-  CLI::Option *const surface = command.text(
-      "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
+  CLI::Option *const surface = declare_surface_files(command, options);
   for (const char *name :
        {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
     surface->excludes(command.option(name));
-  command
-      .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
-            options.leaflets)
-      ->needs(surface);
+  declare_leaflets(command, surface, options);
   declare_unit(command, options);
   declare_half_thickness(command, options);
 }
@@ -432,45 +442,38 @@ void declare_states(Command command, StatesOptions &options) {
 void declare_export(Command command, ExportOptions &options) {
   command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
   command.text("MESH", "FILE", "The mesh of the solver's run: say what the solver will do in it", options.mesh);
-  const auto time = [&](const char *name, const char *help, std::optional<double> &to) {
-    return command.value(name, "T", help,
-                         [&to, name](const std::string &text) { to = parse_positive_finite(text, name); });
-  };
-  const auto span = [&](const char *name, const char *help, std::optional<TimeSpan> &to) {
-    return command.value(name, "START:STOP", help,
-                         [&to, name](const std::string &text) { to = parse_span(text, name); });
-  };
   command
-      .value("--time-step", "DT", "Time step of the solver, which plays one frame a step",
-             [&options](const std::string &text) { options.time_step = parse_positive_finite(text, "--time-step"); })
+      .parsed("--time-step", "DT", "Time step of the solver, which plays one frame a step", options.time_step,
+              parse_positive_finite)
       ->required();
   command
-      .number("--resistance", "R", "Resistance of the valve, for the block of the solver's input", options.resistance)
+      .parsed("--resistance", "R", "Resistance of the valve, for the block of the solver's input", options.resistance,
+              parse_number)
       ->required();
-  time("--opening-seconds", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration);
-  time("--closing-seconds", "Close from 1 to 0 in this time", options.closing_duration);
+  command.parsed("--opening-seconds", "T", "Open from 0 to 1 in this time, by a smooth ramp", options.opening_duration,
+                 parse_positive_finite);
+  command.parsed("--closing-seconds", "T", "Close from 1 to 0 in this time", options.closing_duration,
+                 parse_positive_finite);
   declare_cycle(command, options.cycle, options.interpolation);
-  command.positive("--period", "P", "Period of --cycle (default none)", options.period)
-      ->needs(command.option("--cycle"));
-  span("--opening-span", "Times of --cycle at which the valve opens", options.opening_span)
-      ->needs(command.option("--cycle"));
-  span("--closing-span", "Times of --cycle at which the valve closes", options.closing_span)
-      ->needs(command.option("--cycle"));
+  command.parsed("--period", "P", "Period of --cycle (default none)", options.period, parse_positive);
+  command.parsed("--opening-span", "START:STOP", "Times of --cycle at which the valve opens", options.opening_span,
+                 parse_span);
+  command.parsed("--closing-span", "START:STOP", "Times of --cycle at which the valve closes", options.closing_span,
+                 parse_span);
+  for (const char *name : {"--period", "--opening-span", "--closing-span"})
+    command.option(name)->needs(command.option("--cycle"));
   for (const char *name : {"--opening-seconds", "--closing-seconds"})
     command.option(name)->excludes(command.option("--cycle"));
-  command.value(
-      "--largest-edge", "L", "Cut triangles until no edge is longer in any frame",
-      [&options](const std::string &text) { options.largest_edge = parse_positive_finite(text, "--largest-edge"); });
-  command.positive("--density", "RHO", "Density of the fluid, for MESH (default that of blood: 1.06 with cm)",
-                   options.density);
-  command.positive("--viscosity", "MU", "Viscosity of the fluid, for MESH (default that of blood: 0.04 with cm)",
-                   options.viscosity);
+  command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer in any frame", options.largest_edge,
+                 parse_positive_finite);
+  command.parsed("--density", "RHO", "Density of the fluid, for MESH (default that of blood: 1.06 with cm)",
+                 options.density, parse_positive);
+  command.parsed("--viscosity", "MU", "Viscosity of the fluid, for MESH (default that of blood: 0.04 with cm)",
+                 options.viscosity, parse_positive);
   for (const char *name : {"--density", "--viscosity"}) command.option(name)->needs(command.option("MESH"));
   declare_loudness(command, options);
   declare_valve(command, options);
-  declare_open_state(command, options);
-  declare_warp(command, options);
-  declare_skirt(command, options);
+  declare_shape(command, options);
   declare_tolerance(command, options);
   declare_placement(command, options);
   declare_half_thickness(command, options);
@@ -489,10 +492,7 @@ void declare_place(Command command, PlaceOptions &options) {
   declare_loudness(command, options);
   command.group("Landmarks");
   command.text("--mesh", "MESH", "Refuse landmarks that are not at this mesh", options.mesh);
-  command
-      .value("--unit", "m|cm|mm", "Unit of the mesh (default that of the landmarks)",
-             [&options](const std::string &text) { options.unit = unit_of(text); })
-      ->check(CLI::IsMember(unit_names()));
+  declare_unit_of(command, "--unit", "Unit of the mesh (default that of the landmarks)", options.unit);
   command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));
   command.choice("--warp", "Warp the valve to the landmarks: none (default), exact, or smoothed by their noise",
@@ -508,10 +508,7 @@ void declare_place(Command command, PlaceOptions &options) {
   command.text("--valve", "KIND", "aortic, coapting, mitral, trileaflet or bileaflet (default that of the file)",
                options.valve);
   command.text("--params", "FILE.json", "Parameters of the valve that serves as the template", options.params);
-  command
-      .values("--set", "NAME=VALUE", "Set and keep one parameter, in cm; may be repeated",
-              [&options](const std::vector<std::string> &settings) { options.settings = settings; })
-      ->allow_extra_args(false);
+  declare_settings(command, "Set and keep one parameter, in cm; may be repeated", options);
 }
 
 void declare_params(Command command, ParamsOptions &options) {

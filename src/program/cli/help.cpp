@@ -202,10 +202,11 @@ opening.
              "rotate": [1,0,0,-30], "translate": [0,3.8,1], "opening": 0.3, "half_thickness": 0.08}]}
 Paths are relative to the file. A MESH, --times, --distance-limit, --resistance and --between on the command line replace those
 in the file. A valve's own "resistance" stays. riis check leaks, riis check crossings and riis size-field also take a case.
-A valve has "valve", a kind or a file of patches, or it has "surface", a file. A surface is at rest unless the file is a
-.pvd. Such a file may have a "period". A valve may have "parameters" and "open_parameters", each an object or a file, and
-"scale", "surface_unit", "rotate", "translate", "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals",
-"leaflets", "skip_zero_area", "skirt" and "wall", as the options of these names. "opening" is a number or one of
+A valve has "valve", a kind or a file of patches, or it has "surface", a file or a list of files, one for each leaflet. A
+surface is at rest unless the file is a .pvd or .dat. Such a file may have a "period", and a .dat a "time_step". A valve may
+have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate",
+"half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt" and
+"wall", as the options of these names. "opening" is a number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,
@@ -222,8 +223,10 @@ valves, with the keys that a single valve has.
     {"motion", "a surface from a file that moves",
      R"(
 --surface FILE.pvd is a ParaView collection of surface files, each with a time. All files have the same points and faces, and
-only the points move. --time T moves the surface to a time, linearly between two files. --times moves it to each of several
-times. --surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
+only the points move. --surface FILE.dat has the frames that riis export writes for svMultiPhysics. Their faces are in a .vtu
+file beside it, and --time-step is the time between two frames. Several files are one valve, with a file for each leaflet.
+--time T moves the surface to a time, linearly between two frames. --times moves it to each of several times.
+--surface-output then has the velocities of the points, riis_velocity, in the mesh's unit over the unit of T.
 Triangles in .stl files must have the same order in all files.
 )"},
     {"warnings", "what they mean, and which comes first",
@@ -366,9 +369,8 @@ std::string text_of_topic(const std::string &name) {
     nearest.consider(topic.name);
   }
   const std::string near(nearest.nearest());
-  throw Refusal{exit_wrong_usage, "'" + name.substr(0, 64) + "' is not a topic" +
-                                      (near.empty() ? "" : ", did you mean " + near + "?") +
-                                      " (riis help lists the topics)"};
+  refuse_usage("'" + name.substr(0, 64) + "' is not a topic" + (near.empty() ? "" : ", did you mean " + near + "?") +
+               " (riis help lists the topics)");
 }
 
 std::string short_help() {

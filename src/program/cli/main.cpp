@@ -11,6 +11,7 @@
 
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
 #include "program/cli/command_line.hpp"
 #include "program/commands/commands.hpp"
 
@@ -18,8 +19,7 @@ namespace {
 
 // Names of files and parameters may contain line breaks. They are replaced, so that the message stays on one line.
 int give_up(int exit_code, std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  std::replace_if(text.begin(), text.end(), riis::program::is_control, '?');
   std::cerr << "riis: " << text << std::endl;
   return exit_code;
 }
@@ -31,10 +31,6 @@ void occupy_closed_streams() {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
   }
 }
-
-}  // namespace
-
-namespace {
 
 int run_and_report(int argc, char **argv) {
   using namespace riis::program;

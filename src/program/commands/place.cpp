@@ -24,17 +24,16 @@ Placed place(const PlaceOptions &options, Valve &valve) {
   adapt(landmarks, {Reader::program, options.unit, options.axes, options.noise, options.flow});
   const std::string kind = kind_of(landmarks, options.has_valve ? options.valve : "", Reader::program);
   valve = make_kind(kind, options.has_valve ? "--valve" : options.landmarks);
-  if (!options.params.empty()) set_from_json_file(valve.get(), options.params);
-  if (!landmarks.parameters.is_null())
-    set_from_json(valve.get(), landmarks.parameters, options.landmarks + ": parameters");
+  if (!options.params.empty()) set_from_json_file(valve, options.params);
+  if (!landmarks.parameters.is_null()) set_from_json(valve, landmarks.parameters, options.landmarks + ": parameters");
   std::vector<std::string> held;
   for (const std::string &setting : options.settings) {
-    set_from_text(valve.get(), setting);
+    set_from_text(valve, setting);
     held.push_back(setting.substr(0, setting.find('=')));
   }
-  Placed placed = place_by_landmarks(landmarks, valve.get(), kind, held, Reader::program);
+  Placed placed = place_by_landmarks(landmarks, valve, kind, held, Reader::program);
   if (options.warp_choice != no_warp)
-    warp_to_landmarks(placed, valve.get(), options.warp_choice == smoothed_warp ? placed.noise : 0, Reader::program);
+    warp_to_landmarks(placed, valve, options.warp_choice == smoothed_warp ? placed.noise : 0, Reader::program);
   return placed;
 }
 
@@ -46,7 +45,7 @@ void check_mesh(const PlaceOptions &options, const Placed &placed) {
   }();
   int64_t n_nodes = 0;
   const double *nodes = nullptr;
-  check(riis_vtk_mesh_get_nodes(mesh.get(), &n_nodes, nullptr, &nodes));
+  check(riis_vtk_mesh_get_nodes(mesh, &n_nodes, nullptr, &nodes));
   check_at_nodes(placed.landmarks, n_nodes, nodes, " of " + options.mesh, Reader::program);
 }
 
@@ -177,8 +176,8 @@ void run_place(const PlaceOptions &options) {
   shape.valve = placed.kind;
   shape.surface_options = placed.where;
   shape.unit = placed.landmarks.unit;
-  check_shape(shape, valve.get(), false);
-  const std::pair<std::string, std::string> outputs[] = {{options.output, placed_file_of(placed, valve.get())},
+  check_shape(shape, valve, false);
+  const std::pair<std::string, std::string> outputs[] = {{options.output, placed_file_of(placed, valve)},
                                                          {options.foam_output, foam_of(placed)},
                                                          {options.c_output, c_of(placed)},
                                                          {options.fortran_output, fortran_of(placed)}};

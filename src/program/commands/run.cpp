@@ -17,7 +17,7 @@ namespace {
 
 void print_params(const ParamsOptions &options) {
   const Valve valve = make_valve(options, OpeningCheck::no);
-  write_text("-", options.describe ? parameter_table(valve.get()) : json_template(valve.get()) + "\n");
+  write_text("-", options.describe ? parameter_table(valve) : json_template(valve) + "\n");
 }
 
 // Runs the command to which the options belong.

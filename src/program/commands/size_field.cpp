@@ -23,45 +23,29 @@
 namespace riis::program {
 namespace {
 
+// The largest number of points of the grid.
+constexpr std::int64_t most_field_points = 20'000'000;
+
 // Returns a law whose opening is the time, so that times stand for openings.
 OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
 
-std::vector<double> openings_from_0_to_1(std::int32_t n) {
-  std::vector<double> openings;
-  for (std::int32_t i = 0; i < n; ++i) openings.push_back(static_cast<double>(i) / (n - 1));
-  return openings;
-}
-
-// Returns the valve or the surface of the command line. A valve moves through its openings, unless the user gave one.
-Case case_without_times(const SizeFieldOptions &options) {
-  Case all{options, {}, {}};
-  ValveSource source{options, nullptr, nullptr};
-  if (!options.surface.empty()) {
-    Seconds seconds;
-    source.file = read_surface(options, seconds);
-    all.options.series.times = {0};
-  } else {
-    source.valve = make_valve(options);
-    source.has_open_state = !options.params_open.empty();
-    source.law = OpeningLaw(opening_of(source.valve.get()));
-    all.options.series.times = {0};
-    const Valve trial = program::copy_of(source.valve.get());
-    if (!sets_opening(options) && why_closed(trial.get(), options.surface_options).empty()) {
-      source.law = all_openings();
-      all.options.series.times = openings_from_0_to_1(options.n_openings);
-    }
-  }
-  all.valves.push_back(std::move(source));
-  return all;
-}
-
+// Returns the valves and their times. A valve of the command line without times moves through its openings, unless the user gave
+// one.
 Case case_of(const SizeFieldOptions &options) {
-  if (!options.series.case_file.empty()) {
-    Case all = read_case(options);
-    if (all.options.series.times.empty()) all.options.series.times = {0};
-    return all;
-  }
-  return options.series.times.empty() ? case_without_times(options) : case_of_command_line(options);
+  const bool has_case = !options.series.case_file.empty();
+  Case all = has_case ? read_case(options) : case_of_command_line(options);
+  std::vector<double> &times = all.options.series.times;
+  if (!times.empty()) return all;
+  times = {options.time.value_or(0)};
+  if (has_case) return all;
+  read_surfaces(all);
+  ValveSource &source = all.valves[0];
+  if (!source.valve || sets_opening(options)) return all;
+  const Valve trial = program::copy_of(source.valve);
+  if (!why_closed(trial, options.surface_options).empty()) return all;
+  source.law = all_openings();
+  times = openings_from_0_to_1(options.n_openings);
+  return all;
 }
 
 // The edge lengths around one valve: `band` up to `half_thickness` from its surface. They grow with the distance, up to
@@ -80,8 +64,7 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   std::vector<Edges> edges;
   double thickest = 0;
   for (const MovingValve &valve : valves) {
-    riis_surface_info info;
-    check(riis_surface_get_info(valve.surface(), &info, sizeof info));
+    const riis_surface_info info = info_of(valve.surface());
     edges.push_back({info.half_thickness, options.band_edge * info.half_thickness, options.growth, 0});
     thickest = std::max(thickest, info.half_thickness);
   }
@@ -89,9 +72,8 @@ std::vector<Edges> edges_of(const SizeFieldOptions &options, const std::vector<M
   for (Edges &one : edges) {
     one.largest = largest;
     if (largest < one.band)
-      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest) +
-                                          " is below the edge length in the band, " + shortest(one.band) +
-                                          " (--band-edge times the half thickness)"};
+      refuse_usage("--largest-edge: " + shortest(largest) + " is below the edge length in the band, " +
+                   shortest(one.band) + " (--band-edge times the half thickness)");
   }
   return edges;
 }
@@ -115,62 +97,32 @@ struct Grid {
   }
 };
 
-// Collects the triangles of one valve at all times, as one surface. The distance to this surface is the least distance of the
-// whole motion, so one marking per valve suffices.
-class SweptSurface {
- public:
-  explicit SweptSurface(MovingValve &valve) : valve_(valve) {}
-
-  void add(double time) {
-    valve_.move_to(time);
-    // An opening that occurs again is skipped, because the valve has the same triangles there.
-    if (!valve_.source().keyframes && !openings_.insert(valve_.opening().value_or(0)).second) return;
-    const riis_triangles triangles = triangles_of(valve_.surface());
-    const std::int64_t before = view(xyz_).size() / 3;
-    xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
-    for (std::int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners_.push_back(before + triangles.vertex_id[i]);
-  }
-
-  Surface make(double half_thickness) const {
-    const riis_surface_arrays arrays = arrays_of(xyz_, corners_);
-    riis_surface_options how;
-    check(riis_surface_options_init(&how, sizeof how));
-    how.half_thickness = half_thickness;
-    how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
-    riis_surface *surface = nullptr;
-    check(riis_surface_create_from_arrays(&arrays, &how, &surface), "the triangles of all states together");
-    return Surface(surface);
-  }
-
- private:
-  MovingValve &valve_;
-  std::set<double> openings_;
-  std::vector<double> xyz_;
-  std::vector<std::int64_t> corners_;
-};
-
-std::vector<Surface> swept_surfaces(std::vector<MovingValve> &valves, const std::vector<Edges> &edges,
-                                    const Case &all) {
+// Returns the triangles of one valve at all times as one surface. The distance to this surface is the least distance of the whole
+// motion, so one marking per valve suffices.
+Surface swept_surface(MovingValve &valve, double half_thickness, const Case &all) {
   const std::vector<double> &times = all.options.series.times;
-  std::vector<Surface> surfaces;
-  for (std::size_t at = 0; at < valves.size(); ++at) {
-    SweptSurface swept(valves[at]);
-    StepProgress progress("collecting the states", times.size(), all.options.quiet);
-    for (std::size_t step = 0; step < times.size(); ++step) {
-      progress.begin(step);
-      swept.add(times[step]);
-    }
-    surfaces.push_back(swept.make(edges[at].half_thickness));
+  JoinedTriangles swept;
+  std::set<double> openings;
+  StepProgress progress("collecting the states", times.size(), all.options.quiet);
+  for (std::size_t step = 0; step < times.size(); ++step) {
+    progress.begin(step);
+    valve.move_to(times[step]);
+    // An opening that occurs again is skipped, because the valve has the same triangles there.
+    if (valve.source().keyframes || openings.insert(valve.opening().value_or(0)).second)
+      swept.add(triangles_of(valve.surface()), 0);
   }
-  return surfaces;
+  const riis_surface_arrays arrays = swept.arrays();
+  auto how = defaults<riis_surface_options>();
+  how.half_thickness = half_thickness;
+  how.zero_area = RIIS_ZERO_AREA_SKIP;  // the valve's own surface has no such triangles, except by rounding
+  return create_for<Surface>("the triangles of all states together", riis_surface_create_from_arrays, &arrays, &how);
 }
 
 // Returns the box around all points that are within reach of a surface.
 Box box_around(const std::vector<Surface> &surfaces, const std::vector<Edges> &edges) {
   Box box = empty_box();
   for (std::size_t at = 0; at < surfaces.size(); ++at) {
-    riis_surface_info info;
-    check(riis_surface_get_info(surfaces[at].get(), &info, sizeof info));
+    const riis_surface_info info = info_of(surfaces[at]);
     for (int k = 0; k < 3; ++k) {
       box.lower[k] = std::min(box.lower[k], info.lower[k] - edges[at].reach());
       box.upper[k] = std::max(box.upper[k], info.upper[k] + edges[at].reach());
@@ -188,9 +140,8 @@ Grid grid_in(const Box &box, double spacing) {
     grid.n[k] = n < 1e9 ? static_cast<std::int64_t>(n) : most_field_points;
   }
   if (!(n_points <= static_cast<double>(most_field_points)))
-    throw Refusal{exit_wrong_usage, "--spacing: the grid would have " + shown(n_points) + " points with a spacing of " +
-                                        shortest(spacing) + "; at most " + grouped(most_field_points) +
-                                        " are possible"};
+    refuse_usage("--spacing: the grid would have " + shown(n_points) + " points with a spacing of " +
+                 shortest(spacing) + "; at most " + grouped(most_field_points) + " are possible");
   return grid;
 }
 
@@ -199,18 +150,16 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &sur
                                const SizeFieldOptions &options) {
   const Stage stage("measuring the distances of the grid", options.quiet);
   const std::vector<double> xyz = grid.points();
-  riis_mesh *handle = nullptr;
-  check(riis_mesh_create(grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3, &handle));
-  const Mesh mesh(handle);
+  const auto mesh = create<Mesh>(riis_mesh_create, grid.n_points(), xyz.data(), xyz.data() + 1, xyz.data() + 2, 3);
   // Most points of the grid are within reach of the valves, so clusters pay off at once.
-  check(riis_mesh_prepare(mesh.get(), options.mark_options.n_threads));
+  check(riis_mesh_prepare(mesh, options.mark_options.n_threads));
   const Marks marks = new_result();
   std::vector<double> lengths(static_cast<std::size_t>(grid.n_points()), edges[0].largest);
   for (std::size_t at = 0; at < surfaces.size(); ++at) {
     riis_mark_options how = options.mark_options;
     how.distance_limit = std::max(edges[at].reach(), edges[at].half_thickness);
-    check(riis_mark_nodes(surfaces[at].get(), mesh.get(), &how, marks.get()));
-    const riis_mark_list near = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+    check(riis_mark_nodes(surfaces[at].get(), mesh, &how, marks));
+    const riis_mark_list near = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
     for (std::int64_t i = 0; i < near.n_nodes; ++i) {
       double &length = view(lengths)[near.node_id[i]];
       length = std::min(length, edges[at].at(near.distance[i]));
@@ -222,13 +171,11 @@ std::vector<double> lengths_at(const Grid &grid, const std::vector<Surface> &sur
 // Returns the text of gmsh's field "Structured": origin, spacing, numbers of points, and lengths with z running fastest.
 std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   const std::string spacing = shortest(grid.spacing);
-  std::string text = shortest(grid.origin[0]) + " " + shortest(grid.origin[1]) + " " + shortest(grid.origin[2]) + "\n" +
-                     spacing + " " + spacing + " " + spacing + "\n" + std::to_string(grid.n[0]) + " " +
-                     std::to_string(grid.n[1]) + " " + std::to_string(grid.n[2]) + "\n";
+  std::string text = numbers_text(grid.origin.data(), 3, " ") + "\n" + spacing + " " + spacing + " " + spacing + "\n" +
+                     std::to_string(grid.n[0]) + " " + std::to_string(grid.n[1]) + " " + std::to_string(grid.n[2]) +
+                     "\n";
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.5g", lengths[i]);
-    text += number;
+    text += printed("%.5g", lengths[i]);
     text += static_cast<std::int64_t>(i + 1) % grid.n[2] == 0 ? '\n' : ' ';
   }
   return text;
@@ -277,7 +224,9 @@ ExitCode run_size_field(const SizeFieldOptions &options) {
   double spacing = std::numeric_limits<double>::infinity();
   for (const Edges &one : edges) spacing = std::min(spacing, 0.5 * one.half_thickness);
   if (options.spacing) spacing = *options.spacing;
-  const std::vector<Surface> surfaces = swept_surfaces(valves, edges, all);
+  std::vector<Surface> surfaces;
+  for (std::size_t i = 0; i < valves.size(); ++i)
+    surfaces.push_back(swept_surface(valves[i], edges[i].half_thickness, all));
   const Grid grid = grid_in(box_around(surfaces, edges), spacing);
   const std::vector<double> lengths = lengths_at(grid, surfaces, edges, options);
   write_text(options.field, text_of(grid, lengths));

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/array_view.hpp"
@@ -17,12 +19,32 @@
 #include "program/mark/crossings.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/outputs.hpp"
-#include "program/output/pictures.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
 
 namespace {
+
+struct State {
+  double opening;  // or the time
+  std::vector<riis_leaflet> leaflets;
+  std::optional<riis_orifice> orifice;
+  std::optional<riis_coaptation> contact{};  // of all leaflets
+};
+
+struct States {
+  std::vector<std::int32_t> ids;  // ids of the leaflets, ascending
+  std::vector<std::string> names;
+  std::string why_no_edges;   // "": the leaflets have free edges
+  std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
+  double disc_area;           // outline_area of the closed state
+  std::string reach;          // the distance that the band's rim reaches into the orifice, as text
+  std::vector<State> states;  // ascending by opening; the first is closed
+  std::string why_closed;     // the library's refusal of other openings; "" if the valve opens
+  bool is_of_file = false;    // whether the states are of a surface from a file, by time
+
+  bool has_edges() const { return why_no_edges.empty(); }
+};
 
 // The orifice of the triangles differs from that of the smooth surface. The difference is up to 0.3 % for the prosthesis at the
 // program's usual tolerance. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
@@ -42,54 +64,46 @@ class Measured {
       valve_ = make_valve(options);
       set_opening(0);
       const riis_surface_options own = own_frame(options);
-      riis_surface *surface = nullptr;
-      check(riis_surface_create(valve_.get(), &own, &surface), subject());
-      surface_.reset(surface);
+      surface_ = create_for<Surface>(subject(), riis_surface_create, valve_, &own);
       return;
     }
     Seconds seconds;
     MarkOptions as_file;
     static_cast<ValveOptions &>(as_file) = options;
     ValveSource source{as_file, nullptr, nullptr};
-    if (is_motion_file(options.surface)) {
-      times_ = times_of_frames(options);
-      keyframes_ = read_keyframes(options, seconds).keyframes;
+    if (is_motion(options)) {
+      KeyframeFiles read = read_keyframes(options, seconds);
+      times_ = std::move(read.times);
       source.options.time = times_.front();
-      surface_ = surface_of_keyframes(source.options, keyframes_.get());
+      source.keyframes = std::move(read.keyframes);
     } else {
       source.file = read_surface(options, seconds);
-      surface_ = make_surface(source, FileVelocity::none);
     }
+    surface_ = make_surface(source, FileVelocity::none);
+    keyframes_ = std::move(source.keyframes);
   }
 
   // Moves to a place: an opening of a valve, or a time of a surface that moves.
   void move_to(double place) {
     if (keyframes_)
-      check(riis_surface_update_from_keyframes(surface_.get(), keyframes_.get(), place, 0, nullptr), options_.surface);
+      check(riis_surface_update_from_keyframes(surface_, keyframes_, place, 0, nullptr), options_.surface);
     if (!valve_) return;
     set_opening(place);
-    check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject());
+    check(riis_surface_update(surface_, valve_, nullptr), subject());
   }
 
   bool is_valve() const { return valve_ != nullptr; }
-  std::string why_closed() { return valve_ ? program::why_closed(valve_.get(), own_frame(options_)) : ""; }
+  std::string why_closed() { return valve_ ? program::why_closed(valve_, own_frame(options_)) : ""; }
 
   // Returns the openings or the times of the table.
   std::vector<double> places(bool can_open) const {
     if (!valve_) return keyframes_ ? times_ : std::vector<double>{0};
-    std::vector<double> made{0};
-    for (std::int32_t i = 1; can_open && i < options_.n_states; ++i)
-      made.push_back(static_cast<double>(i) / static_cast<double>(options_.n_states - 1));
-    return made;
+    return can_open ? openings_from_0_to_1(options_.n_states) : std::vector<double>{0};
   }
 
   // Returns the name of the parameter that is the disc's radius, or "".
   std::string radius_parameter() const {
-    int64_t n = 0;
-    check(riis_valve_get_n_parameters(valve_.get(), &n));
-    for (int64_t i = 0; i < n; ++i) {
-      riis_parameter parameter;
-      check(riis_valve_get_parameter(valve_.get(), i, &parameter, sizeof parameter));
+    for (const riis_parameter &parameter : all_parameters(valve_)) {
       const std::string name = parameter.name;
       if (name == "root_radius" || name == "radius") return name;
     }
@@ -98,27 +112,21 @@ class Measured {
 
   std::vector<riis_leaflet> leaflets() const {
     int64_t n = 0;
-    check(riis_surface_get_n_leaflets(surface_.get(), &n));
-    std::vector<riis_leaflet> made(static_cast<std::size_t>(n));
-    for (int64_t i = 0; i < n; ++i) check(riis_surface_get_leaflet(surface_.get(), i, &view(made)[i], sizeof made[0]));
+    check(riis_surface_get_n_leaflets(surface_, &n));
+    std::vector<riis_leaflet> made;
+    for (int64_t i = 0; i < n; ++i) made.push_back(get<riis_leaflet>(riis_surface_get_leaflet, surface_, i));
     return made;
   }
 
-  riis_orifice orifice() const {
-    riis_orifice made;
-    check(riis_surface_get_orifice(surface_.get(), nullptr, &made, sizeof made));
-    return made;
-  }
+  riis_orifice orifice() const { return get<riis_orifice>(riis_surface_get_orifice, surface_, nullptr); }
 
-  ContactSize contact() const {
-    riis_coaptation made;
-    check(riis_surface_get_coaptation(surface_.get(), RIIS_AUTO, RIIS_ALL_LEAFLETS, &made, sizeof made));
-    return {made.area, made.edge};
+  riis_coaptation contact() const {
+    return get<riis_coaptation>(riis_surface_get_coaptation, surface_, RIIS_AUTO, RIIS_ALL_LEAFLETS);
   }
 
  private:
-  std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
-  void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
+  std::string subject() const { return subject_of(options_); }
+  void set_opening(double opening) { check(riis_valve_set_scalar(valve_, "opening", opening)); }
 
   const StatesOptions &options_;
   Valve valve_;  // null for a surface from a file
@@ -135,7 +143,7 @@ bool is_skirt(const StatesOptions &options, const riis_leaflet &leaflet, const s
 }
 
 std::vector<std::string> names_of_leaflets(const StatesOptions &options, const std::vector<riis_leaflet> &leaflets) {
-  const std::vector<const char *> known = leaflet_names(options);
+  const std::vector<std::string> known = leaflet_names(options);
   std::vector<std::string> names;
   for (const riis_leaflet &leaflet : leaflets) {
     const auto at = static_cast<std::size_t>(leaflet.leaflet_id);
@@ -146,15 +154,10 @@ std::vector<std::string> names_of_leaflets(const StatesOptions &options, const s
   return names;
 }
 
-// Tells whether the leaflets are rigid. A rigid leaflet only turns, so its lengths do not change.
-bool is_rigid(const std::string &valve) { return valve == "bileaflet"; }
-
 State state_at(Measured &valve, double place, bool has_contacts) {
   valve.move_to(place);
-  State state{place, {}, std::nullopt};
-  for (const riis_leaflet &leaflet : valve.leaflets()) state.leaflets.push_back({leaflet.free_edge, leaflet.area});
-  const riis_orifice orifice = valve.orifice();
-  if (orifice.outline != RIIS_OUTLINE_NONE) state.orifice = {orifice.area, orifice.perimeter, orifice.effective_area};
+  State state{place, valve.leaflets(), valve.orifice()};
+  if (state.orifice->outline == RIIS_OUTLINE_NONE) state.orifice.reset();
   if (has_contacts) state.contact = valve.contact();
   return state;
 }
@@ -172,7 +175,8 @@ States frame_of(const StatesOptions &options, Measured &valve) {
       states.why_no_edges = valve.is_valve() ? "a leaflet has no side v = 1 on its rim"
                                              : "a leaflet has no open edge besides the outline";
   }
-  if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
+  // A rigid leaflet only turns, so its lengths do not change.
+  if (valve.is_valve() && options.valve == "bileaflet") states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC)
     states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
@@ -182,8 +186,7 @@ States frame_of(const StatesOptions &options, Measured &valve) {
   return states;
 }
 
-}  // namespace
-
+// Measures the valve at n_states openings, or only at 0 if the valve does not open.
 States measure_states(const StatesOptions &options) {
   Measured valve(options);
   const std::string why_closed = valve.why_closed();
@@ -200,18 +203,7 @@ States measure_states(const StatesOptions &options) {
   return states;
 }
 
-void run_states(const StatesOptions &options) {
-  const OutputLocks locks = check_outputs(options);
-  const States states = measure_states(options);
-  if (!states.is_of_file) check_shape(options, make_valve(options).get(), !options.params_open.empty());
-  write_text(options.output, csv_of(states));
-  if (options.quiet || options.output == "-") return;
-  write_text("-", summary_of(states, options));
-}
-
 // ---- State table ----
-
-namespace {
 
 // A free edge may gain or lose this share of its closed length.
 constexpr double fair_change = 0.1;
@@ -253,12 +245,8 @@ std::string ratios_of(const States &states, const StateValue &value) {
          at(*most);
 }
 
-StateValue edge_of(std::size_t leaflet) {
-  return [=](const State &state) { return state.leaflets[leaflet].edge; };
-}
-
-StateValue area_of_leaflet(std::size_t leaflet) {
-  return [=](const State &state) { return state.leaflets[leaflet].area; };
+StateValue size_of(std::size_t leaflet, double riis_leaflet::*size) {
+  return [=](const State &state) { return state.leaflets[leaflet].*size; };
 }
 
 // Collects the lines of the summary, with their texts aligned.
@@ -280,39 +268,31 @@ class Summary {
 
 void add_leaflets(const States &states, Summary &summary) {
   for (std::size_t i = 0; i < states.names.size(); ++i) {
-    const bool has_edge = states.has_edges() && states.states.front().leaflets[i].edge > 0;
-    if (has_edge) summary.add(states.names[i], "free edge " + ratios_of(states, edge_of(i)));
-    summary.add(has_edge ? "" : states.names[i], "area " + ratios_of(states, area_of_leaflet(i)));
+    const bool has_edge = states.has_edges() && states.states.front().leaflets[i].free_edge > 0;
+    if (has_edge) summary.add(states.names[i], "free edge " + ratios_of(states, size_of(i, &riis_leaflet::free_edge)));
+    summary.add(has_edge ? "" : states.names[i], "area " + ratios_of(states, size_of(i, &riis_leaflet::area)));
   }
+}
+
+// Returns an area of the orifice at the first state, and the largest one.
+std::string text_of_area(const States &states, double riis_orifice::*area) {
+  const StateValue value = [=](const State &state) { return (*state.orifice).*area; };
+  std::string text = rounded(value(states.states.front())) + at_first(states);
+  if (states.states.size() == 1) return text;
+  const State *most = extremes_of(states, value).most;
+  return text + ", largest " + rounded(value(*most)) + at(*most);
 }
 
 std::string text_of_orifice(const States &states) {
   if (states.disc.empty() && states.is_of_file) return "not measured: no closed line of open edges encloses an area";
   if (states.disc.empty())
     return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
-  const StateValue value = [](const State &state) { return state.orifice->area; };
-  std::string text = rounded(value(states.states.front())) + at_first(states);
-  if (states.states.size() > 1) {
-    const State *most = extremes_of(states, value).most;
-    text += ", largest " + rounded(value(*most)) + at(*most);
-  }
-  return text + "; " + states.disc + " has " + rounded(states.disc_area);
-}
-
-// Names the areas that the band leaves to the flow.
-std::string text_of_effective(const States &states) {
-  const StateValue value = [](const State &state) { return state.orifice->effective_area; };
-  std::string text = rounded(value(states.states.front())) + at_first(states);
-  if (states.states.size() > 1) {
-    const State *most = extremes_of(states, value).most;
-    text += ", largest " + rounded(value(*most)) + at(*most);
-  }
-  return text + "; the band's rim takes " + states.reach;
+  return text_of_area(states, &riis_orifice::area) + "; " + states.disc + " has " + rounded(states.disc_area);
 }
 
 std::string text_of_contact(const States &states) {
   const State *most = extremes_of(states, [](const State &state) { return state.contact->area; }).most;
-  const ContactSize &first = *states.states.front().contact;
+  const riis_coaptation &first = *states.states.front().contact;
   std::string text = "area " + rounded(first.area) + ", free edge " + rounded(first.edge) + at_first(states);
   if (states.states.size() > 1) text += "; largest area " + rounded(most->contact->area) + at(*most);
   return text;
@@ -322,9 +302,9 @@ std::string text_of_contact(const States &states) {
 std::string text_of_changes(const States &states) {
   std::string text;
   for (std::size_t i = 0; i < states.names.size(); ++i) {
-    const double closed = edge_of(i)(states.states.front());
+    const double closed = size_of(i, &riis_leaflet::free_edge)(states.states.front());
     const auto is_beyond = [&](const State &state) {
-      return std::abs(state.leaflets[i].edge / closed - 1) > fair_change;
+      return std::abs(state.leaflets[i].free_edge / closed - 1) > fair_change;
     };
     const auto n = std::count_if(states.states.begin(), states.states.end(), is_beyond);
     if (n == 0) continue;
@@ -351,14 +331,16 @@ std::vector<std::string> columns_of(const States &states) {
   return columns;
 }
 
-std::string cells_of(const LeafletSize &now, const LeafletSize &closed, bool has_edges) {
+std::string cells_of(const riis_leaflet &now, const riis_leaflet &closed, bool has_edges) {
   std::string text;
-  if (has_edges) text += "," + shortest(now.edge) + "," + shortest(closed.edge > 0 ? now.edge / closed.edge : 1);
+  if (has_edges)
+    text += "," + shortest(now.free_edge) + "," + shortest(closed.free_edge > 0 ? now.free_edge / closed.free_edge : 1);
   return text + "," + shortest(now.area) + "," + shortest(now.area / closed.area);
 }
 
-}  // namespace
-
+// The columns are opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area,
+// orifice_perimeter and effective_area.
+// Ratios are relative to the closed state.
 std::string csv_of(const States &states) {
   std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {
@@ -397,12 +379,25 @@ std::string summary_of(const States &states, const StatesOptions &options) {
                                        : "opening 0 alone, because it has no state to open to"));
   add_leaflets(states, summary);
   summary.add("orifice", text_of_orifice(states));
-  if (!states.disc.empty()) summary.add("effective", text_of_effective(states));
+  if (!states.disc.empty())
+    summary.add("effective",
+                text_of_area(states, &riis_orifice::effective_area) + "; the band's rim takes " + states.reach);
   if (states.states.front().contact) summary.add("contact", text_of_contact(states));
   if (!states.has_edges()) summary.add("edges", "not measured: " + states.why_no_edges);
   if (states.has_edges() && can_open) summary.add("edges", text_of_changes(states));
   summary.add("written", options.output);
   return summary.text();
+}
+
+}  // namespace
+
+void run_states(const StatesOptions &options) {
+  const OutputLocks locks = check_outputs(options);
+  const States states = measure_states(options);
+  if (!states.is_of_file) check_shape(options, make_valve(options).get(), !options.params_open.empty());
+  write_text(options.output, csv_of(states));
+  if (options.quiet || options.output == "-") return;
+  write_text("-", summary_of(states, options));
 }
 
 }  // namespace riis::program

@@ -23,9 +23,10 @@ namespace {
 const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
                                             "resistance", "times", "valves",         "check_leaks"};
 const std::vector<std::string> valve_keys = {
-    "name",           "valve",          "surface",       "leaflets",     "parameters", "open_parameters", "opening",
-    "half_thickness", "resistance",     "scale",         "surface_unit", "rotate",     "translate",       "tolerance",
-    "flip_normals",   "skip_zero_area", "triangulation", "period",       "warp",       "skirt",           "wall"};
+    "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
+    "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
+    "translate", "tolerance",      "flip_normals", "skip_zero_area", "triangulation", "period",
+    "warp",      "skirt",          "wall",         "time_step"};
 
 class CaseReader {
  public:
@@ -62,11 +63,7 @@ class CaseReader {
   }
 
   LeakCheck leak_check_of(const CaseValues &values) const {
-    const std::vector<double> points = values.numbers("check_leaks", 6);
-    LeakCheck made{{}, {}, path_ + ": check_leaks", exit_bad_data};
-    std::copy_n(points.begin(), 3, made.from);
-    std::copy_n(points.begin() + 3, 3, made.to);
-    return made;
+    return {values.numbers("check_leaks", 6), path_ + ": check_leaks", exit_bad_data};
   }
 
   std::vector<double> times_of(const CaseValues &values) const {
@@ -91,6 +88,19 @@ class CaseReader {
     return all_.files.back();
   }
 
+  // Returns the paths that a key gives, as one text or as an array of texts.
+  std::vector<std::string> files_of(const CaseValues &values, const char *key) {
+    if (!values.needed(key).is_array()) return {file_of(values, key)};
+    std::vector<std::string> files;
+    for (const Json &item : values.needed(key)) {
+      if (!item.is_string() || item.get<std::string>().empty()) values.refuse(key, item.dump() + " is not a path");
+      files.push_back(in_folder(item.get<std::string>()));
+    }
+    if (files.empty()) values.refuse(key, "it names no file");
+    all_.files.insert(all_.files.end(), files.begin(), files.end());
+    return files;
+  }
+
   std::string in_folder(const std::string &path) const {
     return (std::filesystem::path(path_).parent_path() / path).string();
   }
@@ -102,8 +112,10 @@ class CaseReader {
     options.prefix = name_of(values, n_valves);
     if (n_valves > 1) values.set_subject("valve \"" + options.prefix + "\"");
     source.subject = values.subject();
-    options.surface = file_of(values, "surface");
+    if (values.has("surface")) set_surface(options, files_of(values, "surface"), source.subject);
     options.leaflets = values.text("leaflets");
+    if (options.surface_files.size() > 1 && !options.leaflets.empty())
+      values.refuse("leaflets", "it has no effect, because each of several files is a leaflet");
     options.valve = values.text("valve");
     if (options.valve.empty() == options.surface.empty())
       values.refuse("valve", "either it or \"surface\" must be given");
@@ -171,32 +183,24 @@ class CaseReader {
   }
 
   void make_valve_of(const CaseValues &values, ValveSource &source) {
-    for (const char *key : {"leaflets", "skip_zero_area", "period"})
+    for (const char *key : {"leaflets", "skip_zero_area", "period", "time_step"})
       if (values.has(key)) values.refuse(key, "it needs \"surface\"");
     const std::string &kind = source.options.valve;
-    if (is_valve_file(kind)) {
-      if (values.has("open_parameters")) values.refuse("open_parameters", "the open state is in " + kind);
-      ValveFile file(kind);
-      set_parameters_of(values, "parameters", file.valve());
-      set_law(values, file.valve(), source);
-      set_warp(values, file.valve(), source);
-      file.check_opening();
-      set_skirt(source.options, file.valve(), source.subject);
-      source.valve = file.take_valve();
-      return;
-    }
-    source.valve = make_kind(kind, source.subject);
-    set_placed_parameters(source.options, source.valve.get());
-    set_parameters_of(values, "parameters", source.valve.get());
+    if (is_valve_file(kind) && values.has("open_parameters"))
+      values.refuse("open_parameters", "the open state is in " + kind);
+    NewValve valve(kind, source.subject);
+    set_placed_parameters(source.options, valve);
+    set_parameters_of(values, "parameters", valve);
     if (values.has("open_parameters")) {
       const Valve open = make_kind(kind, source.subject);
-      set_parameters_of(values, "open_parameters", open.get());
-      check(riis_valve_set_open_state(source.valve.get(), open.get()), source.subject);
+      set_parameters_of(values, "open_parameters", open);
+      check(riis_valve_set_open_state(valve, open), source.subject);
       source.has_open_state = true;
     }
-    set_law(values, source.valve.get(), source);
-    set_warp(values, source.valve.get(), source);
-    set_skirt(source.options, source.valve.get(), source.subject);
+    set_law(values, valve, source);
+    set_warp(values, valve, source);
+    source.valve = valve.take();
+    set_skirt(source.options, source.valve, source.subject);
   }
 
   // Reads the warp, and gives it to the valve at the first time.
@@ -241,11 +245,13 @@ class CaseReader {
     for (const char *key :
          {"parameters", "open_parameters", "opening", "tolerance", "triangulation", "warp", "skirt", "wall"})
       if (values.has(key)) values.refuse(key, "it cannot be combined with \"surface\"");
-    if (is_motion_file(source.options.surface)) {
+    if (is_motion(source.options)) {
       if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
       source.options.period = values.above_zero("period").value_or(0);
-    } else if (values.has("period")) {
-      values.refuse("period", "it needs a \"surface\" that moves, a .pvd file");
+      source.options.time_step = values.above_zero("time_step").value_or(1);
+    } else {
+      for (const char *key : {"period", "time_step"})
+        if (values.has(key)) values.refuse(key, "it needs a \"surface\" that moves, a .pvd or .dat file");
     }
   }
 
@@ -283,19 +289,15 @@ OpeningLaw law_of_arrays(const CaseValues &values) {
 }
 
 OpeningLaw law_of_ramps(const CaseValues &values) {
-  riis_opening_times times;
-  check(riis_opening_times_init(&times, sizeof times));
-  const auto set = [&](const char *key, double &field) {
-    if (const auto number = values.number(key)) field = *number;
-  };
-  for (const char *key : {"opening_start", "opening_duration", "closing_start", "closing_duration"})
-    static_cast<void>(values.needed(key));
-  set("opening_start", times.opening_start);
-  set("opening_duration", times.opening_duration);
-  set("closing_start", times.closing_start);
-  set("closing_duration", times.closing_duration);
-  set("closed", times.closed);
-  set("open", times.open);
+  auto times = defaults<riis_opening_times>();
+  const std::pair<const char *, double *> needed[] = {{"opening_start", &times.opening_start},
+                                                      {"opening_duration", &times.opening_duration},
+                                                      {"closing_start", &times.closing_start},
+                                                      {"closing_duration", &times.closing_duration}};
+  for (const auto &[key, field] : needed) static_cast<void>(values.needed(key));
+  for (const auto &[key, field] : needed) *field = *values.number(key);
+  times.closed = values.number("closed").value_or(times.closed);
+  times.open = values.number("open").value_or(times.open);
   times.period = values.above_zero("period").value_or(0);
   return OpeningLaw(times, values.subject());
 }
@@ -323,22 +325,15 @@ CaseOpening case_opening(const CaseValues &valve, const std::function<std::strin
 
 namespace {
 
-OpeningLaw law_of_command_line(const MarkOptions &options) {
-  const SeriesOptions &series = options.series;
-  OpeningTable table = read_cycle(series.cycle);
-  table.period = options.period;
-  table.interpolation = series.interpolation;
-  return OpeningLaw(std::move(table), series.cycle);
-}
-
 void read_valve(const MarkOptions &options, ValveSource &source) {
   source.has_open_state = !options.params_open.empty();
   if (options.series.times.empty()) {
     source.valve = make_valve(options);
-    source.law = OpeningLaw(opening_of(source.valve.get()));
+    source.law = OpeningLaw(opening_of(source.valve));
     return;
   }
-  source.law = law_of_command_line(options);
+  const SeriesOptions &series = options.series;
+  source.law = OpeningLaw(read_cycle(series.cycle, options.period, series.interpolation), series.cycle);
   // make_valve refuses a file of patches if the valve cannot open as far as the law requires.
   source.options.opening = largest_opening(source.law, options.series.times);
   source.valve = make_valve(source.options, OpeningCheck::yes, &source.warp);
@@ -372,7 +367,7 @@ void read_surfaces(Case &all) {
   for (ValveSource &source : all.valves) {
     const MarkOptions &options = source.options;
     if (source.valve || source.file || source.keyframes) continue;
-    if (!is_motion_file(options.surface)) {
+    if (!is_motion(options)) {
       source.file = read_surface(options, all.seconds);
       continue;
     }

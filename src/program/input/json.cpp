@@ -33,7 +33,6 @@ class Guard {
  private:
   void check_key(const std::string &key) {
     // Control characters are refused, because the library would end a name at a 0 byte.
-    const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
     if (std::any_of(key.begin(), key.end(), is_control)) refuse_file(path_, "a name holds a control character: " + key);
     // Repeated keys are refused. The parser would keep only the last of them, and the user cannot have meant all.
     if (!keys_.back().insert(key).second) refuse_file(path_, key + " is given twice");
@@ -80,6 +79,13 @@ void check_keys(const std::string &path, const std::string &subject, const Json 
   }
 }
 
+std::optional<std::array<double, 3>> point_in(const Json &value) {
+  const auto is_number = [](const Json &x) { return x.is_number(); };
+  if (!value.is_array() || value.size() != 3 || !std::all_of(value.begin(), value.end(), is_number))
+    return std::nullopt;
+  return value.get<std::array<double, 3>>();
+}
+
 // ---- Case values ----
 
 CaseValues::CaseValues(const std::string &path, const std::string &object, const Json &value,
@@ -104,7 +110,6 @@ std::string CaseValues::text(const char *key) const {
   if (!value.is_string() || value.get_ref<const std::string &>().empty())
     refuse(key, value.dump() + " is not a text, or is empty");
   const std::string text = value.get<std::string>();
-  const auto is_control = [](unsigned char c) { return c < ' ' || c == 127; };
   if (std::any_of(text.begin(), text.end(), is_control)) refuse(key, value.dump() + " holds a control character");
   return text;
 }

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,6 +27,9 @@ Json parse_json(const std::string &path, const std::string &text, const std::str
 // list. `subject` names the value.
 void check_keys(const std::string &path, const std::string &subject, const Json &value,
                 const std::vector<std::string> &keys);
+
+// Returns the point [x, y, z], or nothing for another value.
+std::optional<std::array<double, 3>> point_in(const Json &value);
 
 // In: an object of a case file. Out: its values by key, checked. Refusals name the file, the object and the key.
 

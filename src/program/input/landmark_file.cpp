@@ -174,13 +174,9 @@ Axes stated_axes(const std::string &path, const std::string &text) {
 }
 
 std::array<double, 3> point_of(const std::string &path, const std::string &name, const Json &value) {
-  std::array<double, 3> point{};
-  if (!value.is_array() || value.size() != 3) refuse_file(path, name + " must be three numbers, not " + value.dump());
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!value[k].is_number()) refuse_file(path, name + " must be three numbers, not " + value.dump());
-    point[k] = value[k].get<double>();
-  }
-  return point;
+  const auto point = point_in(value);
+  if (!point) refuse_file(path, name + " must be three numbers, not " + value.dump());
+  return *point;
 }
 
 // ---- JSON ----

@@ -9,10 +9,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <climits>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -35,30 +33,18 @@ bool may_crash(const std::string &path) {
   return endings.count(ending_of(path)) != 0;
 }
 
-// A folder for the mesh that a child process passes on. The destructor removes the folder.
+// A folder for the mesh that a child process passes on. Signals that end the process remove it.
 class PassingFolder {
  public:
-  PassingFolder() {
-    std::error_code error;
-    const fs::path place = fs::temp_directory_path(error);
-    path_ = ((error ? fs::path("/tmp") : place) / "riis-XXXXXX").string();
-    if (!mkdtemp(path_.data()))
-      throw Refusal{exit_bad_data, "no temporary folder can be made in " + fs::path(path_).parent_path().string() +
-                                       ": " + std::strerror(errno) + "; TMPDIR may name another place"};
-    remove_if_ended(path_, mesh());
-  }
-  ~PassingFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-    remove_if_ended("", "");
-  }
+  PassingFolder() { remove_if_ended(folder_.path(), mesh()); }
+  ~PassingFolder() { remove_if_ended("", ""); }
   PassingFolder(const PassingFolder &) = delete;
   PassingFolder &operator=(const PassingFolder &) = delete;
 
-  std::string mesh() const { return path_ + "/mesh.vtu"; }
+  std::string mesh() const { return folder_.path() + "/mesh.vtu"; }
 
  private:
-  std::string path_;
+  const TemporaryFolder folder_;
 };
 
 // Limits the memory of this process, because damaged files may claim any size. Honest files need a few times their size, and up
@@ -95,7 +81,7 @@ struct Answer {
   // Readers print errors of their own. This process's message goes through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);
   // This process ends with its parent, and removes nothing of its parent's.
-  for (const int ending : {SIGINT, SIGTERM, SIGHUP})
+  for (const int ending : UnbrokenWrite::signals)
     if (signal(ending, SIG_DFL) == SIG_IGN) signal(ending, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(1);
@@ -132,24 +118,21 @@ Answer answer_of(int from) {
   return answer;
 }
 
-std::string &kept_notes() {
-  static std::string notes;
-  return notes;
-}
+std::string kept_notes;
 
 void note(const std::string &path, const std::string &text) {
-  if (!text.empty()) kept_notes() += "note      " + path + ": " + text + "\n";
+  if (!text.empty()) kept_notes += "note      " + path + ": " + text + "\n";
 }
 
 MeshFile read_by_child(const std::string &path) {
   const PassingFolder folder;
   int ends[2];
-  if (pipe(ends) != 0) throw Refusal{exit_bad_data, std::string("no pipe to a child process: ") + std::strerror(errno)};
+  if (pipe(ends) != 0) refuse_data(std::string("no pipe to a child process: ") + system_text(errno));
   const pid_t parent = getpid(), child = fork();
   if (child < 0) {
     close(ends[0]);
     close(ends[1]);
-    throw Refusal{exit_bad_data, std::string("no child process to read ") + path + ": " + std::strerror(errno)};
+    refuse_data(std::string("no child process to read ") + path + ": " + system_text(errno));
   }
   if (child == 0) read_as_child(path, folder.mesh(), ends[1], parent);
   close(ends[1]);
@@ -158,21 +141,18 @@ MeshFile read_by_child(const std::string &path) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   if (WIFSIGNALED(status))
-    throw Refusal{exit_bad_data, path + ": is damaged: its reader ended with signal " +
-                                     std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")"};
+    refuse_data(path + ": is damaged: its reader ended with signal " + std::to_string(WTERMSIG(status)) + " (" +
+                strsignal(WTERMSIG(status)) + ")");
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Refusal{exit_bad_data,
-                  path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status))};
+    refuse_data(path + ": is damaged: its reader ended with status " + std::to_string(WEXITSTATUS(status)));
   if (answer.status == RIIS_OUT_OF_MEMORY)
-    throw Refusal{exit_bad_data, answer.text + "; its reader may take 2 GB and a thousand times the size of its files"};
+    refuse_data(answer.text + "; its reader may take 2 GB and a thousand times the size of its files");
   if (answer.status != RIIS_OK)
     throw Refusal{
         exit_bad_data,
         answer.text + (answer.status == RIIS_FILE_ERROR ? conversion_hint(path, Content::mesh, answer.text) : "")};
   note(path, answer.text);
-  riis_vtk_mesh *mesh = nullptr;
-  check(riis_vtk_mesh_read(folder.mesh().c_str(), &mesh));
-  return MeshFile(mesh);
+  return create<MeshFile>(riis_vtk_mesh_read, folder.mesh().c_str());
 }
 
 bool has_poly_mesh(const fs::path &folder) {
@@ -194,26 +174,29 @@ std::vector<std::string> data_files_of(const std::string &path) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n"), end = text.find_last_not_of(" \t\r\n");
     if (begin == std::string::npos) continue;
     text = text.substr(begin, end + 1 - begin);
-    const std::string name = text.substr(0, text.find(":/"));  // a dataset may follow the file
-    const fs::path place = fs::path(path).parent_path() / name;
-    std::error_code error;
-    if (fs::is_regular_file(place, error)) found.push_back(place.string());
+    // A dataset may follow the file: FILE.h5:/DATASET, or without "/".
+    for (const char *separator : {":/", ":"}) {
+      const fs::path place = fs::path(path).parent_path() / text.substr(0, text.find(separator));
+      std::error_code error;
+      if (!fs::is_regular_file(place, error)) continue;
+      found.push_back(place.string());
+      break;
+    }
   }
   return found;
 }
 
 MeshFile read_mesh_file(const std::string &path) {
   if (may_crash(path)) return read_by_child(path);
-  riis_vtk_mesh *mesh = nullptr;
-  check_mesh_read(riis_vtk_mesh_read(path.c_str(), &mesh), path);
-  MeshFile file(mesh);
+  MeshFile file;
+  check_mesh_read(riis_vtk_mesh_read(path.c_str(), file.out()), path);
   const char *text = nullptr;
-  check(riis_vtk_mesh_get_notes(mesh, &text));
+  check(riis_vtk_mesh_get_notes(file, &text));
   note(path, text);
   return file;
 }
 
-std::string take_notes() { return std::exchange(kept_notes(), ""); }
+std::string take_notes() { return std::exchange(kept_notes, ""); }
 
 bool is_foam_case(const std::string &path) { return has_poly_mesh(path); }
 
@@ -221,15 +204,11 @@ bool is_foam_time(const std::string &path) {
   fs::path folder = path;
   if (!folder.has_filename()) folder = folder.parent_path();
   const std::string name = folder.filename().string();
-  double time = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), time);
-  return error == std::errc() && end == name.data() + name.size() && !name.empty() &&
-         has_poly_mesh(folder.has_parent_path() ? folder.parent_path() : fs::path("."));
+  return number_in(name) && has_poly_mesh(folder_of(folder));
 }
 
 std::string foam_time(const std::string &foam_case, double time) {
-  char digits[32];
-  return (fs::path(foam_case) / std::string(digits, std::to_chars(digits, digits + sizeof digits, time).ptr)).string();
+  return (fs::path(foam_case) / shortest(time)).string();
 }
 
 }  // namespace riis::program

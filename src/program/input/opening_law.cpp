@@ -2,12 +2,11 @@
 #include "program/input/opening_law.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 #include <cmath>
-#include <optional>
 #include <sstream>
 #include <utility>
+
+#include <riis/riis.hpp>
 
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
@@ -19,15 +18,14 @@ namespace {
 
 // Checks a law. Reports its faults as bad data, because all its values come from the user.
 void check_law(riis_status status, const std::string &subject) {
-  if (status == RIIS_INVALID_ARGUMENT) throw Refusal{exit_bad_data, subject + ": " + riis_last_error()};
+  if (status == RIIS_INVALID_ARGUMENT) refuse_data(subject + ": " + riis_last_error());
   check(status, subject);
 }
 
 double opening_from(double opening, double, const std::string &) { return opening; }
 
 double opening_from(const OpeningTable &table, double time, const std::string &subject) {
-  riis_opening_table keys;
-  check(riis_opening_table_init(&keys, sizeof keys));
+  auto keys = defaults<riis_opening_table>();
   keys.n_keys = view(table.times).size();
   keys.time = table.times.data();
   keys.opening = table.openings.data();
@@ -88,73 +86,39 @@ std::vector<std::string> columns_of(std::string line) {
   return columns;
 }
 
-// Returns the number, or nothing if the text is not a number. Also returns nothing for infinity and NaN, which no key may have.
-std::optional<double> number_in(const std::string &text) {
-  const char *first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  const char *last = text.data() + text.size();
-  double number = 0;
-  const auto [end, error] = std::from_chars(first, last, number);
-  if (error != std::errc() || end != last || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
-class CycleReader {
- public:
-  explicit CycleReader(const std::string &path) : path_(path) {}
-
-  void add(std::size_t line_number, const std::string &line) {
-    const std::vector<std::string> columns = columns_of(line);
-    if (columns.empty() || columns[0][0] == '#') return;
-    line_ = line_number;
-    const bool may_be_header = !has_first_;
-    has_first_ = true;
-    if (columns.size() != 2)
-      refuse("has " + std::to_string(columns.size()) + " columns: '" + line + "'; it must have 2, time and opening");
-    if (may_be_header && !number_in(columns[0]) && !number_in(columns[1])) return;
-    const double time = number(columns[0], "the time"), opening = number(columns[1], "the opening");
-    check_key(columns, time, opening);
-    keys_.times.push_back(time);
-    keys_.openings.push_back(opening);
-  }
-
-  OpeningTable keys() const {
-    if (keys_.times.empty()) refuse_file(path_, "holds no times and openings");
-    return keys_;
-  }
-
- private:
-  void check_key(const std::vector<std::string> &columns, double time, double opening) const {
-    if (keys_.times.size() == most_keys) refuse("is one key too many; there may be 1000000");
-    if (std::abs(time) > largest_key_time) refuse("the time " + columns[0] + " is beyond 1e30");
-    if (!keys_.times.empty() && time <= keys_.times.back())
-      refuse("the time " + columns[0] + " is not above the time before it");
-    if (!(opening >= 0 && opening <= 1)) refuse("the opening " + columns[1] + " is not from 0 to 1");
-  }
-
-  double number(const std::string &text, const char *what) const {
-    const auto found = number_in(text);
-    if (!found) refuse(std::string(what) + " '" + text + "' is not a finite number");
-    return *found;
-  }
-
-  [[noreturn]] void refuse(const std::string &reason) const {
-    refuse_file(path_, "line " + std::to_string(line_) + ": " + reason);
-  }
-
-  const std::string &path_;
-  OpeningTable keys_;
-  std::size_t line_ = 0;
-  bool has_first_ = false;
-};
-
 }  // namespace
 
-OpeningTable read_cycle(const std::string &path) {
-  std::istringstream lines(text_of_file(path));
-  CycleReader reader(path);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) reader.add(++number, line);
-  return reader.keys();
+OpeningTable read_cycle(const std::string &path, double period, std::int32_t interpolation) {
+  OpeningTable keys{{}, {}, period, interpolation};
+  std::size_t line_number = 0;
+  const auto refuse = [&](const std::string &reason) {
+    refuse_file(path, "line " + std::to_string(line_number) + ": " + reason);
+  };
+  const auto number = [&](const std::string &text, const std::string &what) {
+    const auto found = number_in(text);
+    if (!found || !std::isfinite(*found)) refuse(what + " '" + text + "' is not a finite number");
+    return *found;
+  };
+  bool is_first = true;
+  for (const std::string &line : split(text_of_file(path), "\n")) {
+    ++line_number;
+    const std::vector<std::string> columns = columns_of(line);
+    if (columns.empty() || columns[0][0] == '#') continue;
+    const bool may_be_header = std::exchange(is_first, false);
+    if (columns.size() != 2)
+      refuse("has " + std::to_string(columns.size()) + " columns: '" + line + "'; it must have 2, time and opening");
+    if (may_be_header && !number_in(columns[0]) && !number_in(columns[1])) continue;
+    const double time = number(columns[0], "the time"), opening = number(columns[1], "the opening");
+    if (keys.times.size() == most_keys) refuse("is one key too many; there may be 1000000");
+    if (std::abs(time) > largest_key_time) refuse("the time " + columns[0] + " is beyond 1e30");
+    if (!keys.times.empty() && time <= keys.times.back())
+      refuse("the time " + columns[0] + " is not above the time before it");
+    if (!(opening >= 0 && opening <= 1)) refuse("the opening " + columns[1] + " is not from 0 to 1");
+    keys.times.push_back(time);
+    keys.openings.push_back(opening);
+  }
+  if (keys.times.empty()) refuse_file(path, "holds no times and openings");
+  return keys;
 }
 
 }  // namespace riis::program

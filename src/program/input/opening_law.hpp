@@ -47,6 +47,7 @@ const std::vector<std::string> &interpolation_names();
 
 // The file has two columns, time and opening, separated by a comma, a semicolon, blanks or a tab. The first line may name the
 // columns. Empty lines and lines that begin with # are skipped. Times must ascend, and openings must be from 0 to 1.
-OpeningTable read_cycle(const std::string &path);
+OpeningTable read_cycle(const std::string &path, double period = 0,
+                        std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR);
 
 }  // namespace riis::program

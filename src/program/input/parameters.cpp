@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <map>
 #include <vector>
 
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/json.hpp"
@@ -28,24 +28,16 @@ std::vector<double> numbers_of(const std::string &path, const std::string &name,
 }
 
 bool is_cusp(const riis_valve *valve, const std::string &name) {
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  for (int64_t i = 0; i < n; ++i) {
-    riis_parameter parameter{};
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
-    if (std::string(parameter.name).rfind(name + ".", 0) == 0) return true;
-  }
-  return false;
+  const std::vector<riis_parameter> all = all_parameters(valve);
+  return std::any_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
+    return std::string(parameter.name).rfind(name + ".", 0) == 0;
+  });
 }
 
 // Returns the parameter's own name for a name that may be its second name, such as "root_radius" for "annulus".
 std::string own_name(const riis_valve *valve, const std::string &name) {
   const std::size_t dot = name.rfind('.'), start = dot == std::string::npos ? 0 : dot + 1;
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  for (int64_t i = 0; i < n; ++i) {
-    riis_parameter parameter{};
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
+  for (const riis_parameter &parameter : all_parameters(valve)) {
     const std::string own = parameter.name;
     if (name.substr(start) == parameter.other_name) return name.substr(0, start) + own.substr(own.rfind('.') + 1);
   }
@@ -105,7 +97,7 @@ void set_from_json(riis_valve *valve, const Json &parameters, const std::string 
 void set_from_text(riis_valve *valve, const std::string &setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0) {
-    throw Refusal{exit_wrong_usage, "--set: '" + setting + "' is not NAME=VALUE"};
+    refuse_usage("--set: '" + setting + "' is not NAME=VALUE");
   }
   const std::string name = setting.substr(0, equals);
   set_parameter(valve, name, parse_list(setting.substr(equals + 1), "--set " + name), "--set");
@@ -113,11 +105,7 @@ void set_from_text(riis_valve *valve, const std::string &setting) {
 
 namespace {
 
-std::string text_of(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", number);
-  return text;
-}
+std::string text_of(double number) { return printed("%g", number); }
 
 // Returns the description with the parameter's rule and its second name.
 std::string description_of(const riis_parameter &parameter) {
@@ -132,10 +120,8 @@ std::string description_of(const riis_parameter &parameter) {
 using Row = std::array<std::string, 5>;
 
 Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
-  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
-  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
   std::string value;
-  for (const double number : values) value += (value.empty() ? "" : ",") + text_of(number);
+  for (const double number : values_of(valve, parameter)) value += (value.empty() ? "" : ",") + text_of(number);
   const std::string unit = parameter.unit;
   return {parameter.name, value,
           unit == "length" ? "cm"
@@ -148,13 +134,7 @@ Row row_of(const riis_valve *valve, const riis_parameter &parameter) {
 
 std::string parameter_table(const riis_valve *valve) {
   std::vector<Row> rows = {{"name", "value", "unit", "range", "description"}};
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  for (int64_t i = 0; i < n; ++i) {
-    riis_parameter parameter{};
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
-    rows.push_back(row_of(valve, parameter));
-  }
+  for (const riis_parameter &parameter : all_parameters(valve)) rows.push_back(row_of(valve, parameter));
   std::array<std::size_t, 5> widths{};
   for (const Row &row : rows)
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
@@ -168,13 +148,8 @@ std::string parameter_table(const riis_valve *valve) {
 
 std::string json_template(const riis_valve *valve) {
   Json root = Json::object();
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  for (int64_t i = 0; i < n; ++i) {
-    riis_parameter parameter{};
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
-    std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
-    check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
+  for (const riis_parameter &parameter : all_parameters(valve)) {
+    const std::vector<double> values = values_of(valve, parameter);
     const std::string name = parameter.name;
     const std::size_t dot = name.find('.');
     Json &place = dot == std::string::npos ? root[name] : root[name.substr(0, dot)][name.substr(dot + 1)];

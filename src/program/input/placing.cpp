@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <regex>
 #include <utility>
 
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/parameters.hpp"
@@ -13,11 +14,7 @@
 namespace riis::program {
 namespace {
 
-std::string digits(double number, int n = 4) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*g", n, number);
-  return text;
-}
+std::string digits(double number, int n = 4) { return printed(("%." + std::to_string(n) + "g").c_str(), number); }
 
 std::string option_name(Reader reader, const char *name) {
   return (reader == Reader::program ? "--" : "") + std::string(name);
@@ -25,24 +22,6 @@ std::string option_name(Reader reader, const char *name) {
 
 std::string option_text(Reader reader, const char *name, const std::string &value) {
   return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
-}
-
-std::size_t n_parameters(const riis_valve *valve) {
-  int64_t n = 0;
-  check(riis_valve_get_n_parameters(valve, &n));
-  return static_cast<std::size_t>(n);
-}
-
-riis_parameter parameter_of(const riis_valve *valve, std::size_t i) {
-  riis_parameter parameter{};
-  check(riis_valve_get_parameter(valve, static_cast<int64_t>(i), &parameter, sizeof parameter));
-  return parameter;
-}
-
-std::vector<double> all_values(const riis_valve *valve, const riis_parameter &parameter) {
-  std::vector<double> values(static_cast<std::size_t>(parameter.n_values));
-  check(riis_valve_get(valve, parameter.name, parameter.n_values, values.data()));
-  return values;
 }
 
 // Returns the names of the parameters that keep their values: the given ones and those of the landmarks' file. The library
@@ -57,8 +36,8 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
   std::vector<std::string> held;
   for (const std::string &name : given) {
     const std::size_t n_before = held.size();
-    for (std::size_t i = 0; i < n_parameters(valve); ++i) {
-      const std::string full = parameter_of(valve, i).name;
+    for (const riis_parameter &parameter : all_parameters(valve)) {
+      const std::string full = parameter.name;
       const bool is_part = full.size() > name.size() && full.substr(full.size() - name.size() - 1) == "." + name;
       if (full == name || is_part) held.push_back(full);
     }
@@ -69,20 +48,13 @@ std::string held_names(std::vector<std::string> given, const LandmarkFile &landm
 
 // Returns the library's message with the names of the file for landmarks, and the words of the file for fields.
 std::string in_words_of_file(std::string text, const LandmarkFile &landmarks) {
-  for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
-    const std::string number = "landmark " + std::to_string(i);
-    for (std::size_t at = 0; (at = text.find(number, at)) != std::string::npos;) {
-      std::size_t end = at + number.size();
-      if (end < text.size() && text[end] >= '0' && text[end] <= '9') {
-        ++at;
-        continue;
-      }
-      if (text.compare(end, 2, " (") == 0) end = std::min(text.find(')', end) + 1, text.size());
-      const std::string name = quoted(landmarks.names[i]);
-      text.replace(at, end - at, name);
-      at += name.size();
-    }
+  static const std::regex numbered("landmark ([0-9]+)( \\([^)]*\\))?");
+  std::string named;
+  for (std::smatch match; std::regex_search(text, match, numbered); text = match.suffix()) {
+    const std::size_t i = std::stoul(match[1]);
+    named += match.prefix().str() + (i < landmarks.names.size() ? quoted(landmarks.names[i]) : match.str());
   }
+  text = named + text;
   const std::pair<std::string, std::string> fields[] = {
       {"landmarks.scale is " + shortest(factor_between(Unit::centimetre, landmarks.unit)) + " (" +
            words_of(landmarks.unit) + ")",
@@ -109,24 +81,7 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
   throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
 }
 
-riis_points points_of(const std::vector<double> &xyz) {
-  riis_points points;
-  check(riis_points_init(&points, sizeof points));
-  points.n_points = static_cast<int64_t>(xyz.size() / 3);
-  points.x = xyz.data();
-  points.y = xyz.data() + 1;
-  points.z = xyz.data() + 2;
-  points.stride = 3;
-  return points;
-}
-
 }  // namespace
-
-std::string numbers_text(const double *numbers, std::size_t n, const char *between, std::string (*as_text)(double)) {
-  std::vector<std::string> parts;
-  for (std::size_t i = 0; i < n; ++i) parts.push_back(as_text(numbers[i]));
-  return joined_by(parts, between);
-}
 
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
   const std::string axes = option_name(request.reader, "axes");
@@ -153,9 +108,10 @@ std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Rea
 
 Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, const std::string &kind,
                           const std::vector<std::string> &held, Reader reader) {
-  Placed made{landmarks, kind, {}, {}, {}, 0, {}, {}, std::nullopt, 0, {}};
-  riis_landmarks given;
-  check(riis_landmarks_init(&given, sizeof given));
+  Placed made;
+  made.landmarks = landmarks;
+  made.kind = kind;
+  auto given = defaults<riis_landmarks>();
   given.n_landmarks = static_cast<int64_t>(landmarks.names.size());
   given.x = landmarks.xyz.data();
   given.y = landmarks.xyz.data() + 1;
@@ -167,13 +123,12 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
   if (landmarks.noise) given.noise = *landmarks.noise;
   if (landmarks.flow) std::copy(landmarks.flow->begin(), landmarks.flow->end(), given.flow);
   made.noise = landmarks.noise.value_or(0.03 * given.scale);
-  const std::size_t n = n_parameters(valve);
+  const std::size_t n = all_parameters(valve).size();
   made.residuals.resize(landmarks.names.size());
   made.places.resize(landmarks.xyz.size());
   std::vector<double> errors(n);
   std::vector<int32_t> states(n);
-  riis_placement_arrays arrays;
-  check(riis_placement_arrays_init(&arrays, sizeof arrays));
+  auto arrays = defaults<riis_placement_arrays>();
   arrays.residual = made.residuals.data();
   arrays.standard_error = errors.data();
   arrays.size_state = states.data();
@@ -182,15 +137,14 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
                              sizeof made.placement),
                   landmarks, reader);
   const riis_placement &at = made.placement;
-  check(riis_surface_options_init(&made.where, sizeof made.where));
   made.where.scale = at.scale;
   made.where.half_thickness = 0.1 * at.scale;
   std::copy_n(at.rotation_axis, 3, made.where.rotation_axis);
   made.where.rotation_angle = at.rotation_angle;
   std::copy_n(at.translation, 3, made.where.translation);
-  for (std::size_t i = 0; i < n; ++i) {
-    const riis_parameter parameter = parameter_of(valve, i);
-    made.sizes.push_back({parameter, all_values(valve, parameter), errors[i], states[i]});
+  for (const riis_parameter &parameter : all_parameters(valve)) {
+    const std::size_t i = made.sizes.size();
+    made.sizes.push_back({parameter, values_of(valve, parameter), errors[i], states[i]});
   }
   return made;
 }
@@ -199,28 +153,24 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
   const LandmarkFile &landmarks = placed.landmarks;
   const std::vector<double> &targets = landmarks.xyz;
   const riis_points from = points_of(placed.places), to = points_of(targets);
-  riis_warp_options how;
-  check(riis_warp_options_init(&how, sizeof how));
+  auto how = defaults<riis_warp_options>();
   how.placement = &placed.where;
   how.noise = placed.warp_noise = noise;
   Warp warp;
   check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
-  check_landmarks(riis_warp_set_targets(warp.get(), &to), landmarks, reader);
-  check(riis_valve_set_warp(valve, warp.get(), nullptr), option_name(reader, "warp"));
-  riis_warp_info info;
-  check(riis_warp_get_info(warp.get(), &info, sizeof info));
-  placed.warp = info;
+  check_landmarks(riis_warp_set_targets(warp, &to), landmarks, reader);
+  check(riis_valve_set_warp(valve, warp, nullptr), option_name(reader, "warp"));
+  placed.warp = get<riis_warp_info>(riis_warp_get_info, warp);
   std::vector<double> mapped(placed.places.size());
-  check(riis_warp_map(warp.get(), &from, mapped.data()));
+  check(riis_warp_map(warp, &from, mapped.data()));
   for (std::size_t i = 0; i < mapped.size(); i += 3)
     placed.still_off.push_back(
         std::hypot(mapped[i] - targets[i], mapped[i + 1] - targets[i + 1], mapped[i + 2] - targets[i + 2]));
-  Valve trial;
-  check(riis_valve_copy(valve, trial.out()));
+  const auto trial = create<Valve>(riis_valve_copy, valve);
   for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    check(riis_valve_set_scalar(trial.get(), "opening", opening));
+    check(riis_valve_set_scalar(trial, "opening", opening));
     Surface surface;
-    check_landmarks(riis_surface_create(trial.get(), &placed.where, surface.out()), landmarks, reader);
+    check_landmarks(riis_surface_create(trial, &placed.where, surface.out()), landmarks, reader);
   }
   return warp;
 }
@@ -279,9 +229,9 @@ void check_at_nodes(const LandmarkFile &landmarks, std::int64_t n_nodes, const d
         advice.emplace_back(landmarks.is_file ? "state the axes of the file"
                                               : "turn the landmarks by half a turn about z");
       text += joined_by(advice, " and ");
-      throw Refusal{exit_bad_data, text};
+      refuse_data(text);
     }
-  throw Refusal{exit_bad_data, text + ", which is more than 1 cm, in any unit and with the axes LPS and RAS"};
+  refuse_data(text + ", which is more than 1 cm, in any unit and with the axes LPS and RAS");
 }
 
 // ---- Outputs ----

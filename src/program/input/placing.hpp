@@ -76,14 +76,14 @@ struct Placed {
   LandmarkFile landmarks;
   std::string kind;
   std::vector<Size> sizes;
-  riis_placement placement;
+  riis_placement placement{};
   std::vector<double> residuals;
-  double noise;                        // stated, mesh units
-  std::vector<double> places;          // (3, n), of the landmarks on the valve
-  riis_surface_options where;          // the placement
-  std::optional<riis_warp_info> warp;  // without a warp there is none
-  double warp_noise;                   // by which the warp is smoothed; 0: it meets the landmarks
-  std::vector<double> still_off;       // distances of the landmarks from their places on the warped valve
+  double noise = 0;                                               // stated, mesh units
+  std::vector<double> places;                                     // (3, n), of the landmarks on the valve
+  riis_surface_options where = defaults<riis_surface_options>();  // the placement
+  std::optional<riis_warp_info> warp;                             // without a warp there is none
+  double warp_noise = 0;          // by which the warp is smoothed; 0: it meets the landmarks
+  std::vector<double> still_off;  // distances of the landmarks from their places on the warped valve
 };
 
 // Sizes the valve by the landmarks and finds its placement. The parameters of `held` keep their values, and so do those that
@@ -104,9 +104,5 @@ std::string place_report(const Placed &placed, Reader reader);
 // Returns the file of a placed valve. The second function returns such a file with the valve's present parameters.
 std::string placed_file_of(const Placed &placed, const riis_valve *valve);
 std::string with_parameters_of(const std::string &placed_file, const riis_valve *valve);
-
-// Returns numbers as text.
-std::string numbers_text(const double *numbers, std::size_t n, const char *between,
-                         std::string (*as_text)(double) = shortest);
 
 }  // namespace riis::program

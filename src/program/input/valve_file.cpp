@@ -10,7 +10,6 @@
 #include <limits>
 #include <regex>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"
@@ -24,9 +23,6 @@ namespace riis::program {
 namespace {
 
 constexpr std::array<const char *, 4> side_keys = {"v0", "v1", "u0", "u1"};
-
-// Returns a value as text, as it is in the file. refuse_file shortens long values.
-std::string json_text(const Json &value) { return value.dump(); }
 
 // The curves of one state, and the arrays that the library needs for them.
 struct Curves {
@@ -91,7 +87,9 @@ class CurveFileReader {
       const auto place = found.position.find(closed.names[i]);
       if (place == found.position.end()) refuse("open: curve " + quoted(closed.names[i]) + " is missing");
       const auto at = static_cast<std::size_t>(place->second);
-      check_degrees(closed.names[i], closed.degrees[i], found.degrees[at]);
+      if (found.degrees[at] != closed.degrees[i])
+        refuse("open: curve " + quoted(closed.names[i]) + " has degree " + std::to_string(found.degrees[at]) +
+               ", in the closed state " + std::to_string(closed.degrees[i]));
       ordered.degrees.push_back(found.degrees[at]);
       ordered.control.insert(ordered.control.end(), found.control.begin() + static_cast<std::ptrdiff_t>(begins[at]),
                              found.control.begin() + static_cast<std::ptrdiff_t>(begins[at + 1]));
@@ -120,12 +118,6 @@ class CurveFileReader {
       refuse(where + "curve " + quoted(name) + ": a name must not begin with a minus, which turns a side");
   }
 
-  void check_degrees(const std::string &name, std::int32_t closed, std::int32_t open) const {
-    if (open == closed) return;
-    refuse("open: curve " + quoted(name) + " has degree " + std::to_string(open) + ", in the closed state " +
-           std::to_string(closed));
-  }
-
   void add_points(const Json &points, const std::string &curve, Curves &curves) const {
     if (!points.is_array()) refuse(curve + " must be an array of 1 to 4 points, not of type " + points.type_name());
     if (points.empty() || points.size() > 4) {
@@ -138,11 +130,10 @@ class CurveFileReader {
     curves.degrees.push_back(std::max(1, static_cast<std::int32_t>(points.size()) - 1));
   }
 
-  void add_point(const Json &point, const std::string &subject, Curves &curves) const {
-    const bool is_point = point.is_array() && point.size() == 3 &&
-                          std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
-    if (!is_point) refuse(subject + " is " + json_text(point) + "; it must be three numbers, [x, y, z]");
-    for (const Json &x : point) curves.control.push_back(x.get<double>());
+  void add_point(const Json &value, const std::string &subject, Curves &curves) const {
+    const auto point = point_in(value);
+    if (!point) refuse(subject + " is " + value.dump() + "; it must be three numbers, [x, y, z]");
+    curves.control.insert(curves.control.end(), point->begin(), point->end());
   }
 
   void add_patch(const Json &patch, const std::string &subject, const Curves &curves, std::vector<bool> &used,
@@ -150,8 +141,7 @@ class CurveFileReader {
     check_object(patch, subject, {"v0", "v1", "u0", "u1", "leaflet"});
     for (const char *key : side_keys) {
       const Json &side = member(patch, key, subject + ": ");
-      if (!side.is_string())
-        refuse(subject + ": " + key + " is " + json_text(side) + "; it must be the name of a curve");
+      if (!side.is_string()) refuse(subject + ": " + key + " is " + side.dump() + "; it must be the name of a curve");
       const std::string &text = side.get_ref<const std::string &>();
       const bool reversed = !text.empty() && text[0] == '-';
       const auto found = curves.position.find(text.substr(reversed ? 1 : 0));
@@ -169,7 +159,7 @@ class CurveFileReader {
     constexpr std::int32_t most = std::numeric_limits<std::int32_t>::max();
     // The comparison also refuses a negative number, which as an unsigned number is too large.
     if (!value.is_number_integer() || value.get<std::uint64_t>() > static_cast<std::uint64_t>(most)) {
-      refuse(subject + ": leaflet is " + json_text(value) + "; it must be a whole number from 0 to " +
+      refuse(subject + ": leaflet is " + value.dump() + "; it must be a whole number from 0 to " +
              std::to_string(most));
     }
     return value.get<std::int32_t>();
@@ -203,8 +193,7 @@ std::string with_names(std::string text, const Curves &curves, const Patches &pa
 
 Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patches &patches,
                  const std::string &where) {
-  riis_patches arrays;
-  check(riis_patches_init(&arrays, sizeof arrays));
+  auto arrays = defaults<riis_patches>();
   arrays.n_curves = view(curves.degrees).size();
   arrays.degree = curves.degrees.data();
   arrays.control = curves.control.data();
@@ -212,43 +201,31 @@ Valve make_valve(const CurveFileReader &reader, const Curves &curves, const Patc
   arrays.curve_id = patches.curve_ids.data();
   arrays.reversed = patches.reversed.data();
   arrays.leaflet_id = patches.leaflet_ids.data();
-  riis_valve *valve = nullptr;
-  const riis_status status = riis_valve_create_from_patches(&arrays, &valve);
+  Valve valve;
+  const riis_status status = riis_valve_create_from_patches(&arrays, valve.out());
   if (status == RIIS_INVALID_PARAMETER || status == RIIS_INVALID_ARGUMENT) {
     reader.refuse(where + with_names(riis_last_error(), curves, patches));
   }
   check(status);
-  return Valve(valve);
+  return valve;
 }
 
 }  // namespace
 
-bool is_valve_file(const std::string &valve) {
-  const std::string ending = ".json";
-  const auto same = [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? static_cast<char>(b - 'A' + 'a') : b); };
-  return valve.size() >= ending.size() && std::equal(ending.rbegin(), ending.rend(), valve.rbegin(), same);
-}
+bool is_valve_file(const std::string &valve) { return has_ending(valve, ".json"); }
 
-ValveFile::ValveFile(const std::string &path) : path_(path) {
+ValveFile::ValveFile(const std::string &path) {
   const Json root = parse_json_file(path, "curves and patches");
   const CurveFileReader reader(path);
   reader.check_object(root, "the file", {"curves", "patches", "open"});
   const Curves curves = reader.curves_of(root, "");
   const Patches patches = reader.patches_of(root, curves);
-  valve_ = make_valve(reader, curves, patches, "");
+  valve = make_valve(reader, curves, patches, "");
   const auto open = root.find("open");
   if (open == root.end()) return;
   const Valve open_valve = make_valve(reader, reader.open_curves_of(*open, curves), patches, "open: ");
-  check(riis_valve_set_open_state(valve_.get(), open_valve.get()), path);
-  can_open_ = true;
-}
-
-void ValveFile::check_opening() const {
-  double opening = 0;
-  check(riis_valve_get(valve_.get(), "opening", 1, &opening));
-  if (opening != 0 && !can_open_) {
-    refuse_file(path_, "opening is " + json_text(opening) + ", but the file has no \"open\" state");
-  }
+  check(riis_valve_set_open_state(valve, open_valve), path);
+  can_open = true;
 }
 
 namespace {
@@ -275,7 +252,6 @@ PlacedFile read_placed(const std::string &path, const Json &root, std::optional<
   const Unit own = *values.unit("unit");
   file.unit = unit.value_or(own);
   file.factor = factor_between(own, file.unit);
-  check(riis_surface_options_init(&file.where, sizeof file.where));
   const std::vector<double> turn = values.numbers("rotate", 4), shift = values.numbers("translate", 3);
   file.where.scale = factor_between(Unit::centimetre, file.unit);
   std::copy_n(turn.begin(), 3, file.where.rotation_axis);

@@ -5,7 +5,6 @@
 #include <riis/riis.h>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
@@ -22,28 +21,21 @@ bool is_valve_file(const std::string &valve);
 // A curve with 2, 3 or 4 points has them as control points of degree 1, 2 or 3. A curve with 1 point is a side that is collapsed
 // to it. A minus reverses the curve. "leaflet" (0 by default) and "open" may be left out. Refusals name the curve, or the
 // patch by its number from 0.
-class ValveFile {
- public:
+struct ValveFile {
   explicit ValveFile(const std::string &path);
-  riis_valve *valve() const { return valve_.get(); }
-  Valve take_valve() { return std::move(valve_); }
-  // Refuses an opening that needs an open state if the file has none. The library's own message would advise another valve.
-  void check_opening() const;
 
- private:
-  std::string path_;
-  Valve valve_;
-  bool can_open_ = false;
+  Valve valve;
+  bool can_open = false;  // whether the file has an open state
 };
 
 // A placed valve: a JSON file of riis place, with the kind, the parameters and the placement of a patient's valve. Every command
 // takes it as --valve FILE.json, and Python's read_placed reads it.
 struct PlacedFile {
   std::string kind;
-  Unit unit = Unit::centimetre;  // of the placement
-  double factor = 1;             // from the file's unit to this one
-  riis_surface_options where;    // the placement
-  Json parameters, warp;         // null: the valve has no warp
+  Unit unit = Unit::centimetre;                                   // of the placement
+  double factor = 1;                                              // from the file's unit to this one
+  riis_surface_options where = defaults<riis_surface_options>();  // the placement
+  Json parameters, warp;                                          // null: the valve has no warp
 };
 // `root` is the content of the file. Without a unit, the placement has the file's.
 PlacedFile read_placed(const std::string &path, const Json &root, std::optional<Unit> unit = std::nullopt);

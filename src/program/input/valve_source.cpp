@@ -9,9 +9,9 @@
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
+#include "program/input/face_faults.hpp"
 #include "program/input/parameters.hpp"
 #include "program/input/valve_file.hpp"
-#include "program/output/outputs.hpp"
 
 namespace riis::program {
 
@@ -24,23 +24,16 @@ void set_parameters(const ValveOptions &options, riis_valve *valve) {
   if (options.opening) check(riis_valve_set_scalar(valve, "opening", *options.opening), "--opening");
 }
 
-Valve make_valve_of_kind(const ValveOptions &options) {
-  Valve valve = make_kind(options.valve, "--valve");
-  set_parameters(options, valve.get());
+Valve valve_of(const ValveOptions &options, OpeningCheck opening) {
+  const Stage stage("reading " + options.valve, options.quiet);
+  NewValve valve(options.valve, "--valve");
+  set_parameters(options, valve);
   if (!options.params_open.empty()) {
     const Valve open = make_kind(options.valve, "--valve");
-    set_from_json_file(open.get(), options.params_open);
-    check(riis_valve_set_open_state(valve.get(), open.get()), options.params_open);
+    set_from_json_file(open, options.params_open);
+    check(riis_valve_set_open_state(valve, open), options.params_open);
   }
-  return valve;
-}
-
-Valve make_valve_of_file(const ValveOptions &options, OpeningCheck opening) {
-  const Stage stage("reading " + options.valve, options.quiet);
-  ValveFile file(options.valve);
-  set_parameters(options, file.valve());
-  if (opening == OpeningCheck::yes) file.check_opening();
-  return file.take_valve();
+  return opening == OpeningCheck::yes ? valve.take() : valve.take_unchecked();
 }
 
 // Checks the status of reading a file. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
@@ -55,53 +48,70 @@ void check_read(riis_status status, const std::string &path, Content content) {
 
 Surface surface_of_valve(const ValveOptions &options, const riis_valve *valve) {
   const Stage stage("making the surface", options.quiet);
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &options.surface_options, &surface),
-        is_valve_file(options.valve) ? options.valve : "");
-  return Surface(surface);
+  return create_for<Surface>(subject_of(options), riis_surface_create, valve, &options.surface_options);
 }
 
 Surface surface_of_file(const ValveOptions &options, const riis_vtk_surface *file, FileVelocity velocity) {
-  riis_surface_arrays arrays;
-  check(riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays));
+  auto arrays = get<riis_surface_arrays>(riis_vtk_surface_get_arrays, file);
   std::vector<double> zeros;
   if (velocity == FileVelocity::zero) {
     zeros.resize(static_cast<std::size_t>(arrays.n_vertices), 0.0);
     arrays.vx = arrays.vy = arrays.vz = zeros.data();
   }
-  riis_surface *surface = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, &options.surface_options, &surface), options.surface);
-  return Surface(surface);
+  return create_for<Surface>(options.surface, riis_surface_create_from_arrays, &arrays, &options.surface_options);
 }
 
 }  // namespace
 
 Valve make_kind(const std::string &kind, const std::string &subject) {
-  riis_valve *handle = nullptr;
-  const riis_status status = riis_valve_create(kind.c_str(), &handle);
+  Valve valve;
+  const riis_status status = riis_valve_create(kind.c_str(), valve.out());
   if (status == RIIS_INVALID_PARAMETER) {
-    throw Refusal{exit_bad_data, subject + ": " + riis_last_error() + ", and files of patches, FILE.json"};
+    refuse_data(subject + ": " + riis_last_error() + ", and files of patches, FILE.json");
   }
   check(status);
-  return Valve(handle);
+  return valve;
+}
+
+NewValve::NewValve(const std::string &valve, const std::string &subject) {
+  if (!is_valve_file(valve)) {
+    valve_ = make_kind(valve, subject);
+    return;
+  }
+  path_ = valve;
+  ValveFile file(path_);
+  valve_ = std::move(file.valve);
+  can_open_ = file.can_open;
+}
+
+Valve NewValve::take() {
+  const double opening = opening_of(valve_);
+  if (opening != 0 && !can_open_)
+    refuse_file(path_, "opening is " + Json(opening).dump() + ", but the file has no \"open\" state");
+  return take_unchecked();
 }
 
 Valve make_valve(const ValveOptions &options, OpeningCheck opening, WarpSource *moving) {
-  Valve valve = is_valve_file(options.valve) ? make_valve_of_file(options, opening) : make_valve_of_kind(options);
+  Valve valve = valve_of(options, opening);
   WarpSource warp = read_warp(options);
   if (warp.moves() && !moving) refuse_usage("--warp: landmarks that move need --times");
-  warp.apply(0, valve.get());
+  warp.apply(0, valve);
   if (moving) *moving = std::move(warp);
-  set_skirt(options, valve.get(), "--skirt");
+  set_skirt(options, valve, "--skirt");
   return valve;
 }
 
 namespace {
 
-SurfaceFile read_wall(const ValveOptions &options) {
-  riis_vtk_surface *handle = nullptr;
-  check_read(riis_vtk_surface_read(options.wall.c_str(), nullptr, &handle), options.wall, Content::surface);
-  return SurfaceFile(handle);
+SurfaceFile read_surface_file(const std::string &path, const char *leaflets) {
+  SurfaceFile file;
+  check_read(riis_vtk_surface_read(path.c_str(), leaflets, file.out()), path, Content::surface);
+  return file;
+}
+
+// Returns the cell array of --leaflets, or NULL if there is none.
+const char *array_of_leaflets(const ValveOptions &options) {
+  return options.leaflets.empty() || options.leaflets == "connected" ? nullptr : options.leaflets.c_str();
 }
 
 // Makes the wall, and multiplies its lengths by `scale`. It is already in the mesh's frame, so no other placement applies to it.
@@ -118,7 +128,7 @@ std::string hint_of_unit(const ValveOptions &options, const SurfaceFile &file, c
   for (const char *factor : {"0.1", "10", "0.01", "100", "0.001", "1000"}) {
     const Valve copy = copy_of(valve);
     const Surface wall = make_wall(options, file, std::stod(factor));
-    if (riis_valve_set_skirt_to_wall(copy.get(), wall.get(), *options.skirt, &options.surface_options) == RIIS_OK)
+    if (riis_valve_set_skirt_to_wall(copy, wall, *options.skirt, &options.surface_options) == RIIS_OK)
       return std::string("; with its lengths times ") + factor + " the wall would be: save it in the mesh's unit";
   }
   return "";
@@ -132,22 +142,24 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
     check(riis_valve_set_scalar(valve, "skirt_length", *options.skirt / options.surface_options.scale), subject);
     return;
   }
-  const SurfaceFile file = read_wall(options);
+  const SurfaceFile file = read_surface_file(options.wall, nullptr);
   const Surface wall = make_wall(options, file);
-  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall.get(), *options.skirt, &options.surface_options);
+  const riis_status status = riis_valve_set_skirt_to_wall(valve, wall, *options.skirt, &options.surface_options);
   if (status == RIIS_INVALID_ARGUMENT) {
     const std::string reason = options.wall + ": " + riis_last_error();
-    throw Refusal{exit_bad_data, reason + hint_of_unit(options, file, valve)};
+    refuse_data(reason + hint_of_unit(options, file, valve));
   }
   check(status, subject);
 }
 
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
-  const Surface wall = make_wall(options, read_wall(options));
+  const Surface wall = make_wall(options, read_surface_file(options.wall, nullptr));
   riis_gap gap;
-  check(riis_surface_get_gap(surface, wall.get(), nullptr, &gap, sizeof gap), options.wall);
+  check(riis_surface_get_gap(surface, wall, nullptr, &gap, sizeof gap), options.wall);
   return gap;
 }
+
+std::string subject_of(const ValveOptions &options) { return is_valve_file(options.valve) ? options.valve : ""; }
 
 double opening_of(const riis_valve *valve) {
   double opening = 0;
@@ -155,42 +167,86 @@ double opening_of(const riis_valve *valve) {
   return opening;
 }
 
-Valve copy_of(const riis_valve *valve) {
-  riis_valve *copy = nullptr;
-  check(riis_valve_copy(valve, &copy));
-  return Valve(copy);
+std::vector<double> openings_from_0_to_1(std::int32_t n) {
+  std::vector<double> openings;
+  for (std::int32_t i = 0; i < n; ++i) openings.push_back(static_cast<double>(i) / (n - 1));
+  return openings;
 }
+
+Valve copy_of(const riis_valve *valve) { return create<Valve>(riis_valve_copy, valve); }
 
 // Tries the valve at opening 1 only. A valve that is valid at 0 and refused at 1 has only one state. Other faults are reported
 // when the surface is made.
 std::string why_closed(riis_valve *valve, const riis_surface_options &how) {
   check(riis_valve_set_scalar(valve, "opening", 1));
-  riis_surface *surface = nullptr;
-  const riis_status status = riis_surface_create(valve, &how, &surface);
-  const Surface owned(surface);
+  Surface surface;
+  const riis_status status = riis_surface_create(valve, &how, surface.out());
   return status == RIIS_INVALID_PARAMETER ? riis_last_error() : "";
 }
 
 void check_mesh_read(riis_status status, const std::string &path) { check_read(status, path, Content::mesh); }
 
+namespace {
+
+bool moves(const std::string &file) {
+  const std::string ending = ending_of(file);
+  return ending == ".pvd" || ending == ".dat";
+}
+
+}  // namespace
+
+void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject) {
+  options.surface_files = files;
+  options.surface = files.front();
+  if (files.size() > 1) options.surface += " and " + std::to_string(files.size() - 1) + " more";
+  for (const std::string &file : files)
+    if (moves(file) != moves(files.front()))
+      refuse_usage(subject + ": one of " + files.front() + " and " + file + " moves, the other one does not");
+}
+
+bool is_motion(const ValveOptions &options) {
+  return !options.surface_files.empty() && moves(options.surface_files.front());
+}
+
+std::vector<std::string> leaflets_of_files(const ValveOptions &options) {
+  std::vector<std::string> names;
+  if (options.surface_files.size() > 1)
+    for (const std::string &file : options.surface_files) names.push_back(std::filesystem::path(file).stem().string());
+  return names;
+}
+
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
-  const char *path = options.surface.c_str();
-  const bool by_pieces = options.leaflets == "connected";
-  riis_vtk_surface *handle = nullptr;
-  const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  const riis_status status = riis_vtk_surface_read(path, leaflets, &handle);
-  check_read(status, options.surface, Content::surface);
-  SurfaceFile file(handle);
-  if (by_pieces) check(riis_vtk_surface_number_pieces(file.get()));
+  SurfaceFile file;
+  for (const std::string &path : options.surface_files) {
+    SurfaceFile next = read_surface_file(path, array_of_leaflets(options));
+    if (file)
+      check(riis_vtk_surface_append(file.get(), next.get()), path);
+    else
+      file = std::move(next);
+  }
+  if (options.leaflets == "connected") check(riis_vtk_surface_number_pieces(file.get()));
   seconds.read += stage.seconds();
   return file;
 }
 
 Surface make_surface(const ValveSource &source, FileVelocity velocity) {
-  if (source.keyframes) return surface_of_keyframes(source.options, source.keyframes.get());
-  return source.valve ? surface_of_valve(source.options, source.valve.get())
-                      : surface_of_file(source.options, source.file.get(), velocity);
+  if (source.valve) return surface_of_valve(source.options, source.valve);
+  Surface surface = source.keyframes
+                        ? create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes,
+                                              source.keyframes, *source.options.time, 0, &source.options.surface_options)
+                        : surface_of_file(source.options, source.file.get(), velocity);
+  warn_of_faces(source.options.surface, surface);
+  return surface;
+}
+
+std::vector<std::string> leaflet_names(const ValveOptions &options) {
+  if (!options.surface.empty()) return leaflets_of_files(options);
+  if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
+    return {"right", "left", "non-coronary", "skirt"};
+  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
+  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
+  return {};
 }
 
 int64_t count_leaflets(const riis_surface *surface) {
@@ -204,61 +260,36 @@ int64_t count_leaflets(const riis_surface *surface) {
 namespace {
 
 Motion read_motion(const ValveOptions &options) {
-  const bool by_pieces = options.leaflets == "connected";
-  const char *leaflets = options.leaflets.empty() || by_pieces ? nullptr : options.leaflets.c_str();
-  riis_vtk_motion *handle = nullptr;
-  check(riis_vtk_motion_read_pvd(options.surface.c_str(), leaflets, &handle));
-  Motion motion(handle);
-  if (by_pieces) check(riis_vtk_motion_number_pieces(motion.get()));
+  Motion motion;
+  for (const std::string &path : options.surface_files) {
+    const char *const leaflets = array_of_leaflets(options);
+    auto next = ending_of(path) == ".dat"
+                    ? create<Motion>(riis_vtk_motion_read_frames, path.c_str(), options.time_step, leaflets)
+                    : create<Motion>(riis_vtk_motion_read_pvd, path.c_str(), leaflets);
+    if (motion)
+      check(riis_vtk_motion_append(motion, next), path);
+    else
+      motion = std::move(next);
+  }
+  if (options.leaflets == "connected") check(riis_vtk_motion_number_pieces(motion));
   return motion;
 }
 
-std::vector<std::string> files_of(const riis_vtk_motion *motion) {
-  int64_t n_files = 0;
-  const char *const *paths = nullptr;
-  check(riis_vtk_motion_get_files(motion, &n_files, &paths));
-  return {paths, paths + n_files};
-}
-
-Keyframes keyframes_of(const ValveOptions &options, const riis_vtk_motion *motion) {
-  riis_surface_arrays arrays;
-  riis_keyframe_arrays frames;
-  check(riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays));
-  check(riis_vtk_motion_get_frames(motion, &frames, sizeof frames));
-  frames.period = options.period;
-  riis_keyframes *handle = nullptr;
-  check(riis_keyframes_create(&arrays, &frames, &handle), options.surface);
-  return Keyframes(handle);
-}
-
 }  // namespace
-
-bool is_motion_file(const std::string &surface) {
-  const std::string ending = surface.substr(surface.size() - std::min<std::size_t>(surface.size(), 4));
-  return ending == ".pvd" || ending == ".PVD";
-}
 
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds) {
   const Stage stage("reading " + options.surface, options.quiet);
   const Motion motion = read_motion(options);
   seconds.read += stage.seconds();
-  KeyframeFiles read{nullptr, files_of(motion.get())};
-  read.keyframes = keyframes_of(options, motion.get());
-  return read;
-}
-
-std::vector<double> times_of_frames(const ValveOptions &options) {
-  const Motion motion = read_motion(options);
-  riis_keyframe_arrays frames;
-  check(riis_vtk_motion_get_frames(motion.get(), &frames, sizeof frames));
-  return {frames.time, frames.time + frames.n_keys};
-}
-
-Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes) {
-  riis_surface *surface = nullptr;
-  check(riis_surface_create_from_keyframes(keyframes, *options.time, 0, &options.surface_options, &surface),
-        options.surface);
-  return Surface(surface);
+  int64_t n_files = 0;
+  const char *const *paths = nullptr;
+  check(riis_vtk_motion_get_files(motion, &n_files, &paths));
+  const auto arrays = get<riis_surface_arrays>(riis_vtk_motion_get_arrays, motion);
+  auto frames = get<riis_keyframe_arrays>(riis_vtk_motion_get_frames, motion);
+  frames.period = options.period;
+  return {create_for<Keyframes>(options.surface, riis_keyframes_create, &arrays, &frames),
+          {paths, paths + n_files},
+          {frames.time, frames.time + frames.n_keys}};
 }
 
 // ---- Conversion ----
@@ -273,8 +304,8 @@ const std::set<std::string> meshes_of_meshio = {".inp", ".su2", ".med"};
 // ParaView opens these. They hold blocks, or grids that are not unstructured.
 const std::set<std::string> meshes_of_paraview = {".cgns", ".case", ".encas", ".vtkhdf", ".vti", ".vtr",
                                                   ".vts",  ".pvti", ".pvtr",  ".pvts",   ".plt", ".tec"};
-const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply", ".ply2", ".vtk"};
-const std::set<std::string> surfaces_of_meshio = {".obj", ".off"};
+const std::set<std::string> surfaces_of_gmsh = {".msh", ".unv", ".bdf", ".nas", ".mesh", ".ply2"};
+const std::set<std::string> surfaces_of_meshio = {".off"};
 const std::set<std::string> surfaces_only = {".stl", ".vtp", ".ply", ".ply2", ".obj", ".off"};
 
 // Quotes the path, so that a shell reads it as one word and a program does not read it as an option.
@@ -315,18 +346,22 @@ std::string hint_for_msh(const std::string &path, const std::string &refusal) {
 std::string conversion_hint(const std::string &path, Content wanted, const std::string &refusal) {
   const std::string ending = ending_of(path);
   // A refusal replaces control characters. So a path with such characters gets no hint, because the command would not work.
-  if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < ' ' || c == 127; })) return "";
+  if (std::any_of(path.begin(), path.end(), is_control)) return "";
   if (wanted == Content::mesh) {
     if (ending == ".msh") return hint_for_msh(path, refusal);
     if (meshes_of_gmsh.count(ending) != 0) return by_gmsh(path, "vtk");
-    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, "vtu");
+    // meshio 5.3 fails to write the names of MED's groups to a .vtu.
+    if (meshes_of_meshio.count(ending) != 0) return by_meshio(path, ending == ".med" ? "xdmf" : "vtu");
     if (meshes_of_paraview.count(ending) != 0)
       return "; ParaView converts it: the filters Merge Blocks and Append Datasets, then File > Save Data..., " +
              with_ending(path, "vtu");
     if (ending == ".cas") return "; OpenFOAM converts it: fluentMeshToFoam " + shell_word(path);
     if (ending == ".h5" || ending == ".hdf5") return "; give the .xdmf file that names it";
-    return surfaces_only.count(ending) != 0 ? "; --surface takes a surface" : "";
+    const bool is_surface = surfaces_only.count(ending) != 0 || refusal.find("holds polydata") != std::string::npos;
+    return is_surface ? "; --surface takes a surface" : "";
   }
+  // gmsh writes points and lines beside the faces. A damaged .vtk file cannot be converted.
+  if (ending == ".vtk") return refusal.find("; a surface has") != std::string::npos ? by_gmsh(path, "stl") : "";
   if (surfaces_of_gmsh.count(ending) != 0) return by_gmsh(path, "stl");
   return surfaces_of_meshio.count(ending) != 0 ? by_meshio(path, "stl") : "";
 }

@@ -26,6 +26,22 @@ struct ValveSource {
   std::string subject{};        // begins refusals, such as "case.json: valve 0"; "" for the command line
 };
 
+// A valve whose parameters may still be set.
+class NewValve {
+ public:
+  // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
+  NewValve(const std::string &valve, const std::string &subject);
+  operator riis_valve *() const { return valve_; }
+  // Gives up the valve. Refuses an opening that needs an open state if its file has none, because the library's own message would
+  // advise another valve.
+  Valve take();
+  Valve take_unchecked() { return std::move(valve_); }
+
+ private:
+  std::string path_;  // "" for a kind
+  Valve valve_;
+  bool can_open_ = true;
+};
 // `subject` begins the refusal of an unknown kind.
 Valve make_kind(const std::string &kind, const std::string &subject);
 // `yes`: make_valve refuses a file of patches that cannot open far enough. `no`: such a file is refused only when the surface is
@@ -34,7 +50,11 @@ enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. If it is NULL, a warp
 // that moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
+// Returns the beginning of refusals of a valve's shape: its file, or "" for a kind.
+std::string subject_of(const ValveOptions &options);
 double opening_of(const riis_valve *valve);
+// Returns n openings from 0 to 1.
+std::vector<double> openings_from_0_to_1(std::int32_t n);
 // Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
 // wall.
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
@@ -47,32 +67,35 @@ std::string why_closed(riis_valve *valve, const riis_surface_options &how);
 
 // Checks the status of reading a mesh. If riis_vtk cannot read the file, adds to the refusal a command that converts it.
 void check_mesh_read(riis_status status, const std::string &path);
+// Takes the files of --surface. Several files are one valve, and each file is a leaflet. `subject` begins refusals.
+void set_surface(ValveOptions &options, const std::vector<std::string> &files, const std::string &subject);
+// Returns the names of the leaflets of several files, which are the names of the files. Returns none for one file.
+std::vector<std::string> leaflets_of_files(const ValveOptions &options);
 // Reads the surface of --surface, with its --leaflets.
 SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds);
 
 // The velocities that a surface from a file gets.
 enum class FileVelocity { none, zero };
+// Makes the surface. A motion gives it the place at options.time, with velocities.
 Surface make_surface(const ValveSource &source, FileVelocity velocity);
 
+// Returns the names of a valve's leaflets, or of the files if each leaflet has one. Returns no names for a single file, because
+// its leaflets only have numbers.
+std::vector<std::string> leaflet_names(const ValveOptions &options);
 int64_t count_leaflets(const riis_surface *surface);
 
-// --surface FILE.pvd: the surface of a motion given by frames.
+// --surface FILE.pvd or FILE.dat: the surface of a motion given by frames.
 
-// Returns whether --surface is a motion, which ends in .pvd.
-bool is_motion_file(const std::string &surface);
+// Returns whether --surface is a motion. Its files end in .pvd or .dat.
+bool is_motion(const ValveOptions &options);
 
-// The motion of --surface FILE.pvd, and the paths of the files with its frames.
+// The motion of --surface, the paths of the files with its frames, and their times.
 struct KeyframeFiles {
   Keyframes keyframes;
   std::vector<std::string> files;
+  std::vector<double> times;
 };
 KeyframeFiles read_keyframes(const ValveOptions &options, Seconds &seconds);
-
-// Returns the times of the frames.
-std::vector<double> times_of_frames(const ValveOptions &options);
-
-// Makes the surface at options.time, with velocities.
-Surface surface_of_keyframes(const ValveOptions &options, const riis_keyframes *keyframes);
 
 // In: a file in a format that the program does not read. Out: a command that converts it.
 

@@ -2,9 +2,9 @@
 #include "program/input/warp_source.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/input/opening_law.hpp"
@@ -23,18 +23,16 @@ const std::vector<std::string> coordinate_names = {"mesh", "valve"};
 void add_points(const CaseValues &values, const char *key, const Json &list, std::vector<double> &xyz) {
   if (!list.is_array()) values.refuse(key, "it must be an array of points [x, y, z]");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Json &point = list[i];
-    const bool is_point = point.is_array() && point.size() == 3 &&
-                          std::all_of(point.begin(), point.end(), [](const Json &x) { return x.is_number(); });
-    if (!is_point) values.refuse(key, "point " + std::to_string(i) + ", " + point.dump() + ", is not [x, y, z]");
-    for (const Json &x : point) xyz.push_back(x.get<double>());
+    const auto point = point_in(list[i]);
+    if (!point) values.refuse(key, "point " + std::to_string(i) + ", " + list[i].dump() + ", is not [x, y, z]");
+    xyz.insert(xyz.end(), point->begin(), point->end());
   }
 }
 
 // Landmarks are data of the case, so a refusal of them names the case.
 void check_landmarks(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
-    throw Refusal{exit_bad_data, subject + ": " + riis_last_error()};
+    refuse_data(subject + ": " + riis_last_error());
   check(status);
 }
 
@@ -66,34 +64,24 @@ LandmarkPairs::LandmarkPairs(const CaseValues &values, double noise, const riis_
                                  std::to_string(n_landmarks_ * n_frames) + " sources at all times");
   for (std::vector<double> *const list : {&sources_, &targets_})
     for (double &x : *list) x *= factor;
-  riis_points points;
-  riis_warp_options options;
-  check(riis_points_init(&points, sizeof points));
-  check(riis_warp_options_init(&options, sizeof options));
-  points.n_points = n_landmarks_;
-  points.x = sources_.data();
-  points.y = sources_.data() + 1;
-  points.z = sources_.data() + 2;
-  points.stride = 3;
+  const riis_points points = points_of(sources_);
+  auto options = defaults<riis_warp_options>();
   options.noise = noise;
   options.placement = placement;
-  riis_warp *warp = nullptr;
-  check_landmarks(riis_warp_create(&points, &options, &warp), subject_);
-  warp_ = Warp(warp);
+  check_landmarks(riis_warp_create(&points, &options, warp_.out()), subject_);
   at(times_.front());
 }
 
 const riis_warp *LandmarkPairs::at(double time) {
-  riis_keyframe_arrays frames;
-  check(riis_keyframe_arrays_init(&frames, sizeof frames));
+  auto frames = defaults<riis_keyframe_arrays>();
   frames.n_keys = view(times_).size();
   frames.n_vertices = n_landmarks_;
   frames.time = times_.data();
   frames.xyz = targets_.data();
   frames.period = period_;
   frames.interpolation = interpolation_;
-  check_landmarks(riis_warp_set_targets_at(warp_.get(), &frames, time), subject_);
-  return warp_.get();
+  check_landmarks(riis_warp_set_targets_at(warp_, &frames, time), subject_);
+  return warp_;
 }
 
 WarpSource::WarpSource(const std::string &path, const std::string &object, const Json &warp,

@@ -31,9 +31,7 @@ std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own) {
 Surface with_half_thickness(const MarkOptions &options, const riis_valve *valve, double half_thickness) {
   riis_surface_options surface_options = options.surface_options;
   surface_options.half_thickness = half_thickness;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &surface_options, &surface));
-  return Surface(surface);
+  return create<Surface>(riis_surface_create, valve, &surface_options);
 }
 
 namespace {
@@ -121,9 +119,7 @@ MeshLeaks::MeshLeaks(const MarkOptions &options, const MeshPieces &mesh, const r
 void MeshLeaks::add(Piece &piece, riis_marks *marks) {
   view(boxes_)[piece.number] = piece.nodes.box();
   if (!piece.nodes.box().meets(info_.lower, info_.upper)) return;
-  riis_mark_stats stats{};
-  check(riis_marks_get_stats(marks, &stats, sizeof stats));
-  add(piece, surface_, marks, info_.half_thickness, stats.complete != 0, found_);
+  add(piece, surface_, marks, info_.half_thickness, stats_of(marks).complete != 0, found_);
 }
 
 void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks, double half_thickness,
@@ -131,20 +127,13 @@ void MeshLeaks::add(Piece &piece, const riis_surface *surface, riis_marks *marks
   // Short edges may also leak if marks may be missing, or if distances are not measured to the triangles.
   const bool is_exact = is_complete && options_.surface_options.measure == RIIS_MEASURE_TRIANGLES;
   const std::int32_t n_threads = options_.mark_options.n_threads;
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_long_edges(piece.file.get(), surface, is_exact ? 2 * half_thickness : 0, n_threads,
-                                        nullptr, &handle));
-  const Adjacency adjacency(handle);
-  riis_csr rows;
-  check(riis_adjacency_get_csr(handle, &rows, sizeof rows));
-  const FileNodes::Lent lent(*piece.mesh, rows);
-  riis_leaks *leaks_handle = nullptr;
-  check(riis_leaks_create(&leaks_handle));
-  const Leaks leaks(leaks_handle);
-  riis_mark_options how = options_.mark_options;
-  if (surface != surface_) how.search = RIIS_SEARCH_AUTO, how.distance_limit = RIIS_AUTO;
-  check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks_handle));
-  const riis_leak_list list = list_of(leaks_handle);
+  const auto adjacency = create<Adjacency>(riis_vtk_mesh_create_long_edges, piece.file, surface,
+                                           is_exact ? 2 * half_thickness : 0, n_threads, nullptr);
+  const FileNodes::Lent lent(*piece.mesh, get<riis_csr>(riis_adjacency_get_csr, adjacency));
+  const auto leaks = create<Leaks>(riis_leaks_create);
+  const riis_mark_options how = surface == surface_ ? options_.mark_options : how_to_mark_again(options_);
+  check(riis_find_leaks(surface, piece.mesh->mesh(), marks, &how, leaks));
+  const auto list = get<riis_leak_list>(riis_leaks_get_list, leaks);
   for (std::int64_t i = 0; i < list.n_edges; ++i) {
     const std::int64_t a = list.node_id[2 * i], b = list.node_id[2 * i + 1];
     KeyedEdge edge = edge_between(piece.nodes.key(a), piece.nodes.key(b), list.length[i]);
@@ -178,19 +167,78 @@ void MeshLeaks::judge(ValveReport &report) {
 // Marks the pieces near the surface again with another half thickness.
 std::optional<double> MeshLeaks::left(double half_thickness) const {
   const Surface surface = with_half_thickness(options_, valve_, half_thickness);
-  const riis_surface_info info = info_of(surface.get());
-  riis_mark_options how = options_.mark_options;
-  how.search = RIIS_SEARCH_AUTO;
-  how.distance_limit = RIIS_AUTO;
+  const riis_surface_info info = info_of(surface);
   std::vector<KeyedEdge> found;
-  mesh_.for_wanted([&](std::int64_t number) { return view(boxes_)[number].meets(info.lower, info.upper); },
-                   [&](Piece &piece) {
-                     const Marks marks = new_result();
-                     check(riis_mark_nodes(surface.get(), piece.mesh->mesh(), &how, marks.get()));
-                     add(piece, surface.get(), marks.get(), half_thickness, true, found);
-                   });
+  const auto mark_again = [&](Piece &piece) {
+    const Marks marks = marks_of(surface, piece.mesh->mesh(), how_to_mark_again(options_));
+    add(piece, surface, marks, half_thickness, true, found);
+  };
+  mesh_.for_each_own(mark_again, nullptr,
+                     [&](std::int64_t number) { return view(boxes_)[number].meets(info.lower, info.upper); });
   const riis_leak_list left = summary_of(gathered(found));
   return left.n_edges == 0 ? std::nullopt : std::optional(left.half_thickness);
+}
+
+// ---- Band ----
+
+std::vector<std::int64_t> BandMeasures::add(const Piece &piece, const riis_marks *marks,
+                                            const riis_mark_options &options) {
+  const FileNodes::Lent lent(*piece.mesh);
+  riis_mesh *const mesh = piece.mesh->mesh();
+  if (piece.nodes.is_whole())
+    of_whole_ = get<riis_cells_across>(riis_marks_get_cells_across, marks, mesh);
+  else
+    add_lengths(piece, list_of(marks, RIIS_LIST_MARKED));
+  std::vector<std::int64_t> regions(static_cast<std::size_t>(piece.nodes.n()));
+  riis_mark_options how = options;
+  how.node_mask = piece.nodes.mask();
+  std::int64_t n_regions = 0;
+  check(riis_label_open_regions(mesh, marks, &how, piece.nodes.n(), regions.data(), &n_regions));
+  n_regions_ += n_regions;
+  return regions;
+}
+
+void BandMeasures::Lengths::add(const Lengths &other) {
+  n += other.n;
+  sum += other.sum;
+  shortest = std::min(shortest, other.shortest);
+  longest = std::max(longest, other.longest);
+}
+
+void BandMeasures::add_lengths(const Piece &piece, const riis_mark_list &marked) {
+  const PieceNodes &nodes = piece.nodes;
+  std::vector<std::uint8_t> is_marked(static_cast<std::size_t>(nodes.n()));
+  for (std::int64_t i = 0; i < marked.n_nodes; ++i) view(is_marked)[marked.node_id[i]] = 1;
+  for (std::int64_t i = 0; i < nodes.n(); ++i) {
+    if (nodes.is_ghost(i)) continue;
+    piece.mesh->for_each_neighbor(i, [&](std::int64_t j) {
+      if (j < i || nodes.is_ghost(j) || !(view(is_marked)[i] || view(is_marked)[j])) return;
+      const double *p = nodes.point(i), *q = nodes.point(j);
+      const double length =
+          std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));
+      if (!(length > 0)) return;
+      if (nodes.is_shared(i) && nodes.is_shared(j))
+        shared_.push_back(edge_between(nodes.key(i), nodes.key(j), length));
+      else
+        lengths_.add({1, length, length, length});
+    });
+  }
+}
+
+void BandMeasures::judge(const MatchedNodes &matched, double half_thickness, FlowReport &report) const {
+  Lengths all;
+  for (const Lengths &lengths : ranks::gather(std::vector<Lengths>{lengths_})) all.add(lengths);
+  for (const KeyedEdge &edge : gathered(shared_)) all.add({1, edge.length, edge.length, edge.length});
+  riis_cells_across cells{0, 0, 0, 0, 0, 0, half_thickness, all.n};
+  if (all.n > 0) {
+    const double mean =
+        std::clamp(static_cast<double>(all.sum / static_cast<long double>(all.n)), all.shortest, all.longest);
+    const double across = 2 * half_thickness;
+    cells = {across / all.longest, across / mean, across / all.shortest, all.shortest, mean, all.longest,
+             half_thickness,       all.n};
+  }
+  report.cells = of_whole_.value_or(cells);
+  report.n_open_regions = ranks::sum(n_regions_) - matched.n_joins();
 }
 
 }  // namespace riis::program

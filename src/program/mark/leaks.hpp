@@ -69,9 +69,6 @@ class MeshLeaks {
 // In: a mesh and two points. Out: whether unmarked nodes join the points, the place of the widest passage, and a half thickness
 // that closes it.
 
-// Returns the check for the two points of --between.
-LeakCheck leak_check_between(const std::vector<std::string> &points);
-
 // The end of a passage: the node that is nearest to a point of the user's, among the nodes with a neighbour.
 struct PieceEnd {
   NodeKey key;

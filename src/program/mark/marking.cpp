@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/ranks.hpp"
 #include "program/base/refusal.hpp"
@@ -21,8 +22,7 @@ namespace {
 Surface joined_for_passage(const Case &all, const std::vector<MovingValve> &valves) {
   if (valves.size() == 1) return nullptr;
   const MovingValve &first = valves[0];
-  riis_surface_options together;
-  check(riis_surface_options_init(&together, sizeof together));
+  auto together = defaults<riis_surface_options>();
   together.half_thickness = info_of(first.surface()).half_thickness;
   for (const MovingValve &valve : valves) {
     const double half_thickness = info_of(valve.surface()).half_thickness;
@@ -46,8 +46,7 @@ void combine(riis_mark_stats &all, const riis_mark_stats &stats) {
 void report_leak(const MovingValve &valve, FlowReport &flow) {
   const std::optional<double> &R = valve.options().resistance;
   if (!R || !(*R > 0)) return;
-  riis_resistance how;
-  check(riis_resistance_init(&how, sizeof how));
+  auto how = defaults<riis_resistance>();
   how.R = *R;
   double leak = 0;
   check(riis_surface_get_leak(valve.surface(), &how, 1, &leak), "--resistance");
@@ -89,8 +88,8 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
   move_to_least_openings();
   for (std::size_t i = 0; i < valves_.size(); ++i) {
     report_.valves.push_back(report_of(i));
-    sums_.push_back({MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve.get(),
-                               all.surface_of(i))});
+    sums_.push_back(
+        {MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve, all.surface_of(i))});
   }
 }
 
@@ -124,7 +123,7 @@ ValveReport Marking::report_of(std::size_t i) {
   report.surface_name = own.surface.empty() ? own.valve : own.surface;
   report.opening = valve.opening();
   if (!all_.is_series()) report.time = own.time;
-  if (!own.leaflets.empty()) report.n_leaflets = count_leaflets(valve.surface());
+  if (!own.leaflets.empty() || own.surface_files.size() > 1) report.n_leaflets = count_leaflets(valve.surface());
   report.surface = info_of(valve.surface());
   if (valve.opening() && !own.wall.empty()) report.gap = gap_to_wall(own, valve.surface());
   report.crossings = valve.crossings;
@@ -164,7 +163,10 @@ void Marking::measure(Piece &piece) {
   find_neighbors_for_search(piece);
   for (MovingValve &valve : valves_) valve.forget_marks();
   mark_at_all_times(piece);
-  if (all_.is_series()) mark_at_least_openings(*piece.mesh);
+  if (all_.is_series()) {
+    move_to_least_openings();
+    for (MovingValve &valve : valves_) valve.mark(*piece.mesh, 0);
+  }
   const Stage stage("looking for leaks", options().quiet);
   // The neighbours are of use only if all edges of the piece are known.
   const riis_vtk_sharing &cells = piece.nodes.counts();
@@ -218,19 +220,16 @@ void Marking::mark_at_all_times(Piece &piece) {
   report_.seconds.search += stage.seconds();
 }
 
-void Marking::mark_at_least_openings(FileNodes &nodes) {
-  move_to_least_openings();
-  for (MovingValve &valve : valves_) valve.mark(nodes, 0);
-}
-
 void Marking::set_arrays(riis_vtk_mesh *file) const {
   std::int64_t n_nodes = 0;
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
   ResistanceSum resistance(n_nodes,
                            has_velocities() ? ResistanceSum::WithVelocity::yes : ResistanceSum::WithVelocity::no);
   for (const MovingValve &valve : valves_) {
-    set_marks(valve.options(), valve.result(), fields(), file);
-    resistance.add(valve.options(), valve.result());
+    const MarkOptions &own = valve.options();
+    check(riis_vtk_mesh_set_marks(file, valve.result(), own.far_distance, own.prefix.c_str()));
+    check(riis_vtk_mesh_set_fields(file, valve.result(), fields(), own.prefix.c_str()));
+    resistance.add(own, valve.result());
   }
   resistance.set_arrays(options().prefix, file);
 }
@@ -260,7 +259,7 @@ void Marking::judge() {
   }
   if (options().check_leaks) {
     const Surface joined = joined_for_passage(all_, valves_);
-    passage_.judge(joined ? joined.get() : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve.get(),
+    passage_.judge(joined ? joined : valves_[0].surface(), joined ? nullptr : valves_[0].source().valve.get(),
                    joined ? "the surface of all valves" : "the surface", counts, report_);
   }
   report_orifices();
@@ -299,23 +298,19 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
     are_complete = are_complete && report_.valves[i].marks.complete;
     valves_[i].move_to(times_[most_steps_[i]]);
     const riis_surface_info info = all_.is_series() ? info_of(valves_[i].surface()) : report_.valves[i].surface;
-    Situation situation{valves_[i].options(),
-                        n_nodes,
-                        n_marked_[marked_at(most_steps_[i], i)],
-                        counts.box,
-                        {},
-                        counts.median_edge,
-                        info.area,
-                        info.half_thickness};
-    std::copy_n(info.lower, 3, situation.surface.lower);
-    std::copy_n(info.upper, 3, situation.surface.upper);
+    Situation situation(valves_[i].options(), info, counts.box, counts.median_edge);
+    situation.n_nodes = n_nodes;
+    situation.n_marked = n_marked_[marked_at(most_steps_[i], i)];
     auto warning = warning_of(situation);
     if (!warning) continue;
     const std::string part = all_.part_of(i);
     warning->text.insert(0, part.empty() ? "" : part + ": ");
     warnings.push_back(*warning);
   }
-  if (!are_complete) warn_of_incomplete_marks();
+  if (!are_complete)
+    warn(
+        "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
+        "neighbor finds them");
   warn(warnings);
 }
 
@@ -324,8 +319,7 @@ void Marking::report_orifices() {
   if (!wants_measures_) return;
   if (all_.is_series()) move_to_first(times_, valves_, std::greater<>());
   for (std::size_t i = 0; i < valves_.size(); ++i) {
-    riis_orifice orifice;
-    check(riis_surface_get_orifice(valves_[i].surface(), nullptr, &orifice, sizeof orifice));
+    const auto orifice = get<riis_orifice>(riis_surface_get_orifice, valves_[i].surface(), nullptr);
     if (orifice.outline == RIIS_OUTLINE_NONE) continue;
     report_.valves[i].flow.orifice = orifice;
     if (all_.is_series() || valves_.size() > 1) report_.valves[i].flow.orifice_opening = valves_[i].opening();

@@ -70,7 +70,6 @@ class Marking {
   void move_to_least_openings();
   void find_neighbors_for_search(Piece &piece);
   void mark_at_all_times(Piece &piece);
-  void mark_at_least_openings(FileNodes &nodes);
   void set_arrays(riis_vtk_mesh *file) const;
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
   void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program/mark/marking.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <optional>
@@ -22,12 +21,10 @@
 namespace riis::program {
 namespace {
 
-void refuse_option(const std::string &option, const std::string &why) { refuse_usage(option + ": " + why); }
-
 // Refuses options that need the whole mesh at once.
 void check_options_of_pieces(const MarkOptions &options) {
   const auto refuse_if = [&](bool is_given, const std::string &option, const std::string &why) {
-    if (is_given) refuse_option(option, why + ", and " + options.mesh + " is read in pieces");
+    if (is_given) refuse_usage(option + ": " + why + ", and " + options.mesh + " is read in pieces");
   };
   refuse_if(!options.pictures.empty(), "--picture", "a picture needs the whole mesh");
   refuse_if(!options.series.movie.empty(), "--movie", "a movie needs the whole mesh");
@@ -62,15 +59,11 @@ std::string bytes_text(double n) {
   const char *const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB"};
   std::size_t unit = 0;
   for (; n >= 1000 && unit < 5; ++unit) n /= 1000;
-  char text[32];
-  std::snprintf(text, sizeof text, unit == 0 ? "%.0f %s" : "%.3g %s", n, units[unit]);
-  return text;
+  return printed(unit == 0 ? "%.0f " : "%.3g ", n) + units[unit];
 }
 
 MeshFile part_of(const riis_vtk_mesh *file, const std::vector<std::int64_t> &node_ids) {
-  riis_vtk_mesh *part = nullptr;
-  check(riis_vtk_mesh_extract(file, view(node_ids).size(), node_ids.data(), &part));
-  return MeshFile(part);
+  return create<MeshFile>(riis_vtk_mesh_extract, file, view(node_ids).size(), node_ids.data());
 }
 
 MeshFile copy_of(const riis_vtk_mesh *file, std::int64_t n_nodes) {
@@ -137,7 +130,7 @@ class MarkingRun {
     if (all_.is_series()) return write_steps(piece);
     if (piece.mesh) piece.mesh->forget_neighbors();
     if (all_.options.n_steps > 0)
-      report_.step = time_steps(valves_[0].options(), valves_[0].source().valve.get(), piece.file.get());
+      report_.step = time_steps(valves_[0].options(), valves_[0].source().valve, piece.file.get());
     if (mesh_.is_whole()) write_surface();
     const Stage stage("writing", all_.options.quiet);
     files_.write(piece.number, 0, piece.file.get());
@@ -154,7 +147,7 @@ class MarkingRun {
     const UnbrokenWrite unbroken;
     const Surface joined = valves_.size() > 1 ? joined_surface(valves_) : nullptr;
     if (ranks::is_first())
-      check(riis_vtk_surface_write(joined ? joined.get() : valves_[0].surface(), all_.options.surface_output.c_str()));
+      check(riis_vtk_surface_write(joined ? joined : valves_[0].surface(), all_.options.surface_output.c_str()));
     report_.written.push_back(all_.options.surface_output);
     report_.seconds.write += stage.seconds();
   }
@@ -265,8 +258,7 @@ class MarkingRun {
 
   // Judges and lists the files, after all ranks have written their pieces. Returns whether all pieces are written.
   bool finish_pieces() {
-    const std::vector<int> stopped = ranks::gather(std::vector<int>{UnbrokenWrite::has_signal() ? 1 : 0});
-    const bool is_stopped = std::find(stopped.begin(), stopped.end(), 1) != stopped.end();
+    const bool is_stopped = ranks::sum(UnbrokenWrite::has_signal()) > 0;
     if (!is_stopped) marking_.judge();
     const Stage stage("writing", all_.options.quiet);
     files_.list_pieces();

@@ -3,7 +3,6 @@
 #include "program/mark/mesh_marking.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,39 +13,37 @@
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
 #include "program/input/valve_source.hpp"
-#include "program/mark/warnings.hpp"
 
 namespace riis::program {
 
-Marks new_result() {
-  riis_marks *result = nullptr;
-  check(riis_marks_create(&result));
-  return Marks(result);
+Marks new_result() { return create<Marks>(riis_marks_create); }
+
+Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how) {
+  Marks marks = new_result();
+  check(riis_mark_nodes(surface, mesh, &how, marks));
+  return marks;
+}
+
+riis_mark_options how_to_mark_again(const MarkOptions &options, double limit) {
+  riis_mark_options how = options.mark_options;
+  how.search = RIIS_SEARCH_AUTO;
+  how.distance_limit = limit;
+  return how;
 }
 
 bool needs_adjacency(int32_t search) { return search == RIIS_SEARCH_NEIGHBOR || search == RIIS_SEARCH_PAPER; }
 
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface) {
   const double origin[3] = {0, 0, 0};
-  riis_mesh *mesh_handle = nullptr;
-  check(riis_mesh_create(1, origin, origin + 1, origin + 2, 3, &mesh_handle));
-  const Mesh mesh(mesh_handle);
-  const Marks result = new_result();
+  const auto mesh = create<Mesh>(riis_mesh_create, 1, origin, origin + 1, origin + 2, 3);
   riis_mark_options mark_options = options.mark_options;
   if (needs_adjacency(mark_options.search)) mark_options.search = RIIS_SEARCH_EXHAUSTIVE;
-  check(riis_mark_nodes(surface, mesh.get(), &mark_options, result.get()));
-  riis_dense_arrays dense;
-  check(riis_dense_arrays_init(&dense, sizeof dense));
+  const Marks result = marks_of(surface, mesh, mark_options);
+  auto dense = defaults<riis_dense_arrays>();
   dense.n_nodes = 1;
   dense.far_distance = options.far_distance;
-  check(riis_marks_get_dense(result.get(), &dense));
-  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result.get());
-}
-
-void warn_of_incomplete_marks() {
-  warn(
-      "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
-      "neighbor finds them");
+  check(riis_marks_get_dense(result, &dense));
+  ResistanceSum(1, ResistanceSum::WithVelocity::no).add(options, result);
 }
 
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh) {
@@ -55,8 +52,8 @@ void check_new_arrays(const MarkOptions &options, const std::vector<std::string>
     int32_t has = 0;
     check(riis_vtk_mesh_has_point_array(mesh, name.c_str(), &has));
     if (!has) continue;
-    throw Refusal{exit_wrong_usage, options.mesh + " already has an array " + name +
-                                        ": write --replace to replace it, or --prefix NAME for other arrays beside it"};
+    refuse_usage(options.mesh + " already has an array " + name +
+                 ": write --replace to replace it, or --prefix NAME for other arrays beside it");
   }
 }
 
@@ -68,11 +65,6 @@ std::vector<std::string> names_of_marks(const std::string &prefix, int32_t field
   return names;
 }
 
-void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file) {
-  check(riis_vtk_mesh_set_marks(file, result, options.far_distance, options.prefix.c_str()));
-  check(riis_vtk_mesh_set_fields(file, result, fields, options.prefix.c_str()));
-}
-
 ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
     : n_nodes_(n_nodes),
       K_(static_cast<std::size_t>(n_nodes), 0.0),
@@ -81,11 +73,9 @@ ResistanceSum::ResistanceSum(int64_t n_nodes, WithVelocity with_velocity)
 void ResistanceSum::add(const MarkOptions &options, const riis_marks *result) {
   if (!options.resistance) return;
   has_any_ = true;
-  riis_resistance how;
-  check(riis_resistance_init(&how, sizeof how));
+  auto how = defaults<riis_resistance>();
   how.R = *options.resistance;
-  riis_resistance_arrays to;
-  check(riis_resistance_arrays_init(&to, sizeof to));
+  auto to = defaults<riis_resistance_arrays>();
   to.n_nodes = n_nodes_;
   to.K = K_.data();
   for (int c = 0; c < 3 && !K_u_surface_.empty(); ++c) to.K_u_surface[c] = K_u_surface_.data() + c;
@@ -109,10 +99,6 @@ namespace {
 // reuse.
 constexpr int n_first_steps = 2;
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -131,9 +117,7 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
     lent.emplace(nodes);
   }
   const Valve moved = copy_of(valve);
-  riis_surface *handle = nullptr;
-  check(riis_surface_create(moved.get(), &options.surface_options, &handle));
-  const Surface surface(handle);
+  const auto surface = create<Surface>(riis_surface_create, moved, &options.surface_options);
   const Marks result = new_result();
   std::vector<double> of_surface, of_marking;
   // The opening goes up to 1, then down to 0, and so on.
@@ -141,36 +125,30 @@ StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const 
   for (int i = 0; i < n_first_steps + options.n_steps; ++i) {
     if (opening + change > 1 || opening + change < 0) change = -change;
     opening = std::clamp(opening + change, 0.0, 1.0);
-    const auto begin = std::chrono::steady_clock::now();
-    check(riis_valve_set_scalar(moved.get(), "opening", opening), "--steps");
-    check(riis_surface_update(handle, moved.get(), nullptr), "--steps");
-    const double updated = seconds_since(begin);
-    check(riis_mark_nodes(handle, nodes.mesh(), &how, result.get()), options.mesh);
-    const double marked = seconds_since(begin);
+    const Stage step("", true);
+    check(riis_valve_set_scalar(moved, "opening", opening), "--steps");
+    check(riis_surface_update(surface, moved, nullptr), "--steps");
+    const double updated = step.seconds();
+    check(riis_mark_nodes(surface, nodes.mesh(), &how, result), options.mesh);
+    const double marked = step.seconds();
     if (i < n_first_steps) continue;
     of_surface.push_back(updated);
     of_marking.push_back(marked - updated);
   }
-  riis_mark_stats stats{};
-  check(riis_marks_get_stats(result.get(), &stats, sizeof stats));
-  return {options.n_steps, stats.search, median(of_surface), median(of_marking)};
+  return {options.n_steps, stats_of(result).search, median(of_surface), median(of_marking)};
 }
 
 double distance_between(const double *p, const double *q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); }
 
 FileNodes::FileNodes(const riis_vtk_mesh *file, std::string path) : file_(file), path_(std::move(path)) {
   check(riis_vtk_mesh_get_nodes(file, &n_, nullptr, &xyz_));
-  riis_mesh *mesh = nullptr;
-  check(riis_mesh_create(n_, xyz_, xyz_ + 1, xyz_ + 2, 3, &mesh), path_);
-  mesh_.reset(mesh);
+  mesh_ = create_for<Mesh>(path_, riis_mesh_create, n_, xyz_, xyz_ + 1, xyz_ + 2, 3);
 }
 
 void FileNodes::find_neighbors(std::int32_t n_threads) {
   if (neighbors_) return;
-  riis_adjacency *handle = nullptr;
-  check(riis_vtk_mesh_create_adjacency(file_, n_threads, &handle), path_);
-  neighbors_.reset(handle);
-  check(riis_adjacency_get_csr(handle, &rows_, sizeof rows_));
+  neighbors_ = create_for<Adjacency>(path_, riis_vtk_mesh_create_adjacency, file_, n_threads);
+  rows_ = get<riis_csr>(riis_adjacency_get_csr, neighbors_);
 }
 
 double FileNodes::longest_edge(std::int64_t node) const {

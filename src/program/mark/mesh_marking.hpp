@@ -14,19 +14,20 @@
 namespace riis::program {
 
 Marks new_result();
+// Marks the nodes of a mesh by a surface.
+Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how);
+// Returns the options for another surface than that of the user's marks: any search, up to a limit.
+riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
 
 // Marks a single node. So the library refuses bad options before a large mesh is read and marked.
 void rehearse_marking(const MarkOptions &options, const riis_surface *surface);
 bool needs_adjacency(int32_t search);
-// Warns that some marks may be missing. --quiet does not silence this warning.
-void warn_of_incomplete_marks();
 
 // Refuses to replace an array of the mesh unless the user gave --replace.
 void check_new_arrays(const MarkOptions &options, const std::vector<std::string> &names, const riis_vtk_mesh *mesh);
 
 // Returns PREFIX_marked, PREFIX_distance, PREFIX_leaflet, and the names of the arrays of the given fields.
 std::vector<std::string> names_of_marks(const std::string &prefix, int32_t fields);
-void set_marks(const MarkOptions &options, const riis_marks *result, int32_t fields, riis_vtk_mesh *file);
 
 // K and K u_surface at every node, summed over the valves that have a resistance.
 class ResistanceSum {

@@ -2,7 +2,6 @@
 #include "program/mark/mesh_pieces.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #ifdef __GLIBC__
@@ -16,7 +15,6 @@
 #include "program/base/text.hpp"
 #include "program/input/mesh_reading.hpp"
 #include "program/mark/warnings.hpp"
-#include "program/output/outputs.hpp"
 
 namespace riis::program {
 
@@ -27,12 +25,10 @@ MeshPieces::MeshPieces(const MarkOptions &options) : options_(options), is_whole
     files_.push_back(options.mesh);
     return;
   }
-  riis_vtk_pieces *list = nullptr;
-  check(riis_vtk_pieces_read(path().c_str(), &list));
-  list_.reset(list);
+  list_ = create<PieceList>(riis_vtk_pieces_read, path().c_str());
   std::int64_t n = 0;
   const char *const *files = nullptr;
-  check(riis_vtk_pieces_get_files(list, &n, &files));
+  check(riis_vtk_pieces_get_files(list_, &n, &files));
   files_.assign(files, files + n);
 }
 
@@ -41,22 +37,14 @@ MeshPieces::~MeshPieces() = default;
 MeshFile MeshPieces::read(std::int64_t piece) const {
   if (is_whole_) {
     MeshFile mesh = read_mesh_file(path());
-    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh.get()), path());
+    if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh), path());
     return mesh;
   }
-  riis_vtk_mesh *mesh = nullptr;
-  check(riis_vtk_pieces_read_mesh(list_.get(), piece, &mesh));
-  return MeshFile(mesh);
+  return create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
 }
 
-void MeshPieces::finished(std::int64_t) const {}
-
-void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds) const {
-  for_wanted([](std::int64_t) { return true; }, work, seconds);
-}
-
-void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
-                            const std::function<void(Piece &)> &work, Seconds *seconds) const {
+void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds,
+                              const std::function<bool(std::int64_t)> &is_wanted) const {
   const auto read_piece = [&](std::int64_t number) {
     const std::string &file_path = view(files_)[number];
     const Stage stage("reading " + file_path, options_.quiet);
@@ -71,7 +59,7 @@ void MeshPieces::for_wanted(const std::function<bool(std::int64_t)> &is_wanted,
   };
   try {
     for (std::int64_t number = ranks::rank(); number < view(files_).size(); number += ranks::n_ranks()) {
-      if (!is_wanted(number)) continue;
+      if (is_wanted && !is_wanted(number)) continue;
       if (is_whole_) {
         if (!held_) held_ = read_piece(number);
         work(*held_);
@@ -123,7 +111,7 @@ PieceNodes::PieceNodes(const riis_vtk_mesh *file, const std::string &path, const
   }
   role_.resize(static_cast<std::size_t>(n_));
   riis_status status = riis_vtk_mesh_get_sharing(file, n_, role_.data(), nullptr, &counts_, sizeof counts_);
-  if (status == RIIS_FILE_ERROR) throw Refusal{exit_bad_data, path + ": " + riis_last_error()};
+  if (status == RIIS_FILE_ERROR) refuse_data(path + ": " + riis_last_error());
   check(status);
   if (has_ids()) {
     ids_.resize(role_.size());
@@ -187,11 +175,10 @@ void MeshCounts::add(const MeshCounts &other) {
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh) {
   MeshCounts all;
   for (const MeshCounts &counts : ranks::gather(std::vector<MeshCounts>{own})) all.add(counts);
-  if (all.n_with_nodes == 0) throw Refusal{exit_bad_data, mesh.path() + ": no piece holds points"};
+  if (all.n_with_nodes == 0) refuse_data(mesh.path() + ": no piece holds points");
   if (all.n_with_ids != 0 && all.n_with_ids != all.n_with_nodes)
-    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " +
-                                     std::to_string(all.n_with_nodes) +
-                                     " pieces have global ids; all or none must have them"};
+    refuse_data(mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " + std::to_string(all.n_with_nodes) +
+                " pieces have global ids; all or none must have them");
   return all;
 }
 
@@ -234,6 +221,13 @@ std::vector<SharedNode> in_one_list(std::vector<std::vector<SharedNode>> by_piec
   return all;
 }
 
+// Shares out nodes among the ranks by their keys. Global ids are dense, so they are mixed to share them out evenly.
+template <class Node>
+std::vector<Node> shared_out(std::vector<Node> nodes) {
+  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
+  return ranks::exchange(std::move(nodes), [=](const Node &node) { return mixed(node.key.a) % n_ranks; });
+}
+
 template <class T>
 void sort_unique(std::vector<T> &values) {
   std::sort(values.begin(), values.end());
@@ -245,11 +239,7 @@ void sort_unique(std::vector<T> &values) {
 MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has_ids,
                          const std::vector<std::string> &files) {
   constexpr std::size_t few = 1 << 16;
-  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  // Global ids are dense, so they are mixed to share them out evenly.
-  std::vector<SharedNode> nodes = ranks::exchange(in_one_list(std::move(by_piece)), [&](const SharedNode &node) {
-    return static_cast<std::size_t>(mixed(node.key.a) % n_ranks);
-  });
+  std::vector<SharedNode> nodes = shared_out(in_one_list(std::move(by_piece)));
   std::sort(nodes.begin(), nodes.end(), [](const SharedNode &p, const SharedNode &q) {
     return std::tie(p.key, p.piece) < std::tie(q.key, q.piece);
   });
@@ -263,13 +253,13 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
       in_several |= node.piece != before.piece;
       if (node.region < 0 || before.region < 0) continue;
       const PieceRegion p{before.piece, before.region}, q{node.piece, node.region};
-      if (!(p == q) && (own.joined.empty() || own.joined.back() != std::pair(p, q))) own.joined.emplace_back(p, q);
+      const JoinedRegions joined{p, q};
+      if (!(p == q) && (own.joined.empty() || !(own.joined.back() == joined))) own.joined.push_back(joined);
     }
     if (has_ids && end < nodes.size() && nodes[end].key.a == first.key.a)
-      throw Refusal{exit_bad_data, "the node with the global id " +
-                                       std::to_string(static_cast<std::int64_t>(first.key.a)) + " is at one place in " +
-                                       view(files)[first.piece] + " and at another in " +
-                                       view(files)[nodes[end].piece]};
+      refuse_data("the node with the global id " + std::to_string(static_cast<std::int64_t>(first.key.a)) +
+                  " is at one place in " + view(files)[first.piece] + " and at another in " +
+                  view(files)[nodes[end].piece]);
     ++own.n_nodes;
     own.n_in_several += in_several;
     if (own.joined.size() > 2 * n_kept) {
@@ -278,32 +268,15 @@ MatchedNodes match_nodes(std::vector<std::vector<SharedNode>> by_piece, bool has
     }
   }
   sort_unique(own.joined);
-  MatchedNodes all;
-  const std::vector<std::array<std::int64_t, 2>> counts{{own.n_nodes, own.n_in_several}};
-  for (const auto &[n_nodes, n_in_several] : ranks::gather(counts)) {
-    all.n_nodes += n_nodes;
-    all.n_in_several += n_in_several;
-  }
-  struct Pair {
-    PieceRegion p, q;
-  };
-  std::vector<Pair> pairs;
-  for (const auto &[p, q] : own.joined) pairs.push_back({p, q});
-  for (const Pair &pair : ranks::gather(pairs)) all.joined.emplace_back(pair.p, pair.q);
+  MatchedNodes all{ranks::sum(own.n_nodes), ranks::sum(own.n_in_several), ranks::gather(own.joined)};
   sort_unique(all.joined);
   return all;
 }
 
 std::int64_t MatchedNodes::n_joins() const {
-  std::vector<PieceRegion> regions;
-  for (const auto &[p, q] : joined) regions.insert(regions.end(), {p, q});
-  sort_unique(regions);
-  const auto at = [&](const PieceRegion &region) {
-    return std::lower_bound(regions.begin(), regions.end(), region) - regions.begin();
-  };
-  DisjointSets sets(view(regions).size());
+  JoinedSets<PieceRegion> sets;
   std::int64_t n = 0;
-  for (const auto &[p, q] : joined) n += sets.unite(at(p), at(q));
+  for (const auto &[p, q] : joined) n += sets.unite(p, q);
   return n;
 }
 
@@ -322,12 +295,11 @@ void LooseNodes::check(const MeshPieces &mesh) const {
     for (std::int64_t i = 0; i < piece.nodes.n(); ++i)
       n += piece.nodes.is_inside(i) && std::binary_search(keys.begin(), keys.end(), piece.nodes.key(i));
   });
-  std::int64_t sum = 0;
-  for (const std::int64_t part : ranks::gather(std::vector<std::int64_t>{n})) sum += part;
+  const std::int64_t sum = ranks::sum(n);
   if (sum > 0)
-    throw Refusal{exit_bad_data, mesh.path() + ": " + std::to_string(sum) +
-                                     " points are inside one piece, and another piece has them without a cell; "
-                                     "write each piece with only the points of its own cells"};
+    refuse_data(mesh.path() + ": " + std::to_string(sum) +
+                " points are inside one piece, and another piece has them without a cell; "
+                "write each piece with only the points of its own cells");
 }
 
 void release_free_memory() {
@@ -345,9 +317,7 @@ void NodeCounts::add(const PieceNodes &nodes, const riis_mark_list &list, std::s
 }
 
 std::vector<std::int64_t> NodeCounts::sums() const {
-  const auto n_ranks = static_cast<std::uint64_t>(ranks::n_ranks());
-  std::vector<SharedKind> shared = ranks::exchange(
-      shared_, [&](const SharedKind &node) { return static_cast<std::size_t>(mixed(node.key.a) % n_ranks); });
+  std::vector<SharedKind> shared = shared_out(shared_);
   sort_unique(shared);
   std::vector<std::int64_t> own = n_inside_, sums(n_inside_.size());
   for (const SharedKind &node : shared) ++own.at(node.kind);

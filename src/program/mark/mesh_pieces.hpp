@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -43,19 +44,17 @@ class MeshPieces {
   const std::string &path() const { return options_.mesh; }
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
-  // Calls `work` with each of this rank's pieces, in ascending order. A failure ends all ranks. Adds to the seconds of reading,
-  // unless they are NULL.
-  void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr) const;
-  // As for_each_own, for the pieces that `is_wanted` accepts by their numbers.
-  void for_wanted(const std::function<bool(std::int64_t)> &is_wanted, const std::function<void(Piece &)> &work,
-                  Seconds *seconds = nullptr) const;
+  // Calls `work` with each of this rank's pieces, in ascending order, or only with those whose numbers `is_wanted` accepts. A
+  // failure ends all ranks. Adds to the seconds of reading, unless they are NULL.
+  void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr,
+                    const std::function<bool(std::int64_t)> &is_wanted = nullptr) const;
 
  protected:
   MeshPieces(const MarkOptions &options, std::vector<std::string> files)
       : options_(options), files_(std::move(files)) {}
   virtual MeshFile read(std::int64_t piece) const;
   // Called after the first work with a piece.
-  virtual void finished(std::int64_t piece) const;
+  virtual void finished(std::int64_t) const {}
 
  private:
   const MarkOptions &options_;
@@ -142,6 +141,8 @@ class DisjointSets {
   explicit DisjointSets(std::int64_t n) : parent_(static_cast<std::size_t>(n)) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
+  // Adds the next number as a set.
+  void add() { parent_.push_back(static_cast<std::int64_t>(parent_.size())); }
   std::int64_t root(std::int64_t i) {
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
@@ -158,6 +159,25 @@ class DisjointSets {
  private:
   std::int64_t &parent(std::int64_t i) { return parent_[static_cast<std::size_t>(i)]; }
   std::vector<std::int64_t> parent_;
+};
+
+// Sets of things that join. At first each thing is a set.
+template <class Thing>
+class JoinedSets {
+ public:
+  // Returns whether the two were in different sets.
+  bool unite(const Thing &a, const Thing &b) { return sets_.unite(number(a), number(b)); }
+  bool are_joined(const Thing &a, const Thing &b) { return sets_.root(number(a)) == sets_.root(number(b)); }
+
+ private:
+  std::int64_t number(const Thing &thing) {
+    const auto [place, is_new] = numbers_.emplace(thing, static_cast<std::int64_t>(numbers_.size()));
+    if (is_new) sets_.add();
+    return place->second;
+  }
+
+  std::map<Thing, std::int64_t> numbers_;
+  DisjointSets sets_{0};
 };
 
 // A node that several pieces may have, in one of them.
@@ -179,10 +199,17 @@ struct PieceRegion {
   bool operator==(const PieceRegion &other) const { return piece == other.piece && region == other.region; }
 };
 
+// Regions of different pieces with a common node.
+struct JoinedRegions {
+  PieceRegion p, q;
+  bool operator<(const JoinedRegions &other) const { return std::tie(p, q) < std::tie(other.p, other.q); }
+  bool operator==(const JoinedRegions &other) const { return p == other.p && q == other.q; }
+};
+
 // The shared nodes of all pieces, each counted once.
 struct MatchedNodes {
-  std::int64_t n_nodes = 0, n_in_several = 0;               // all nodes, and those that more than one piece has
-  std::vector<std::pair<PieceRegion, PieceRegion>> joined;  // regions of different pieces with a common node
+  std::int64_t n_nodes = 0, n_in_several = 0;  // all nodes, and those that more than one piece has
+  std::vector<JoinedRegions> joined{};
 
   // Returns how many regions are a part of another region.
   std::int64_t n_joins() const;

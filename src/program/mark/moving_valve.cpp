@@ -16,9 +16,9 @@ MovingValve::MovingValve(ValveSource &source, double time, bool moves) : source_
   is_at_rest_ = !moves || (!source.keyframes && (!source.valve || (source.law.is_constant() && !source.warp.moves())));
   if (source.keyframes) source.options.time = time;
   if (source.valve) {
-    if (moves) before_ = copy_of(source.valve.get());
+    if (moves) before_ = copy_of(source.valve);
     opening_ = source.law.at(time);
-    set_time(time, source.valve.get());
+    set_time(time, source.valve);
   }
   has_velocities_ = source.file != nullptr;
   surface_ = make_surface(source, moves ? FileVelocity::zero : FileVelocity::none);
@@ -36,17 +36,15 @@ void MovingValve::set_time(double time, riis_valve *valve) {
 void MovingValve::move_to(double time, std::optional<double> since) {
   if (is_at_rest_ && (!since || has_velocities_)) return;
   if (source_.keyframes) {
-    check(riis_surface_update_from_keyframes(surface_.get(), source_.keyframes.get(), time, time - since.value_or(time),
-                                             nullptr),
+    check(riis_surface_update_from_keyframes(surface_, source_.keyframes, time, time - since.value_or(time), nullptr),
           options().surface);
     return;
   }
-  if (since) set_time(*since, before_.get());
-  set_time(time, source_.valve.get());
+  if (since) set_time(*since, before_);
+  set_time(time, source_.valve);
   opening_ = source_.law.at(time);
-  check(since ? riis_surface_update_moving(surface_.get(), source_.valve.get(), before_.get(), time - *since, nullptr,
-                                           nullptr)
-              : riis_surface_update(surface_.get(), source_.valve.get(), nullptr),
+  check(since ? riis_surface_update_moving(surface_, source_.valve, before_, time - *since, nullptr, nullptr)
+              : riis_surface_update(surface_, source_.valve, nullptr),
         subject());
   has_velocities_ = since.has_value();
 }
@@ -59,22 +57,16 @@ void MovingValve::mark(FileNodes &nodes, int32_t fields) {
     nodes.find_neighbors(how.n_threads);
     lent.emplace(nodes);
   }
-  check(riis_mark_nodes(surface_.get(), nodes.mesh(), &how, result_.get()), options().mesh);
+  check(riis_mark_nodes(surface_, nodes.mesh(), &how, result_), options().mesh);
 }
 
 double MovingValve::largest_speed() const {
-  const riis_triangles triangles = triangles_of(surface_.get());
+  const riis_triangles triangles = triangles_of(surface_);
   const double *velocity = triangles.velocity;
   double largest = 0;
   for (int64_t i = 0; velocity && i < triangles.n_vertices; ++i)
     largest = std::max(largest, std::hypot(velocity[3 * i], velocity[3 * i + 1], velocity[3 * i + 2]));
   return largest;
-}
-
-riis_mark_stats MovingValve::stats() const {
-  riis_mark_stats stats{};
-  check(riis_marks_get_stats(result_.get(), &stats, sizeof stats));
-  return stats;
 }
 
 std::vector<MovingValve> moving_valves(Case &all) {
@@ -86,9 +78,9 @@ std::vector<MovingValve> moving_valves(Case &all) {
       MovingValve &made = valves.back();
       const std::string part = all.part_of(valves.size() - 1);
       if (all.options.check_crossing)
-        made.crossings = look_for_crossings(source.options, source.valve.get(), made.surface(), part);
+        made.crossings = look_for_crossings(source.options, source.valve, made.surface(), part);
       else if (source.valve)
-        made.crossings = check_shape(source.options, source.valve.get(), source.has_open_state, part);
+        made.crossings = check_shape(source.options, source.valve, source.has_open_state, part);
       if (!all.options.mesh.empty()) rehearse_marking(source.options, made.surface());
     } catch (Refusal &refusal) {
       if (!source.subject.empty() && refusal.text.rfind(source.subject, 0) != 0)
@@ -100,6 +92,27 @@ std::vector<MovingValve> moving_valves(Case &all) {
 }
 
 // ---- Joined surface ----
+
+void JoinedTriangles::add(const riis_triangles &triangles, std::int32_t first_leaflet) {
+  const int64_t before = view(xyz_).size() / 3;
+  xyz_.insert(xyz_.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
+  for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners_.push_back(before + triangles.vertex_id[i]);
+  for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets_.push_back(first_leaflet + triangles.leaflet_id[i]);
+}
+
+riis_surface_arrays JoinedTriangles::arrays() const {
+  auto arrays = defaults<riis_surface_arrays>();
+  arrays.n_vertices = view(xyz_).size() / 3;
+  arrays.x = xyz_.data();
+  arrays.y = xyz_.data() + 1;
+  arrays.z = xyz_.data() + 2;
+  arrays.stride = 3;
+  arrays.n_faces = view(corners_).size() / 3;
+  arrays.vertex_ids = corners_.data();
+  arrays.id_bits = 64;
+  arrays.leaflet_id = leaflets_.data();
+  return arrays;
+}
 
 int32_t n_leaflets_of(const riis_surface *surface) {
   const riis_triangles triangles = triangles_of(surface);
@@ -114,22 +127,12 @@ std::vector<int32_t> first_leaflets(const std::vector<MovingValve> &valves) {
 }
 
 Surface joined_surface(const std::vector<MovingValve> &valves, const riis_surface_options *options) {
-  std::vector<double> xyz;
-  std::vector<int64_t> corners;
-  std::vector<int32_t> leaflets;
+  JoinedTriangles joined;
   const std::vector<int32_t> first = first_leaflets(valves);
-  for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    const riis_triangles triangles = triangles_of(valves[valve].surface());
-    const int64_t before = view(xyz).size() / 3;
-    xyz.insert(xyz.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
-    for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(before + triangles.vertex_id[i]);
-    for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first[valve] + triangles.leaflet_id[i]);
-  }
-  riis_surface_arrays arrays = arrays_of(xyz, corners);
-  arrays.leaflet_id = leaflets.data();
-  riis_surface *surface = nullptr;
-  check(riis_surface_create_from_arrays(&arrays, options, &surface));
-  return Surface(surface);
+  for (std::size_t valve = 0; valve < valves.size(); ++valve)
+    joined.add(triangles_of(valves[valve].surface()), first[valve]);
+  const riis_surface_arrays arrays = joined.arrays();
+  return create<Surface>(riis_surface_create_from_arrays, &arrays, options);
 }
 
 }  // namespace riis::program

@@ -35,7 +35,7 @@ class MovingValve {
   riis_marks *result() const { return result_.get(); }
   std::optional<double> opening() const;  // nothing for a surface from a file
   double largest_speed() const;           // the largest speed of a vertex
-  riis_mark_stats stats() const;
+  riis_mark_stats stats() const { return stats_of(result_); }
 
   std::optional<CrossingReport> crossings{};  // set if crossings were looked for
 
@@ -56,6 +56,20 @@ class MovingValve {
 // Makes the valves of a case, at the first time, and looks for crossings in their shapes. Tries each valve's options on a single
 // node, so that bad ones are refused early.
 std::vector<MovingValve> moving_valves(Case &all);
+
+// Triangles of several surfaces, or of one at several times.
+class JoinedTriangles {
+ public:
+  // Adds triangles, whose leaflets are numbered from `first_leaflet` on.
+  void add(const riis_triangles &triangles, std::int32_t first_leaflet);
+  // Returns arrays that borrow all triangles.
+  riis_surface_arrays arrays() const;
+
+ private:
+  std::vector<double> xyz_;
+  std::vector<std::int64_t> corners_;
+  std::vector<std::int32_t> leaflets_;
+};
 
 // In: the surfaces of several valves. Out: one surface with the triangles of all. The numbers of a valve's leaflets follow those
 // of the previous valve.

@@ -14,24 +14,10 @@
 
 namespace riis::program {
 
-LeakCheck leak_check_between(const std::vector<std::string> &points) {
-  LeakCheck made;
-  made.subject = "--between";
-  const std::vector<double> from = parse_list(points[0], made.subject, 3, "X,Y,Z"),
-                            to = parse_list(points[1], made.subject, 3, "X,Y,Z");
-  std::copy_n(from.begin(), 3, made.from);
-  std::copy_n(to.begin(), 3, made.to);
-  return made;
-}
-
 namespace {
 
-const double *asked_point(const LeakCheck &asked, int end) { return end == 0 ? asked.from : asked.to; }
-
 // Returns the point's numbers as the user wrote them.
-std::string text_of(const double *point) {
-  return shortest(point[0]) + " " + shortest(point[1]) + " " + shortest(point[2]);
-}
+std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 
 // Refuses an end that is outside the mesh or has no node near it. `why_none` is the reason to give if no node has a neighbour.
 void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
@@ -39,7 +25,7 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
   // A point inside a cell is at most one edge length away from one of the cell's nodes. This limit allows two.
   constexpr double edges_away = 2;
   const LeakCheck &asked = *options.check_leaks;
-  const double *const point = asked_point(asked, end);
+  const double *const point = asked.point(end);
   const auto refuse = [&](const std::string &why) {
     throw Refusal{asked.exit_code,
                   asked.subject + ": " + (end == 0 ? "FROM" : "TO") + ", " + text_of(point) + ", " + why};
@@ -57,7 +43,7 @@ void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd
 // --quiet does not silence this warning, because the valve lets flow through.
 void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const std::string &surface,
                      const std::string &unknown) {
-  const std::string ends = text_of(asked.from) + " and " + text_of(asked.to);
+  const std::string ends = text_of(asked.point(0)) + " and " + text_of(asked.point(1));
   const riis_passage &found = report.found;
   if (report.is_unknown)
     warn("whether unmarked nodes join " + ends + " is unknown: " + unknown);
@@ -78,11 +64,8 @@ void warn_of_passage(const LeakCheck &asked, const PassageReport &report, const 
 // Finds the widest passage by the library, which has the whole mesh.
 riis_passage passage_in(const Piece &piece, const MarkOptions &options, const riis_surface *surface,
                         const PieceEnd (&ends)[2]) {
-  riis_mark_options how = options.mark_options;
-  how.search = RIIS_SEARCH_AUTO;
-  how.distance_limit = RIIS_AUTO;
-  riis_passage_ends sets;
-  check(riis_passage_ends_init(&sets, sizeof sets));
+  const riis_mark_options how = how_to_mark_again(options);
+  auto sets = defaults<riis_passage_ends>();
   sets.n_from = sets.n_to = 1;
   sets.from = &ends[0].node;
   sets.to = &ends[1].node;
@@ -106,7 +89,7 @@ void PassageCheck::add(const Piece &piece) {
   if (!options_.check_leaks) return;
   const PieceNodes &nodes = piece.nodes;
   for (int end = 0; end < 2; ++end) {
-    const double *const asked = asked_point(*options_.check_leaks, end);
+    const double *const asked = options_.check_leaks->point(end);
     std::int64_t found = -1;
     double least = 0;
     for (std::int64_t i = 0; i < nodes.n(); ++i) {
@@ -154,15 +137,12 @@ double PassageCheck::longest_edge_at(const riis_passage &found, const MeshCounts
 riis_first_passage PassageCheck::first_of(const riis_valve *valve) const {
   constexpr int n_coarse = 8;
   const Valve moved = copy_of(valve);
-  riis_first_passage_options how;
-  check(riis_first_passage_options_init(&how, sizeof how));
+  const auto how = defaults<riis_first_passage_options>();
   riis_first_passage first{};
   const auto is_open_at = [&](double opening) {
-    check(riis_valve_set_scalar(moved.get(), "opening", opening), "--first-passage");
-    riis_surface *made = nullptr;
-    check(riis_surface_create(moved.get(), &options_.surface_options, &made), "--first-passage");
-    const Surface surface(made);
-    const riis_passage passage = find(made).found;
+    check(riis_valve_set_scalar(moved, "opening", opening), "--first-passage");
+    const auto surface = create_for<Surface>("--first-passage", riis_surface_create, moved, &options_.surface_options);
+    const riis_passage passage = find(surface).found;
     ++first.n_openings;
     const bool is_open = passage.state == RIIS_PASSAGE_OPEN;
     (is_open ? first.opening : first.closed_opening) = opening;

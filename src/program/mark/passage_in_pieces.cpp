@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "common/array_view.hpp"
 #include "program/base/ranks.hpp"
@@ -133,42 +132,6 @@ class PieceWays {
   std::vector<std::int64_t> terminal_;  // of a set's root: a shared node or an end in the set, or -1
 };
 
-// The ways between the ends through all pieces.
-class Ways {
- public:
-  Ways(const std::vector<std::pair<PieceRegion, PieceRegion>> &joined, std::vector<Link> links,
-       const std::vector<PlacedEnd> &ends)
-      : links_(std::move(links)), ends_(ends) {
-    std::sort(links_.begin(), links_.end(), [](const Link &a, const Link &b) { return a.node < b.node; });
-    const auto place_of = [](const PieceRegion &region) { return Place{region, {0, 0}}; };
-    for (const auto &[p, q] : joined)
-      for (const PieceRegion &region : {p, q}) numbers_.emplace(place_of(region), 0);
-    for (const Link &link : links_)
-      for (const Place &place : {link.p, link.q}) numbers_.emplace(place, 0);
-    for (const PlacedEnd &end : ends_) numbers_.emplace(end.place, 0);
-    std::int64_t n = 0;
-    for (auto &[place, number] : numbers_) number = n++;
-    sets_ = DisjointSets(n);
-    for (const auto &[p, q] : joined) sets_.unite(numbers_.at(place_of(p)), numbers_.at(place_of(q)));
-  }
-
-  bool are_joined() { return sets_.root(numbers_.at(ends_[0].place)) == sets_.root(numbers_.at(ends_[1].place)); }
-  // Opens links until the ends are joined, and returns the node that joins them.
-  std::optional<PassageNode> open_until_joined() {
-    for (const Link &link : links_) {
-      sets_.unite(numbers_.at(link.p), numbers_.at(link.q));
-      if (are_joined()) return link.node;
-    }
-    return std::nullopt;
-  }
-
- private:
-  std::vector<Link> links_;
-  const std::vector<PlacedEnd> &ends_;
-  std::map<Place, std::int64_t> numbers_;
-  DisjointSets sets_{0};
-};
-
 FoundPassage passage_at(const PassageNode &node, double half_thickness, const PieceEnd (&ends)[2]) {
   FoundPassage passage{{node.id, node.distance, {0, 0, 0}, 0, RIIS_PASSAGE_CLOSED, 0}, false};
   std::copy_n(node.point, 3, passage.found.point);
@@ -193,9 +156,7 @@ void check_end_is_open(const MarkOptions &options, const MeshPieces &mesh, const
 std::optional<FoundPassage> passage_within(const MarkOptions &options, const MeshPieces &mesh,
                                            const riis_surface *surface, const PieceEnd (&ends)[2], double limit,
                                            double half_thickness) {
-  riis_mark_options how = options.mark_options;
-  how.search = RIIS_SEARCH_AUTO;
-  how.distance_limit = limit;
+  const riis_mark_options how = how_to_mark_again(options, limit);
   std::vector<Link> own_links;
   std::vector<PlacedEnd> own_ends;
   std::vector<std::vector<SharedNode>> shared;
@@ -204,9 +165,8 @@ std::optional<FoundPassage> passage_within(const MarkOptions &options, const Mes
     if (!piece.mesh) return;
     has_ids = piece.nodes.has_ids();
     piece.mesh->find_neighbors(how.n_threads);
-    const Marks marks = new_result();
-    check(riis_mark_nodes(surface, piece.mesh->mesh(), &how, marks.get()));
-    const riis_mark_list within = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+    const Marks marks = marks_of(surface, piece.mesh->mesh(), how);
+    const riis_mark_list within = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
     PieceWays ways(piece, within);
     for (int i = 0; i < 2; ++i) {
       if (ends[i].piece != piece.number) continue;
@@ -218,17 +178,22 @@ std::optional<FoundPassage> passage_within(const MarkOptions &options, const Mes
   });
   std::vector<PlacedEnd> placed = ranks::gather(own_ends);
   std::sort(placed.begin(), placed.end(), [](const PlacedEnd &a, const PlacedEnd &b) { return a.end < b.end; });
-  const std::vector<int> have_ids = ranks::gather(std::vector<int>{has_ids});
-  const bool by_id = std::find(have_ids.begin(), have_ids.end(), 1) != have_ids.end();
-  const MatchedNodes matched = match_nodes(std::move(shared), by_id, mesh.files());
-  Ways ways(matched.joined, ranks::gather(own_links), placed);
+  const MatchedNodes matched = match_nodes(std::move(shared), ranks::sum(has_ids) > 0, mesh.files());
+  std::vector<Link> links = ranks::gather(own_links);
+  std::sort(links.begin(), links.end(), [](const Link &a, const Link &b) { return a.node < b.node; });
   for (const PlacedEnd &end : placed) check_end_is_open(options, mesh, ends, end, half_thickness);
-  if (ways.are_joined()) {
+  JoinedSets<Place> ways;
+  const auto are_joined = [&] { return ways.are_joined(placed[0].place, placed[1].place); };
+  for (const auto &[p, q] : matched.joined) ways.unite({p, {0, 0}}, {q, {0, 0}});
+  if (are_joined()) {
     // The ends are one node, or there is a way beyond the limit.
     if (placed[0].place.is_region()) return std::nullopt;
     return passage_at(placed[0].node, half_thickness, ends);
   }
-  if (const auto node = ways.open_until_joined()) return passage_at(*node, half_thickness, ends);
+  for (const Link &link : links) {
+    ways.unite(link.p, link.q);
+    if (are_joined()) return passage_at(link.node, half_thickness, ends);
+  }
   return FoundPassage{{-1, 0, {0, 0, 0}, 0, RIIS_PASSAGE_NONE, 0}, false};
 }
 

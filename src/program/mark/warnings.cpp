@@ -5,10 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <utility>
 
 #include "program/base/ranks.hpp"
-#include "program/base/refusal.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/output/report.hpp"
 
@@ -49,18 +47,6 @@ std::string text_of(const Box &box, double edge) {
 
 bool is_parametric(const MarkOptions &options) { return options.surface.empty() && !is_valve_file(options.valve); }
 
-Sizes sizes_of(const Situation &s) {
-  const auto &[x, y, z] = s.options.surface_options.translation;
-  return {s.mesh,
-          s.surface,
-          s.median_edge,
-          s.half_thickness,
-          {x, y, z},
-          s.options.unit || s.options.has_scale,
-          is_parametric(s.options) && !s.options.has_half_thickness,
-          largest_mesh};
-}
-
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
 // Returns whether suspiciously few nodes are marked. A single layer of nodes over the surface would have about area / edge^2
@@ -71,8 +57,7 @@ bool has_hardly_any(const Situation &s) {
 }
 
 bool has_odd_half_thickness(const Situation &s) {
-  return s.n_nodes >= fewest_judged_nodes &&
-         (is_too_large(s.half_thickness, sizes_of(s)) || is_too_small(s.half_thickness, sizes_of(s)));
+  return s.n_nodes >= fewest_judged_nodes && (is_too_large(s.half_thickness, s) || is_too_small(s.half_thickness, s));
 }
 
 std::string marked_text(const Situation &s) {
@@ -91,44 +76,7 @@ Warning warning_of_places(const Situation &s) {
           ": see --translate, --rotate, --scale, --half-thickness"};
 }
 
-}  // namespace
-
-std::optional<Warning> warning_of(const Situation &s) {
-  const bool has_none = s.n_marked == 0 && !s.options.allow_none;
-  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return std::nullopt;
-  std::optional<Warning> why = warning_of_units(s);
-  if (!why) why = warning_of_half_thickness(s);
-  if (!why) why = warning_of_places(s);
-  why->text = marked_text(s) + ": " + why->text;
-  return why;
-}
-
-void warn(const std::string &text) {
-  ++n_printed;
-  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
-}
-
-void warn(std::vector<Warning> warnings) {
-  std::stable_sort(warnings.begin(), warnings.end(),
-                   [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
-  for (const Warning &warning : warnings) {
-    const bool is_first = warning.cause <= first_cause;
-    if (is_first) first_cause = warning.cause;
-    warn(is_first ? warning.text + warning.advice : warning.text);
-  }
-}
-
-std::int64_t n_warnings() { return n_printed; }
-
-std::string place_text(const ValveOptions &options, const double *point, double edge) {
-  std::string text;
-  for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
-  return options.unit ? text + " " + name_of(*options.unit) : text;
-}
-
 // ---- Advice ----
-
-namespace {
 
 std::string option(const char *name, Unit unit) { return std::string(name) + " " + name_of(unit); }
 
@@ -167,22 +115,15 @@ std::string in_place_of(const MarkOptions &options) {
   return options.has_scale ? " in place of --scale " + shown(options.surface_options.scale) : "";
 }
 
-}  // namespace
-
-std::string shown(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
-
+// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
+// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
 std::optional<Warning> warning_of_units(const Situation &s) {
-  const Sizes sizes = sizes_of(s);
-  const auto factor = missing_factor(sizes);
+  const auto factor = missing_factor(s);
   if (!factor) return std::nullopt;
   const Cure cure = cure_for_scale(s.options, s.options.surface_options.scale / *factor);
   std::string write = cure.write;
   if (s.options.has_half_thickness) {
-    const Sizes cured = rescaled(sizes, *factor);
+    const Sizes cured = rescaled(s, *factor);
     if (is_too_large(s.half_thickness, cured) || is_too_small(s.half_thickness, cured)) {
       const double better = better_half_thickness(cured);
       if (better > 0) write += " --half-thickness " + shown(better);
@@ -194,10 +135,10 @@ std::optional<Warning> warning_of_units(const Situation &s) {
       ": write " + write + in_place_of(s.options)};
 }
 
+// Returns a warning if the half thickness is too large or too small. It names the option to write.
 std::optional<Warning> warning_of_half_thickness(const Situation &s) {
-  const Sizes sizes = sizes_of(s);
-  const bool is_large = is_too_large(s.half_thickness, sizes);
-  if (!is_large && !is_too_small(s.half_thickness, sizes)) return std::nullopt;
+  const bool is_large = is_too_large(s.half_thickness, s);
+  if (!is_large && !is_too_small(s.half_thickness, s)) return std::nullopt;
   Warning warning{Cause::half_thickness, "the half thickness is " + shown(s.half_thickness), ""};
   warning.text += is_large ? ", the largest side of the surface " + shown(s.surface.largest_side())
                            : ", the median edge of the mesh " + shown(s.median_edge);
@@ -205,16 +146,63 @@ std::optional<Warning> warning_of_half_thickness(const Situation &s) {
   const bool is_unknown =
       !is_parametric(s.options) && !s.options.unit && !s.options.has_scale && !s.options.has_half_thickness;
   const auto unit = is_unknown ? unit_of_valve(s.surface.largest_side()) : std::nullopt;
-  if (unit && !is_too_large(paper_half_thickness(*unit), sizes) && !is_too_small(paper_half_thickness(*unit), sizes)) {
+  if (unit && !is_too_large(paper_half_thickness(*unit), s) && !is_too_small(paper_half_thickness(*unit), s)) {
     warning.text += ", and both look as if they were in " + std::string(words_of(*unit));
     warning.advice = ": write " + option("--unit", *unit) + " " + option("--surface-unit", *unit);
     return warning;
   }
-  const double better = better_half_thickness(sizes);
+  const double better = better_half_thickness(s);
   warning.advice = better > 0 ? ": write --half-thickness " + shown(better)
                    : is_large ? ": see --half-thickness, --scale"
                               : ": the mesh is too coarse for this surface";
   return warning;
+}
+
+}  // namespace
+
+std::string shown(double number) { return printed("%.3g", number); }
+
+Situation::Situation(const MarkOptions &marking, const riis_surface_info &info, const Box &mesh_box,
+                     double median_edge_of_mesh)
+    : Sizes{mesh_box, {}, median_edge_of_mesh, info.half_thickness}, options(marking), area(info.area) {
+  std::copy_n(info.lower, 3, surface.lower);
+  std::copy_n(info.upper, 3, surface.upper);
+  std::copy_n(options.surface_options.translation, 3, translation);
+  is_unit_known = options.unit || options.has_scale;
+  has_usual_half = is_parametric(options) && !options.has_half_thickness;
+}
+
+std::optional<Warning> warning_of(const Situation &s) {
+  const bool has_none = s.n_marked == 0 && !s.options.allow_none;
+  if (!has_none && !has_all(s) && !has_hardly_any(s) && !has_odd_half_thickness(s)) return std::nullopt;
+  std::optional<Warning> why = warning_of_units(s);
+  if (!why) why = warning_of_half_thickness(s);
+  if (!why) why = warning_of_places(s);
+  why->text = marked_text(s) + ": " + why->text;
+  return why;
+}
+
+void warn(const std::string &text) {
+  ++n_printed;
+  if (ranks::is_first()) std::fprintf(stderr, "riis: %s\n", text.c_str());
+}
+
+void warn(std::vector<Warning> warnings) {
+  std::stable_sort(warnings.begin(), warnings.end(),
+                   [](const Warning &a, const Warning &b) { return a.cause < b.cause; });
+  for (const Warning &warning : warnings) {
+    const bool is_first = warning.cause <= first_cause;
+    if (is_first) first_cause = warning.cause;
+    warn(is_first ? warning.text + warning.advice : warning.text);
+  }
+}
+
+std::int64_t n_warnings() { return n_printed; }
+
+std::string place_text(const ValveOptions &options, const double *point, double edge) {
+  std::string text;
+  for (int k = 0; k < 3; ++k) text += (k == 0 ? "" : " ") + coordinate_text(point[k], edge);
+  return options.unit ? text + " " + name_of(*options.unit) : text;
 }
 
 }  // namespace riis::program

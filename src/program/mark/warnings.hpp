@@ -16,13 +16,13 @@
 namespace riis::program {
 
 // The result of a marking with the sizes of its mesh and surface, in the mesh's unit.
-struct Situation {
+struct Situation : Sizes {
+  // `median_edge` of the mesh is 0 if it is unknown.
+  Situation(const MarkOptions &marking, const riis_surface_info &info, const Box &mesh_box, double median_edge_of_mesh);
+
   const MarkOptions &options;
-  int64_t n_nodes, n_marked;
-  Box mesh, surface;
-  double median_edge;  // 0 if unknown
-  double area;         // area of the surface
-  double half_thickness;
+  double area;  // of the surface
+  int64_t n_nodes = 0, n_marked = 0;
 };
 
 // The possible causes, in the order in which to correct them. A wrong unit also makes the half thickness wrong, and both can
@@ -49,15 +49,6 @@ std::int64_t n_warnings();
 // Returns a position as text for a warning, with its unit if the user named it. Coordinates are rounded to a tenth of the edge's
 // length or finer, so the two ends of the edge differ. If the length is 0, coordinates have six digits.
 std::string place_text(const ValveOptions &options, const double *point, double edge);
-
-// In: sizes that do not fit together. Out: the units that they suggest, and the options that make them fit.
-
-// Returns a warning if the sizes suggest different units for the mesh and the surface. It names these units and the options to
-// write, such as "the mesh looks as if it were in metres, ...: write --unit m".
-std::optional<Warning> warning_of_units(const Situation &situation);
-
-// Returns a warning if the half thickness is too large or too small. It names the option to write.
-std::optional<Warning> warning_of_half_thickness(const Situation &situation);
 
 // Returns a number as a user would write it.
 std::string shown(double number);

@@ -20,6 +20,16 @@
 
 namespace riis::program {
 
+namespace {
+
+// Returns a number with zeros before it.
+std::string padded(std::size_t number, std::size_t n_digits) {
+  const std::string digits = std::to_string(number);
+  return std::string(std::max(n_digits, digits.size()) - digits.size(), '0') + digits;
+}
+
+}  // namespace
+
 SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times)
     : pvd_(pvd), ending_(ending), n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
   const std::filesystem::path path(pvd);
@@ -31,10 +41,9 @@ void SeriesFiles::check_folder() const {
   std::error_code error;
   if (!std::filesystem::exists(folder_, error)) return;
   if (!std::filesystem::is_directory(folder_, error))
-    throw Refusal{exit_bad_data, folder_ + ": the folder cannot be made: a file has its name"};
+    refuse_data(folder_ + ": the folder cannot be made: a file has its name");
   if (access(folder_.c_str(), W_OK | X_OK) != 0) {
-    throw Refusal{exit_bad_data,
-                  folder_ + ": the folder cannot be written to: " + std::generic_category().message(errno)};
+    refuse_data(folder_ + ": the folder cannot be written to: " + system_text(errno));
   }
 }
 
@@ -43,13 +52,11 @@ void SeriesFiles::make_folder() const {
   check_folder();
   std::error_code error;
   std::filesystem::create_directory(folder_, error);
-  if (error) throw Refusal{exit_bad_data, folder_ + ": the folder cannot be made: " + error.message()};
+  if (error) refuse_data(folder_ + ": the folder cannot be made: " + error.message());
 }
 
 std::string SeriesFiles::path_of(std::size_t step, const std::string &part) const {
-  const std::string digits = std::to_string(step);
-  const std::string zeros(n_digits_ > digits.size() ? n_digits_ - digits.size() : 0, '0');
-  return folder_ + "/" + stem_ + "_" + (part.empty() ? "" : part + "_") + zeros + digits + ending_;
+  return folder_ + "/" + stem_ + "_" + (part.empty() ? "" : part + "_") + padded(step, n_digits_) + ending_;
 }
 
 void SeriesFiles::add(double time, std::size_t part_number, const std::string &path) {
@@ -143,8 +150,7 @@ std::string MarkedFiles::path_of(std::int64_t piece, std::size_t step) const {
   if (is_foam_case_) return foam_time(path_, times_[step]);
   if (is_whole_) return is_series_ ? steps_.path_of(step, "") : path_;
   if (!is_series_) return pieces_.path_of(static_cast<std::size_t>(piece), "");
-  const std::string digits = std::to_string(piece);
-  return pieces_.path_of(step, "p" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits);
+  return pieces_.path_of(step, "p" + padded(static_cast<std::size_t>(piece), 4));
 }
 
 void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file) {
@@ -158,9 +164,7 @@ void MarkedFiles::write(std::int64_t piece, std::size_t step, const riis_vtk_mes
   check(riis_vtk_mesh_get_nodes(file, &n_nodes, nullptr, nullptr));
   if (sample_ || n_nodes == 0) return;
   const char *const name = path.c_str();
-  riis_vtk_pieces *list = nullptr;
-  check(riis_vtk_pieces_create(file, 1, &name, &list));
-  sample_.reset(list);
+  sample_ = create<PieceList>(riis_vtk_pieces_create, file, 1, &name);
 }
 
 void MarkedFiles::add(std::size_t step) {
@@ -184,8 +188,8 @@ void MarkedFiles::list_pieces() {
     for (const std::string &file : files) names.push_back(file.c_str());
     const std::string path = is_series_ ? steps_.path_of(step, "") : path_;
     if (is_writer) {
-      check(riis_vtk_pieces_set_files(sample_.get(), view(names).size(), names.data()));
-      check(riis_vtk_pieces_write(sample_.get(), path.c_str()));
+      check(riis_vtk_pieces_set_files(sample_, view(names).size(), names.data()));
+      check(riis_vtk_pieces_write(sample_, path.c_str()));
     }
     if (is_series_) steps_.add(times_[step], 0, path);
   }

@@ -14,7 +14,6 @@
 
 #include "program/input/case.hpp"
 #include "program/mark/mesh_pieces.hpp"
-#include "program/mark/moving_valve.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {

@@ -28,7 +28,6 @@
 #include "program/input/valve_file.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/marked_files.hpp"
-#include "program/output/pictures.hpp"
 
 namespace riis::program {
 
@@ -37,13 +36,11 @@ namespace {
 namespace fs = std::filesystem;
 
 void check_ending(const std::string &path, const std::string &ending, const std::string &option) {
-  if (!has_ending(path, ending)) throw Refusal{exit_wrong_usage, option + ": " + path + " must end in " + ending};
+  if (!has_ending(path, ending)) refuse_usage(option + ": " + path + " must end in " + ending);
 }
 
-std::string system_text(int error) { return std::generic_category().message(error); }
-
 [[noreturn]] void cannot_be_written(const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, path + ": cannot be written: " + reason};
+  refuse_data(path + ": cannot be written: " + reason);
 }
 
 // Returns whether the path is a device or a pipe. The program writes into these, and replaces any other file as a whole.
@@ -54,7 +51,7 @@ bool is_special(const std::string &path) {
 
 void check_place(const std::string &path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) throw Refusal{exit_bad_data, path + ": is a directory"};
+  if (fs::is_directory(path, error)) refuse_data(path + ": is a directory");
   const fs::path folder = folder_of(place_of(path));
   if (!fs::is_directory(folder, error)) cannot_be_written(path, "the folder " + folder.string() + " does not exist");
   // A new file is written next to the old one and then replaces it.
@@ -66,17 +63,19 @@ void check_place(const std::string &path) {
 
 struct NamedFile {
   std::string option, path;
+  std::string ending{};  // that the file must have; "": any
 };
 
 using NamedFiles = std::vector<NamedFile>;
 
 NamedFiles inputs_of(const ValveOptions &options) {
-  return {{"--surface", options.surface},
-          {"--params", options.params},
-          {"--params-open", options.params_open},
-          {"--wall", options.wall},
-          {"--warp", options.warp},
-          {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
+  NamedFiles inputs = {{"--params", options.params},
+                       {"--params-open", options.params_open},
+                       {"--wall", options.wall},
+                       {"--warp", options.warp},
+                       {"--valve", is_valve_file(options.valve) ? options.valve : options.placed}};
+  for (const std::string &path : options.surface_files) inputs.push_back({"--surface", path});
+  return inputs;
 }
 
 NamedFiles inputs_of(const MarkOptions &options, const std::vector<std::string> &more_inputs) {
@@ -98,10 +97,11 @@ std::string numbers_of(const std::string &xdmf) { return fs::path(xdmf).replace_
 NamedFiles outputs_of(const MarkOptions &options) {
   // Fields of OpenFOAM go into a folder.
   const bool is_folder = is_foam_case(options.output) || is_foam_time(options.output);
+  const bool is_series = !options.series.times.empty();
   NamedFiles outputs = {{"--output", is_folder ? "" : options.output},
-                        {options.surface_output_option, options.surface_output}};
+                        {options.surface_output_option, options.surface_output, is_series ? ".pvd" : ".vtp"}};
   if (has_ending(options.output, ".xdmf")) outputs.push_back({"--output", numbers_of(options.output)});
-  for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path});
+  for (const Picture &picture : options.pictures) outputs.push_back({"--picture", picture.path, ".png"});
   if (options.stats != "-") outputs.push_back({"--stats", options.stats});
   outputs.push_back({"--movie", options.series.movie});
   outputs.push_back({"--series-table", options.series.table});
@@ -134,11 +134,9 @@ void check_folder_of_steps(const std::string &option, const std::string &folder,
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const auto input = inputs.find(identity_of(at->path().string()));
     if (input == inputs.end()) continue;
-    throw Refusal{exit_wrong_usage,
-                  option + ": the folder of its files, " + folder + ", holds the file of " + input->second};
+    refuse_usage(option + ": the folder of its files, " + folder + ", holds the file of " + input->second);
   }
-  if (error == std::errc::permission_denied)
-    throw Refusal{exit_bad_data, folder + ": the folder cannot be read: " + error.message()};
+  if (error == std::errc::permission_denied) refuse_data(folder + ": the folder cannot be read: " + error.message());
 }
 
 void check_distinct(const KnownFiles &inputs, const NamedFiles &files) {
@@ -149,8 +147,7 @@ void check_distinct(const KnownFiles &inputs, const NamedFiles &files) {
     const auto input = inputs.find(identity);
     const auto [other, is_new] = outputs.emplace(identity, output.option);
     if (input == inputs.end() && is_new) continue;
-    throw Refusal{exit_wrong_usage,
-                  output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second};
+    refuse_usage(output.option + ": " + output.path + " is also the file of " + (is_new ? input : other)->second);
   }
 }
 
@@ -165,9 +162,9 @@ OutputLocks locks_of(const NamedFiles &outputs) {
 void check_display() {
   const char *display = std::getenv("DISPLAY");
   if (display && *display) return;
-  throw Refusal{exit_bad_data,
-                "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
-                "xvfb-run -a PROGRAM"};
+  refuse_data(
+      "a picture needs an X display: DISPLAY is not set; on a machine without one, run the program by: "
+      "xvfb-run -a PROGRAM");
 }
 
 // Writes the text to a file. Returns the system's error, or 0 if there is none.
@@ -216,8 +213,15 @@ void check_output(const MarkOptions &options, bool is_series, bool has_pieces) {
     check_ending(path, ".pvd", "--output");
   else if (has_pieces || !has_ending(path, ".xdmf"))
     check_ending(path, has_pieces ? ".pvtu" : ".vtu", "--output");
-  check_place(path);
-  if (has_ending(path, ".xdmf")) check_place(numbers_of(path));
+}
+
+// Checks that files can be written.
+void check_files(const NamedFiles &outputs) {
+  for (const auto &[option, path, ending] : outputs) {
+    if (path.empty()) continue;
+    if (!ending.empty()) check_ending(path, ending, option);
+    check_place(path);
+  }
 }
 
 }  // namespace
@@ -230,68 +234,57 @@ OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::str
   const bool is_series = !options.series.times.empty();
   const bool has_pieces = !options.pieces.empty();  // then the pieces are written to a folder, as the steps of a series
   check_distinct(inputs, outputs);
-  const std::vector<NamedFile> lists = {{"--output", options.output}, {"--surface-output", options.surface_output}};
-  for (const NamedFile &list : lists)
-    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
-      check_folder_of_steps(list.option, SeriesFiles(list.path, "", 1).folder(), inputs);
-  const auto check_file = [](const std::string &path, const char *ending, const std::string &option) {
-    if (path.empty()) return;
-    check_ending(path, ending, option);
-    check_place(path);
-  };
+  std::vector<SeriesFiles> folders;
+  for (const auto &[option, path] :
+       {std::pair<const char *, std::string>{"--output", options.output}, {"--surface-output", options.surface_output}})
+    if (!path.empty() && !is_foam_case(path) && (is_series || (has_pieces && path == options.output))) {
+      folders.emplace_back(path, "", 1);
+      check_folder_of_steps(option, folders.back().folder(), inputs);
+    }
   check_output(options, is_series, has_pieces);
-  check_file(options.surface_output, is_series ? ".pvd" : ".vtp", options.surface_output_option);
-  for (const Picture &picture : options.pictures) check_file(picture.path, ".png", "--picture");
-  if (!options.stats.empty() && options.stats != "-") check_place(options.stats);
-  if (!options.series.table.empty()) check_place(options.series.table);
-  for (const NamedFile &list : lists)
-    if (!list.path.empty() && !is_foam_case(list.path) && (is_series || (has_pieces && list.option == "--output")))
-      SeriesFiles(list.path, "", 1).check_folder();
-  check_movie(options.series.movie);
-  if (!options.series.movie.empty()) check_place(options.series.movie);
+  check_files(outputs);
+  for (const SeriesFiles &files : folders) files.check_folder();
   if (!options.pictures.empty() || !options.series.movie.empty()) check_display();
   return locks_of(outputs);
 }
 
 namespace {
 
-// Checks the only output of a command, its positional argument OUT.
-OutputLocks check_out(const std::string &path, const NamedFiles &inputs) {
-  const NamedFiles outputs = {{"OUT", path == "-" ? "" : path}};
-  check_distinct(known(inputs), outputs);
-  if (path != "-") check_place(path);
-  return locks_of(outputs);
+// Checks the outputs of a command that writes texts. One of them may be "-", stdout.
+OutputLocks check_texts(const NamedFiles &inputs, const NamedFiles &texts) {
+  NamedFiles files;
+  std::string on_stdout;
+  for (const NamedFile &text : texts) {
+    if (text.path != "-") {
+      files.push_back(text);
+      continue;
+    }
+    if (!on_stdout.empty()) refuse_usage(text.option + " and " + on_stdout + " cannot both be on standard output");
+    on_stdout = text.option;
+  }
+  check_distinct(known(inputs), files);
+  check_files(files);
+  return locks_of(files);
 }
 
 }  // namespace
 
 OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs) {
-  return check_out(options.field, inputs_of(options, more_inputs));
+  return check_texts(inputs_of(options, more_inputs), {{"OUT", options.field}});
 }
 
-OutputLocks check_outputs(const StatesOptions &options) { return check_out(options.output, inputs_of(options)); }
+OutputLocks check_outputs(const StatesOptions &options) {
+  return check_texts(inputs_of(options), {{"OUT", options.output}});
+}
 
 OutputLocks check_outputs(const PlaceOptions &options) {
-  NamedFiles inputs = inputs_of(options), outputs;
+  NamedFiles inputs = inputs_of(options);
   inputs.push_back({"LANDMARKS", options.landmarks});
   inputs.push_back({"--mesh", options.mesh});
-  const NamedFile named[] = {{"--output", options.output},
-                             {"--foam", options.foam_output},
-                             {"--c", options.c_output},
-                             {"--fortran", options.fortran_output}};
-  std::string on_stdout;
-  for (const NamedFile &output : named) {
-    if (output.path.empty()) continue;
-    if (output.path != "-") {
-      check_place(output.path);
-      outputs.push_back(output);
-      continue;
-    }
-    if (!on_stdout.empty()) refuse_usage(output.option + " and " + on_stdout + " cannot both be on standard output");
-    on_stdout = output.option;
-  }
-  check_distinct(known(inputs), outputs);
-  return locks_of(outputs);
+  return check_texts(inputs, {{"--output", options.output},
+                              {"--foam", options.foam_output},
+                              {"--c", options.c_output},
+                              {"--fortran", options.fortran_output}});
 }
 
 void check_no_output_is(const std::string &what, const std::vector<std::string> &files, const MarkOptions &options) {
@@ -299,7 +292,7 @@ void check_no_output_is(const std::string &what, const std::vector<std::string> 
   for (const std::string &file : files) identities.insert(identity_of(file));
   for (const NamedFile &output : outputs_of(options)) {
     if (!output.path.empty() && identities.count(identity_of(output.path)) != 0)
-      throw Refusal{exit_wrong_usage, output.option + ": " + output.path + " is " + what};
+      refuse_usage(output.option + ": " + output.path + " is " + what);
   }
 }
 
@@ -308,12 +301,26 @@ bool can_be_replaced(const std::string &path) { return path != "-" && !is_specia
 void write_text(const std::string &path, const std::string &text) {
   if (!ranks::is_first()) return;
   if (path == "-") {
-    if (!(std::cout << text << std::flush)) throw Refusal{exit_bad_data, "standard output: cannot be written"};
+    if (!(std::cout << text << std::flush)) refuse_data("standard output: cannot be written");
     return;
   }
   if (const int error = is_special(path) ? write_through(path, "w", text) : replace_file(path, text)) {
     cannot_be_written(path, system_text(error));
   }
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  path_ = ((error ? fs::path("/tmp") : place) / "riis-XXXXXX").string();
+  if (!mkdtemp(path_.data()))
+    refuse_data("no temporary folder can be made in " + folder_of(path_).string() + ": " + system_text(errno) +
+                "; TMPDIR may name another place");
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
 }
 
 // ---- Output locks ----
@@ -323,8 +330,6 @@ namespace {
 // The lock files of this process. Only the process's first OutputLocks object has lock files. It fills this list before it sets
 // the signal handlers.
 std::vector<std::string> held_locks;
-
-constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
 // A file of this process and its folder, which a signal that ends the process removes. Empty names stand for none.
 char scratch_file[PATH_MAX], scratch_folder[PATH_MAX];
@@ -346,7 +351,7 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   struct sigaction action {};
   action.sa_handler = to;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : ending_signals) {
+  for (const int signal : UnbrokenWrite::signals) {
     struct sigaction before {};
     sigaction(signal, nullptr, &before);
     if (before.sa_handler == from) sigaction(signal, &action, nullptr);
@@ -360,7 +365,7 @@ class SignalsWait {
   SignalsWait() {
     sigset_t ending;
     sigemptyset(&ending);
-    for (const int signal : ending_signals) sigaddset(&ending, signal);
+    for (const int signal : UnbrokenWrite::signals) sigaddset(&ending, signal);
     pthread_sigmask(SIG_BLOCK, &ending, &before_);
   }
   ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -381,7 +386,7 @@ std::string lock_of(const std::string &output) {
 }
 
 [[noreturn]] void refuse_lock(const std::string &output, const std::string &reason) {
-  throw Refusal{exit_bad_data, output + ": " + reason};
+  refuse_data(output + ": " + reason);
 }
 
 bool is_at(int file, const std::string &path) {
@@ -397,8 +402,7 @@ int take(const std::string &output, const std::string &lock) {
     int file = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     // The lock file may be left from a killed run of another user. Then this user may only read it, which suffices for a lock.
     if (file < 0 && errno == EACCES) file = open(lock.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-      refuse_lock(output, "its lock " + lock + " cannot be made: " + std::generic_category().message(errno));
+    if (file < 0) refuse_lock(output, "its lock " + lock + " cannot be made: " + system_text(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
       if (is_at(file, lock)) return file;
       close(file);  // the run that held the lock has just removed its file, so this run makes a new one
@@ -408,8 +412,7 @@ int take(const std::string &output, const std::string &lock) {
     close(file);
     if (error == EINTR) continue;
     if (error == EWOULDBLOCK) refuse_lock(output, "another run of riis is writing it, and holds " + lock);
-    warn(output +
-         ": it cannot be locked, so other runs may write it meanwhile: " + std::generic_category().message(error));
+    warn(output + ": it cannot be locked, so other runs may write it meanwhile: " + system_text(error));
     unlink(lock.c_str());
     return -1;
   }
@@ -471,14 +474,14 @@ UnbrokenWrite::UnbrokenWrite() {
   keep.sa_handler = keep_for_later;
   keep.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   for (int i = 0; i < 3; ++i) {
-    sigaction(signals_[i], nullptr, &before_[i]);
-    if (before_[i].sa_handler != SIG_IGN) sigaction(signals_[i], &keep, nullptr);
+    sigaction(signals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(signals[i], &keep, nullptr);
   }
 }
 
 UnbrokenWrite::~UnbrokenWrite() {
   if (--n_alive > 0) return;
-  for (int i = 0; i < 3; ++i) sigaction(signals_[i], &before_[i], nullptr);
+  for (int i = 0; i < 3; ++i) sigaction(signals[i], &before_[i], nullptr);
   if (waiting_signal != 0) std::raise(waiting_signal);
 }
 

@@ -15,6 +15,20 @@ namespace riis::program {
 // Names a file of this process and its folder. Signals that end the process remove both. Empty names stand for none.
 void remove_if_ended(const std::string &folder, const std::string &file);
 
+// A folder among the temporary files. The destructor removes it with its content.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder &) = delete;
+  TemporaryFolder &operator=(const TemporaryFolder &) = delete;
+
+  const std::string &path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 // Locks on the program's outputs. If two runs would replace the same file, only the first one continues.
 
 // For each output NAME, holds an empty file .riis-NAME.lock next to it, locked by flock. When the process ends for any reason,
@@ -48,11 +62,12 @@ class UnbrokenWrite {
   UnbrokenWrite(const UnbrokenWrite &) = delete;
   UnbrokenWrite &operator=(const UnbrokenWrite &) = delete;
 
+  // The signals that end the process.
+  static constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
   // Returns whether a signal waits. Work in several parts then stops after the present part.
   static bool has_signal();
 
  private:
-  static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP};
   struct sigaction before_[3];
 };
 

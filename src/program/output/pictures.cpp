@@ -4,18 +4,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/other_program.hpp"
 #include "program/base/progress.hpp"
 #include "program/base/refusal.hpp"
@@ -33,19 +31,8 @@ namespace {
 // (docs/meshes.md).
 bool is_papers_aortic_valve(const ValveOptions &options, const riis_valve *valve) {
   if (!valve || options.valve != "aortic") return false;
-  int64_t n_parameters = 0;
-  check(riis_valve_get_n_parameters(valve, &n_parameters));
-  for (int64_t i = 0; i < n_parameters; ++i) {
-    riis_parameter parameter;
-    double values[3] = {0, 0, 0};
-    check(riis_valve_get_parameter(valve, i, &parameter, sizeof parameter));
-    check(riis_valve_get(valve, parameter.name, parameter.n_values, values));
-    // Skips the two parameters of the open state, because they have no effect at opening 0.
-    const std::string_view name = parameter.name;
-    if (name == "open_radius_ratio" || name == "commissure_expansion") continue;
-    if (!std::equal(values, values + 3, parameter.default_values)) return false;
-  }
-  return true;
+  // The two parameters of the open state have no effect at opening 0.
+  return has_default_values(valve, {"open_radius_ratio", "commissure_expansion"});
 }
 
 // Returns the unit for the scale bar, or NULL if it is not known. Without --unit, the centimetres of a valve's parameters and the
@@ -80,15 +67,11 @@ void check_views(const MarkOptions &options, std::size_t n_valves, const ValveOp
   check_view("--movie-view", options.series.movie_view, n_valves, valve);
 }
 
-std::vector<const char *> leaflet_names(const ValveOptions &options) {
-  if (!options.surface.empty()) return {};
-  if (options.valve == "aortic" || options.valve == "coapting" || options.valve == "trileaflet")
-    return {"right", "left", "non-coronary", "skirt"};
-  if (options.valve == "bileaflet") return {"x > 0", "x < 0", "housing"};
-  if (options.valve == "mitral") return {"anterior", "posterior", "leaflet 2", "skirt"};
-  return {};
-}
+// ---- Pictures of a run ----
 
+namespace {
+
+// Returns a title such as "Mitral valve". For a file, the title is the base name.
 std::string title_of_valve(const ValveOptions &options) {
   const std::string name = options.surface.empty() ? options.valve : options.surface;
   if (!options.surface.empty() || is_valve_file(options.valve)) return name.substr(name.rfind('/') + 1);
@@ -97,6 +80,8 @@ std::string title_of_valve(const ValveOptions &options) {
   return title;
 }
 
+// Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
+// other captions do.
 std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report) {
   std::string title = surface_title(report);
   title.erase(0, report.surface_name.rfind('/') + 1);
@@ -104,10 +89,6 @@ std::string picture_title(const ValveOptions &options, const riis_valve *valve, 
   if (is_papers_aortic_valve(options, valve)) title += " (the paper's, not closed)";
   return title;
 }
-
-// ---- Pictures of a run ----
-
-namespace {
 
 // Returns the largest number of decimals of the times. All times in a movie are shown with this number, so their texts have the
 // same length.
@@ -123,9 +104,7 @@ int decimals_of(const std::vector<double> &times) {
 }
 
 std::string fixed(double number, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, number);
-  return text;
+  return printed(("%." + std::to_string(decimals) + "f").c_str(), number);
 }
 
 // The marks of several valves together. A node gets the leaflet of its nearest valve.
@@ -150,11 +129,10 @@ struct JoinedMarks {
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   if (valves.size() == 1 && !all.is_series()) {
-    for (const char *name : leaflet_names(valves[0].options())) texts.emplace_back(name);
-    return texts;
+    return leaflet_names(valves[0].options());
   }
   for (std::size_t valve = 0; valve < valves.size(); ++valve) {
-    const std::vector<const char *> names = leaflet_names(valves[valve].options());
+    const std::vector<std::string> names = leaflet_names(valves[valve].options());
     const std::string part = all.part_of(valve), prefix = part.empty() ? "" : part + " ";
     const int32_t n = n_leaflets_of(valves[valve].surface());
     for (int32_t leaflet = 0; leaflet < n; ++leaflet) {
@@ -169,7 +147,7 @@ std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<Mov
 
 RunPictures::RunPictures(const Case &all, MeshFile mesh, const Box &box)
     : all_(all), mesh_(std::move(mesh)), box_(box) {
-  if (all.is_series()) nodes_.emplace(mesh_.get(), all.options.mesh);
+  if (all.is_series()) nodes_.emplace(mesh_, all.options.mesh);
   if (!all.options.series.movie.empty()) movie_.emplace(all.options.series.movie, all.options.series.frame_rate);
 }
 
@@ -184,22 +162,22 @@ void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   if (all_.is_series())
     for (MovingValve &valve : valves) valve.mark(*nodes_, 0);
   if (valves.size() == 1) {
-    check(riis_vtk_mesh_set_marks(mesh_.get(), valves[0].result(), all_.options.far_distance, nullptr));
+    check(riis_vtk_mesh_set_marks(mesh_, valves[0].result(), all_.options.far_distance, nullptr));
     return;
   }
   const std::int64_t n = valves[0].stats().n_nodes;
   JoinedMarks marks(static_cast<std::size_t>(n));
   const std::vector<int32_t> first = first_leaflets(valves);
   for (std::size_t valve = 0; valve < valves.size(); ++valve) marks.add(valves[valve].result(), first[valve]);
-  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_marked", n, 1, marks.marked.data()));
-  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_distance", n, 1, marks.distance.data()));
-  check(riis_vtk_mesh_set_point_array(mesh_.get(), "riis_leaflet", n, 1, marks.leaflet.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_, "riis_marked", n, 1, marks.marked.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_, "riis_distance", n, 1, marks.distance.data()));
+  check(riis_vtk_mesh_set_point_array(mesh_, "riis_leaflet", n, 1, marks.leaflet.data()));
 }
 
 std::string RunPictures::title(std::size_t step, const std::vector<MovingValve> &valves, const Report &report) const {
   const MovingValve &first = valves[0];
   if (valves.size() == 1 && !all_.is_series())
-    return picture_title(first.options(), first.source().valve.get(), report.valves[0]);
+    return picture_title(first.options(), first.source().valve, report.valves[0]);
   const std::vector<double> &times = all_.options.series.times;
   const std::string time = times.empty() ? "" : fixed(times[step], decimals_of(times));
   if (valves.size() > 1) {
@@ -248,19 +226,17 @@ void RunPictures::draw_pictures(const std::vector<MovingValve> &valves, const st
     options.leaking_edges = leaks.edges.empty() ? nullptr : leaks.edges.data();
     if (leaks.found.n_edges == 0 && leaks.has_all_edges()) options.leaking_edges = &none;
   }
-  check(riis_vtk_draw_views(surface, mesh_.get(), &options, view(paths).size(), views.data(), paths.data()));
+  check(riis_vtk_draw_views(surface, mesh_, &options, view(paths).size(), views.data(), paths.data()));
   report.written.insert(report.written.end(), paths.begin(), paths.end());
   report.seconds.picture = stage.seconds();
 }
 
 riis_vtk_film *RunPictures::film(const std::vector<MovingValve> &valves) {
-  if (film_) return film_.get();
+  if (film_) return film_;
   riis_vtk_picture_options options = how(valves);
   options.view = all_.options.series.movie_view;
-  riis_vtk_film *film = nullptr;
-  check(riis_vtk_film_create(mesh_.get(), box_.lower, box_.upper, &options, &film));
-  film_.reset(film);
-  return film;
+  film_ = create<Film>(riis_vtk_film_create, mesh_, box_.lower, box_.upper, &options);
+  return film_;
 }
 
 void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Report &report) {
@@ -271,7 +247,7 @@ void RunPictures::draw(std::size_t step, std::vector<MovingValve> &valves, Repor
   }
   set_marks_of(valves);
   const Surface joined = valves.size() > 1 ? joined_surface(valves) : nullptr;
-  const riis_surface *surface = joined ? joined.get() : valves[0].surface();
+  const riis_surface *surface = joined ? joined : valves[0].surface();
   const std::string text = title(step, valves, report);
   if (step == 0) draw_pictures(valves, text, surface, report);
   if (movie_) check(riis_vtk_film_draw(film(valves), surface, text.c_str(), movie_->next_frame().c_str()));
@@ -291,20 +267,17 @@ namespace {
 // Returns the path of the program with that name on the PATH, or "" if there is none.
 std::string program_on_path(const std::string &name) {
   const char *path = std::getenv("PATH");
-  std::string folders = path ? path : "";
-  for (std::size_t begin = 0; begin <= folders.size();) {
-    const std::size_t end = std::min(folders.find(':', begin), folders.size());
-    const std::string program = folders.substr(begin, end - begin) + "/" + name;
+  for (const std::string &folder : split(path ? path : "", ":")) {
+    const std::string program = folder + "/" + name;
     std::error_code error;
-    if (end > begin && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
+    if (!folder.empty() && std::filesystem::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0)
       return program;
-    begin = end + 1;
   }
   return "";
 }
 
 [[noreturn]] void refuse_movie(const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, path + ": the movie cannot be made: " + reason};
+  refuse_data(path + ": the movie cannot be made: " + reason);
 }
 
 // Returns the name of a frame's file. It contains the frame's number in the form that ffmpeg reads.
@@ -336,65 +309,37 @@ std::vector<std::string> encoding_of(const std::string &path) {
   return {"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", "-movflags", "+faststart", "-f", "mp4"};
 }
 
-// Runs a program that must be there. Returns its exit status, or -1 if a signal ended it.
-int run_program_to_log(const std::vector<std::string> &words, const std::string &log) {
-  const ProgramEnd end = run_program(words, log);
-  if (end.error != 0)
-    throw Refusal{exit_bad_data, words[0] + ": cannot be run: " + std::generic_category().message(end.error)};
-  return end.status;
-}
-
-std::string last_line_of(const std::string &path) {
-  std::ifstream file(path);
-  std::string last, line;
-  while (std::getline(file, line))
-    if (!line.empty()) last = line;
-  return last.substr(0, 200);
-}
-
 }  // namespace
 
 void check_movie(const std::string &path) {
   if (path.empty()) return;
   if (!has_ending(path, ".mp4") && !has_ending(path, ".gif"))
-    throw Refusal{exit_wrong_usage, "--movie: " + path + " must end in .mp4 or .gif"};
+    refuse_usage("--movie: " + path + " must end in .mp4 or .gif");
   if (program_on_path("ffmpeg").empty())
-    throw Refusal{exit_bad_data,
-                  "--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it"};
+    refuse_data("--movie needs the program ffmpeg, which is not on the PATH; on Debian the package ffmpeg has it");
 }
 
-Movie::Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {
-  std::string folder = (std::filesystem::temp_directory_path() / "riis-XXXXXX").string();
-  if (!mkdtemp(folder.data())) refuse_movie(path, folder + ": " + std::generic_category().message(errno));
-  folder_ = folder;
-}
-
-Movie::~Movie() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string Movie::next_frame() { return folder_ + "/" + frame_name(n_frames_++); }
+std::string Movie::next_frame() { return folder_.path() + "/" + frame_name(n_frames_++); }
 
 void Movie::encode() const {
   const UnbrokenWrite unbroken;
   const std::filesystem::path place = place_of(path_);
   const std::string temporary = (folder_of(place) / (".riis-" + std::to_string(getpid()) + "-movie.tmp")).string();
-  const std::string log = folder_ + "/ffmpeg.log";
   std::vector<std::string> words = {
-      program_on_path("ffmpeg"), "-nostdin", "-loglevel",           "error", "-y", "-framerate",
-      shortest(frame_rate_),     "-i",       frame_pattern(folder_)};
+      program_on_path("ffmpeg"),    "-nostdin", "-loglevel", "error", "-y", "-framerate", shortest(frame_rate_), "-i",
+      frame_pattern(folder_.path())};
   const std::vector<std::string> encoding = encoding_of(path_);
   words.insert(words.end(), encoding.begin(), encoding.end());
   words.push_back(temporary);
-  const int status = run_program_to_log(words, log);
-  if (status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
+  const ProgramEnd end = run_program(words);
+  if (end.error != 0) refuse_data(words[0] + ": cannot be run: " + system_text(end.error));
+  if (end.status == 0 && std::rename(temporary.c_str(), place.c_str()) == 0) return;
   const int error = errno;
   std::remove(temporary.c_str());
   // The user's Ctrl-C also reaches ffmpeg. Then the failure needs no message.
   if (UnbrokenWrite::has_signal()) return;
-  if (status == 0) refuse_movie(path_, std::generic_category().message(error));
-  refuse_movie(path_, "ffmpeg ends with status " + std::to_string(status) + ": " + last_line_of(log));
+  if (end.status == 0) refuse_movie(path_, system_text(error));
+  refuse_movie(path_, "ffmpeg ends with status " + std::to_string(end.status) + ": " + end.last_message.substr(0, 200));
 }
 
 }  // namespace riis::program

@@ -13,20 +13,10 @@
 #include "program/base/options.hpp"
 #include "program/input/case.hpp"
 #include "program/mark/moving_valve.hpp"
-#include "program/mark/warnings.hpp"
+#include "program/output/outputs.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
-
-// Returns the names of a valve's leaflets. Returns no names for a file, because its leaflets only have numbers.
-std::vector<const char *> leaflet_names(const ValveOptions &options);
-
-// Returns a title such as "Mitral valve". For a file, the title is the base name.
-std::string title_of_valve(const ValveOptions &options);
-
-// Returns the title of a picture. For a file, it begins with the base name. For a kind of valve, it begins with a capital, as
-// other captions do.
-std::string picture_title(const ValveOptions &options, const riis_valve *valve, const ValveReport &report);
 
 // Refuses views by the valve's axes if there are several valves, or if the only one is a file of triangles without axes.
 // `valve` has the options of the first valve.
@@ -39,11 +29,7 @@ void check_movie(const std::string &path);
 
 class Movie {
  public:
-  // Makes a temporary folder, which the destructor removes.
-  Movie(const std::string &path, double frame_rate);
-  ~Movie();
-  Movie(const Movie &) = delete;
-  Movie &operator=(const Movie &) = delete;
+  Movie(const std::string &path, double frame_rate) : path_(path), frame_rate_(frame_rate) {}
 
   // Returns the path of the next frame. The caller must write a .png file there.
   std::string next_frame();
@@ -51,8 +37,9 @@ class Movie {
   void encode() const;
 
  private:
-  std::string path_, folder_;
+  std::string path_;
   double frame_rate_;
+  const TemporaryFolder folder_;  // of the frames
   std::size_t n_frames_ = 0;
 };
 

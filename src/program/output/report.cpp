@@ -8,38 +8,13 @@
 #include <sstream>
 
 #include "common/array_view.hpp"
+#include "program/base/options.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
 namespace {
-
-const char *search_name(int32_t search) {
-  switch (search) {
-    case RIIS_SEARCH_EXHAUSTIVE:
-      return "exhaustive";
-    case RIIS_SEARCH_NEIGHBOR:
-      return "neighbor";
-    case RIIS_SEARCH_PAPER:
-      return "paper";
-    case RIIS_SEARCH_CLUSTERS:
-      return "clusters";
-    default:
-      return "unknown";
-  }
-}
-
-const char *distance_name(int32_t distance) {
-  switch (distance) {
-    case RIIS_MEASURE_SAMPLING:
-      return "sampling";
-    case RIIS_MEASURE_MINIMIZATION:
-      return "minimization";
-    default:
-      return "triangles";
-  }
-}
 
 std::ostringstream table_stream() {
   std::ostringstream out;
@@ -98,8 +73,8 @@ void add_times(const ValveReport &valve, std::ostringstream &out) {
 
 void add_search(const ValveReport &valve, std::ostringstream &out) {
   const riis_mark_stats &marks = valve.marks;
-  out << line("search", valve.name) << search_name(marks.search) << ", " << counted(marks.n_threads, "thread");
-  if (valve.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << distance_name(valve.distance);
+  out << line("search", valve.name) << view(search_names)[marks.search] << ", " << counted(marks.n_threads, "thread");
+  if (valve.distance != RIIS_MEASURE_TRIANGLES) out << ", distances by " << view(distance_names)[valve.distance];
   if (marks.n_unreached > 0) out << ", " << counted(marks.n_unreached, "node") << " not reached from a neighbour";
   out << "\n";
   if (!marks.complete)
@@ -139,15 +114,18 @@ const char *state_name(int32_t state) {
   return state == RIIS_PASSAGE_OPEN ? "open" : state == RIIS_PASSAGE_CLOSED ? "closed" : "none";
 }
 
+// Returns the value, or null.
+nlohmann::ordered_json if_known(bool is_known, const nlohmann::ordered_json &value) {
+  return is_known ? value : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json json_of_passage(const PassageReport &passage) {
   const riis_passage &found = passage.found;
   return {{"state", passage.is_unknown ? "unknown" : state_name(found.state)},
           {"node_id", found.node_id},
           {"distance", found.distance},
           {"point", found.point},
-          {"closing_half_thickness", passage.closing_half_thickness > 0
-                                         ? nlohmann::ordered_json(passage.closing_half_thickness)
-                                         : nlohmann::ordered_json()}};
+          {"closing_half_thickness", if_known(passage.closing_half_thickness > 0, passage.closing_half_thickness)}};
 }
 
 // Adds the lines about the flow to the table. A measure that is not set has no line.
@@ -188,6 +166,11 @@ nlohmann::ordered_json json_of_first(const riis_first_passage &first) {
           {"n_openings", first.n_openings}};
 }
 
+const char *outline_name(int32_t outline) {
+  static const char *const names[] = {"none", "disc", "attachment", "boundary"};
+  return view(names)[outline];
+}
+
 void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
   if (flow.orifice)
     json["orifice"] = {{"outline", outline_name(flow.orifice->outline)}, {"area", flow.orifice->area},
@@ -205,17 +188,24 @@ void add_flow(const FlowReport &flow, nlohmann::ordered_json &json) {
   if (flow.leak_per_drop && flow.drop) json["leak"] = *flow.leak_per_drop * *flow.drop;
 }
 
+using Stages = std::vector<std::pair<const char *, double>>;
+Stages stages_of(const Seconds &s) {
+  return {{"read", s.read},   {"surface", s.surface},     {"scene", s.scene},
+          {"mesh", s.mesh},   {"adjacency", s.adjacency}, {"search", s.search},
+          {"leaks", s.leaks}, {"write", s.write},         {"picture", s.picture}};
+}
+
 void add_seconds(const Seconds &seconds, std::ostringstream &out) {
-  out << std::fixed << std::setprecision(3) << line("seconds", "") << "read " << seconds.read << ", surface "
-      << seconds.surface << ", scene " << seconds.scene << ", mesh " << seconds.mesh << ", adjacency "
-      << seconds.adjacency << ", search " << seconds.search << ", leaks " << seconds.leaks << ", write "
-      << seconds.write << ", picture " << seconds.picture << "\n";
+  out << std::fixed << std::setprecision(3) << line("seconds", "");
+  const char *before = "";
+  for (const auto &[stage, taken] : stages_of(seconds)) out << std::exchange(before, ", ") << stage << " " << taken;
+  out << "\n";
 }
 
 void add_step(const StepTimes &step, std::ostringstream &out) {
   out << std::setprecision(6) << line("step", "") << step.surface + step.marking << " s: surface " << step.surface
       << ", search " << step.marking << "; median of " << counted(step.n_steps, "step") << " of " << std::defaultfloat
-      << opening_of_step << " in opening, search " << search_name(step.search) << "\n";
+      << opening_of_step << " in opening, search " << view(search_names)[step.search] << "\n";
 }
 
 }  // namespace
@@ -224,11 +214,6 @@ std::string grouped(int64_t n) {
   std::string digits = std::to_string(n);
   for (std::size_t i = digits.size(); i > 3;) digits.insert(i -= 3, ",");
   return digits;
-}
-
-const char *outline_name(int32_t outline) {
-  static const char *const names[] = {"none", "disc", "attachment", "boundary"};
-  return view(names)[outline];
 }
 
 std::string counted(int64_t n, const char *singular) { return grouped(n) + " " + singular + (n == 1 ? "" : "s"); }
@@ -265,30 +250,25 @@ std::string line_of_passage(const Report &report) {
 namespace {
 
 nlohmann::ordered_json json_of_seconds(const Seconds &seconds) {
-  return {{"read", seconds.read},   {"surface", seconds.surface},     {"scene", seconds.scene},
-          {"mesh", seconds.mesh},   {"adjacency", seconds.adjacency}, {"search", seconds.search},
-          {"leaks", seconds.leaks}, {"write", seconds.write},         {"picture", seconds.picture}};
+  nlohmann::ordered_json json;
+  for (const auto &[stage, taken] : stages_of(seconds)) json[stage] = taken;
+  return json;
 }
 
 void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
   const riis_mark_stats &marks = valve.marks;
   const LeakReport &leaks = valve.leaks;
-  const bool are_unknown = leaks.found.n_edges == 0 && !leaks.has_all_edges();
-  const auto if_known = [&](const nlohmann::ordered_json &value) {
-    return are_unknown ? nlohmann::ordered_json() : value;
-  };
+  const bool are_known = leaks.found.n_edges > 0 || leaks.has_all_edges();
   json.update({{"distance_limit", valve.distance_limit},
-               {"search", search_name(marks.search)},
-               {"distance", distance_name(valve.distance)},
+               {"search", view(search_names)[marks.search]},
+               {"distance", view(distance_names)[valve.distance]},
                {"threads", marks.n_threads},
                {"complete", marks.complete != 0},
                {"n_unreached", marks.n_unreached},
-               {"n_leaking_edges", if_known(leaks.found.n_edges)},
-               {"longest_leaking_edge", if_known(leaks.found.longest_length)},
-               {"longest_leaking_edge_middle", if_known(leaks.found.longest_middle)},
-               {"closing_half_thickness", leaks.closing_half_thickness > 0
-                                              ? nlohmann::ordered_json(leaks.closing_half_thickness)
-                                              : nlohmann::ordered_json()},
+               {"n_leaking_edges", if_known(are_known, leaks.found.n_edges)},
+               {"longest_leaking_edge", if_known(are_known, leaks.found.longest_length)},
+               {"longest_leaking_edge_middle", if_known(are_known, leaks.found.longest_middle)},
+               {"closing_half_thickness", if_known(leaks.closing_half_thickness > 0, leaks.closing_half_thickness)},
                {"n_volume_cells", leaks.n_volume_cells},
                {"n_cells_without_known_edges", leaks.n_cells_left_out}});
 }
@@ -322,7 +302,7 @@ nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &va
   add_flow(valve.flow, json);
   if (is_only && report.step) {
     json["step"] = {{"n_steps", report.step->n_steps},
-                    {"search", search_name(report.step->search)},
+                    {"search", view(search_names)[report.step->search]},
                     {"seconds_surface", report.step->surface},
                     {"seconds_search", report.step->marking}};
   }

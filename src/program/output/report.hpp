@@ -108,8 +108,6 @@ struct Report {
 
 // Returns a number as text with commas, such as "15,745".
 std::string grouped(int64_t n);
-// Returns the name of RIIS_OUTLINE_*.
-const char *outline_name(int32_t outline);
 // Returns a number with its noun in the singular or plural, such as "1 node".
 std::string counted(int64_t n, const char *singular);
 // Returns a text such as "mitral valve, opening 0.5".

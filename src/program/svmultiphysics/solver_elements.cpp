@@ -197,21 +197,20 @@ std::vector<ReferencePoint> fine_points(Shape shape) {
   return points;
 }
 
-SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, std::size_t n_nodes) {
+SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, std::vector<Place> nodes,
+                         std::vector<ReferencePoint> gauss) {
   SolverElement element{};
   element.name = name;
   element.vtk_type = vtk_type;
-  element.n_nodes = n_nodes;
+  element.n_nodes = nodes.size();
   element.n_corners = shape == Shape::tetrahedron ? 4 : shape == Shape::wedge ? 6 : 8;
-  element.node_places = shape == Shape::tetrahedron ? tetrahedron_nodes(n_nodes)
-                        : shape == Shape::wedge     ? wedge_nodes()
-                                                    : hexahedron_nodes(n_nodes);
-  element.has_one_gradient = n_nodes == 4 || n_nodes == 6;
-  element.gauss = shape == Shape::tetrahedron ? tetrahedron_gauss(n_nodes)
-                  : shape == Shape::wedge     ? wedge_gauss()
-                                              : hexahedron_gauss(n_nodes == 8 ? 2 : 3);
+  element.node_places = std::move(nodes);
+  element.gauss = std::move(gauss);
   for (const ReferencePoint &point : element.gauss)
     element.at_gauss.push_back(shapes_at(shape, element.node_places, point.at));
+  // The solver evaluates the gradients of wedges at its first Gauss point only. Linear tetrahedra have the same everywhere.
+  if (shape == Shape::wedge)
+    for (ShapeFunctions &functions : element.at_gauss) functions.slopes = element.at_gauss[0].slopes;
   element.fine = fine_points(shape);
   for (const ReferencePoint &point : element.fine)
     element.at_fine.push_back(shapes_at(shape, element.node_places, point.at));
@@ -222,9 +221,12 @@ SolverElement element_of(const char *name, std::uint8_t vtk_type, Shape shape, s
 
 const SolverElement *solver_element_of(std::uint8_t vtk_type) {
   static const std::vector<SolverElement> elements = {
-      element_of("tet4", 10, Shape::tetrahedron, 4),  element_of("wedge6", 13, Shape::wedge, 6),
-      element_of("hex8", 12, Shape::hexahedron, 8),   element_of("tet10", 24, Shape::tetrahedron, 10),
-      element_of("hex20", 25, Shape::hexahedron, 20), element_of("hex27", 29, Shape::hexahedron, 27)};
+      element_of("tet4", 10, Shape::tetrahedron, tetrahedron_nodes(4), tetrahedron_gauss(4)),
+      element_of("wedge6", 13, Shape::wedge, wedge_nodes(), wedge_gauss()),
+      element_of("hex8", 12, Shape::hexahedron, hexahedron_nodes(8), hexahedron_gauss(2)),
+      element_of("tet10", 24, Shape::tetrahedron, tetrahedron_nodes(10), tetrahedron_gauss(10)),
+      element_of("hex20", 25, Shape::hexahedron, hexahedron_nodes(20), hexahedron_gauss(3)),
+      element_of("hex27", 29, Shape::hexahedron, hexahedron_nodes(27), hexahedron_gauss(3))};
   const auto found = std::find_if(elements.begin(), elements.end(),
                                   [vtk_type](const SolverElement &element) { return element.vtk_type == vtk_type; });
   return found == elements.end() ? nullptr : &*found;

@@ -30,6 +30,85 @@ namespace {
 // The longest edge, in half thicknesses, up to which the solver's sum of delta is within 1 % of the exact sum (docs/export.md).
 constexpr double fine_edges = 0.15;
 
+namespace fs = std::filesystem;
+
+std::string without_last_slashes(std::string path) {
+  while (path.size() > 1 && path.back() == '/') path.pop_back();
+  return path;
+}
+
+[[noreturn]] void refuse_folder(const std::string &option, const std::string &path, const std::string &reason) {
+  refuse_data(option + ": " + path + ": " + reason);
+}
+
+void check_writable(const std::string &option, const std::string &path, const std::string &folder) {
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return;
+  refuse_folder(option, path, "the folder " + folder + " cannot be written to: " + system_text(errno));
+}
+
+// Refuses a folder that WholeFolder would refuse. Changes nothing.
+void check_whole_folder(const std::string &given, const std::string &option) {
+  const std::string path = without_last_slashes(given);
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    const std::string parent = folder_of(path).string();
+    if (!fs::is_directory(parent, error)) refuse_folder(option, path, "the folder " + parent + " does not exist");
+    return check_writable(option, path, parent);
+  }
+  if (!fs::is_directory(status)) refuse_folder(option, path, "is a file, not a folder");
+  const bool is_empty = fs::is_empty(path, error);
+  if (error) refuse_folder(option, path, "cannot be read: " + error.message());
+  if (!is_empty) refuse_folder(option, path, "the folder is not empty");
+  check_writable(option, path, path);
+}
+
+// A folder that receives its files only when all of them are written. Until then the files are in a folder inside it whose name
+// begins with a dot. If take_place() was not called, the destructor removes everything.
+class WholeFolder {
+ public:
+  // Makes the folder, or uses an empty one. The Refusal names the option.
+  WholeFolder(const std::string &path, const std::string &option)
+      : path_(without_last_slashes(path)), unfinished_(path_ + "/.riis-" + std::to_string(getpid()) + ".tmp") {
+    check_whole_folder(path_, option);
+    std::error_code error;
+    was_made_ = fs::create_directory(path_, error);
+    if (!error) fs::create_directory(unfinished_, error);
+    if (!error) return;
+    if (was_made_) fs::remove(path_, error);
+    refuse_folder(option, path_, "cannot be made: " + error.message());
+  }
+  ~WholeFolder() {
+    if (is_whole_) return;
+    std::error_code error;
+    for (const std::string &name : names_) fs::remove(path_ + "/" + name, error);
+    fs::remove_all(unfinished_, error);
+    if (was_made_) fs::remove(path_, error);
+  }
+  WholeFolder(const WholeFolder &) = delete;
+  WholeFolder &operator=(const WholeFolder &) = delete;
+
+  // Returns the path at which the caller must write the file with this name. The name must be new.
+  std::string new_file(const std::string &name) {
+    names_.push_back(name);
+    return unfinished_ + "/" + name;
+  }
+  void take_place() {
+    std::error_code error;
+    for (const std::string &name : names_) {
+      fs::rename(unfinished_ + "/" + name, path_ + "/" + name, error);
+      if (error) refuse_data(path_ + "/" + name + ": cannot be written: " + error.message());
+    }
+    fs::remove(unfinished_, error);
+    is_whole_ = true;
+  }
+
+ private:
+  std::string path_, unfinished_;
+  bool was_made_ = false, is_whole_ = false;
+  std::vector<std::string> names_;
+};
+
 // A file that is written piece by piece, because a long motion does not fit in memory.
 class TextFile {
  public:
@@ -47,7 +126,7 @@ class TextFile {
  private:
   void check_written() {
     if (file_) return;
-    throw Refusal{exit_bad_data, path_ + ": cannot be written: " + std::generic_category().message(errno)};
+    refuse_data(path_ + ": cannot be written: " + system_text(errno));
   }
 
   std::string path_;
@@ -93,7 +172,7 @@ std::string vtu_text(const std::vector<double> &xyz, const UrisLeaflet &leaflet)
 // Stops the export between two frames if a signal waits. The signal ends the process once the files are removed, so the message
 // is never printed.
 void stop_if_interrupted() {
-  if (UnbrokenWrite::has_signal()) throw Refusal{exit_bad_data, "riis export: interrupted, and nothing is left"};
+  if (UnbrokenWrite::has_signal()) refuse_data("riis export: interrupted, and nothing is left");
 }
 
 void write_frames(UrisLeaflets &leaflets, const std::vector<double> &openings, const std::string &ending,
@@ -209,80 +288,6 @@ void export_uris(const ExportOptions &options) {
   const UrisForecast forecast = options.mesh.empty() ? UrisForecast{} : forecast_of(options, motion, leaflets);
   write_export(options, motion, leaflets, forecast);
   if (!options.quiet) write_text("-", mesh_block(options, motion, leaflets, forecast));
-}
-
-// ---- Uris files ----
-
-namespace {
-
-namespace fs = std::filesystem;
-
-std::string without_last_slashes(std::string path) {
-  while (path.size() > 1 && path.back() == '/') path.pop_back();
-  return path;
-}
-
-[[noreturn]] void refuse_folder(const std::string &option, const std::string &path, const std::string &reason) {
-  throw Refusal{exit_bad_data, option + ": " + path + ": " + reason};
-}
-
-void check_writable(const std::string &option, const std::string &path, const std::string &folder) {
-  if (access(folder.c_str(), W_OK | X_OK) == 0) return;
-  refuse_folder(option, path,
-                "the folder " + folder + " cannot be written to: " + std::generic_category().message(errno));
-}
-
-}  // namespace
-
-void check_whole_folder(const std::string &given, const std::string &option) {
-  const std::string path = without_last_slashes(given);
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) {
-    const std::string parent = folder_of(path).string();
-    if (!fs::is_directory(parent, error)) refuse_folder(option, path, "the folder " + parent + " does not exist");
-    return check_writable(option, path, parent);
-  }
-  if (!fs::is_directory(status)) refuse_folder(option, path, "is a file, not a folder");
-  const bool is_empty = fs::is_empty(path, error);
-  if (error) refuse_folder(option, path, "cannot be read: " + error.message());
-  if (!is_empty) refuse_folder(option, path, "the folder is not empty");
-  check_writable(option, path, path);
-}
-
-WholeFolder::WholeFolder(const std::string &path, const std::string &option)
-    : path_(without_last_slashes(path)), unfinished_(path_ + "/.riis-" + std::to_string(getpid()) + ".tmp") {
-  check_whole_folder(path_, option);
-  std::error_code error;
-  was_made_ = fs::create_directory(path_, error);
-  if (!error) fs::create_directory(unfinished_, error);
-  if (!error) return;
-  if (was_made_) fs::remove(path_, error);
-  refuse_folder(option, path_, "cannot be made: " + error.message());
-}
-
-WholeFolder::~WholeFolder() {
-  if (is_whole_) return;
-  std::error_code error;
-  for (const std::string &name : names_) fs::remove(path_ + "/" + name, error);
-  fs::remove_all(unfinished_, error);
-  if (was_made_) fs::remove(path_, error);
-}
-
-std::string WholeFolder::new_file(const std::string &name) {
-  names_.push_back(name);
-  return unfinished_ + "/" + name;
-}
-
-void WholeFolder::take_place() {
-  for (const std::string &name : names_) {
-    std::error_code error;
-    fs::rename(unfinished_ + "/" + name, path_ + "/" + name, error);
-    if (error) throw Refusal{exit_bad_data, path_ + "/" + name + ": cannot be written: " + error.message()};
-  }
-  std::error_code error;
-  fs::remove(unfinished_, error);
-  is_whole_ = true;
 }
 
 }  // namespace riis::program

@@ -55,7 +55,7 @@ class Arrays {
  private:
   void write(const void *bytes, std::size_t n) { check_written(std::fwrite(bytes, 1, n, file_.get()) == n); }
   static void check_written(bool is_fine) {
-    if (!is_fine) throw NoFlow{std::string("a temporary file cannot be written: ") + std::strerror(errno)};
+    if (!is_fine) throw NoFlow{std::string("a temporary file cannot be written: ") + system_text(errno)};
   }
 
   TemporaryFile file_ = temporary_file();
@@ -71,7 +71,7 @@ std::vector<double> flat(const std::vector<std::array<double, n>> &points) {
 void add_element(const SolverElement &element, Arrays &arrays) {
   std::vector<double> weights, values, slopes;
   for (std::size_t g = 0; g < element.gauss.size(); ++g) {
-    const std::vector<double> of_point = flat(element.at_gauss[element.has_one_gradient ? 0 : g].slopes);
+    const std::vector<double> of_point = flat(element.at_gauss[g].slopes);
     weights.push_back(element.gauss[g].weight);
     values.insert(values.end(), element.at_gauss[g].values.begin(), element.at_gauss[g].values.end());
     slopes.insert(slopes.end(), of_point.begin(), of_point.end());
@@ -121,8 +121,8 @@ ClosedDrop closed_drop(const SolverMesh &mesh, const SolverDistances &distances,
   const std::string python = python_of_user();
   // The current folder is left out of Python's path, because its files may have the names of modules.
   const std::string script = std::string("import sys; del sys.path[0]\n") + uris_flow_script;
-  const LinesEnd end = read_program({python, "-c", script}, arrays.file(), read);
-  if (end.error != 0) throw NoFlow{python + " cannot be run: " + std::strerror(end.error)};
+  const ProgramEnd end = run_program({python, "-c", script}, arrays.file(), read);
+  if (end.error != 0) throw NoFlow{python + " cannot be run: " + system_text(end.error)};
   if (last.rfind("lacks ", 0) == 0) throw NoFlow{python + ' ' + last};
   if (end.status != 0) throw NoFlow{python + " failed" + (end.last_message.empty() ? "" : ": " + end.last_message)};
   ClosedDrop drop;

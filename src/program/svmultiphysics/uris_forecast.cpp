@@ -2,7 +2,6 @@
 #include "program/svmultiphysics/uris_forecast.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
 #include "common/array_view.hpp"
@@ -87,25 +86,17 @@ class Forecaster {
   }
 
   [[noreturn]] void refuse_motion(const std::string &verb, const std::string &reason) const {
-    throw Refusal{exit_bad_data, options_.mesh + ": svMultiPhysics would never " + verb + " the valve: " + reason};
-  }
-
-  static std::string printed(const char *format, double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
+    refuse_data(options_.mesh + ": svMultiPhysics would never " + verb + " the valve: " + reason);
   }
 
   void check_closed(double opening) {
     const SolverDistances distances = distances_at(opening, true);
     const SolverBand before = band_before(distances, true), behind = band_behind(distances);
     const std::string from_to = " from " + shown(half_thickness_) + " to " + shown(band_end * half_thickness_);
-    if (before.n_nodes == 0)
-      refuse_motion("open", "no node is before the closed leaflets at a distance" + from_to +
-                                ", where the solver takes the pressure");
-    if (behind.n_nodes == 0)
-      refuse_motion("open", "no node is behind the closed leaflets at a distance" + from_to +
-                                ", where the solver takes the pressure");
+    for (const auto &[band, side] : {std::pair(&before, "before"), {&behind, "behind"}})
+      if (band->n_nodes == 0)
+        refuse_motion("open", std::string("no node is ") + side + " the closed leaflets at a distance" + from_to +
+                                  ", where the solver takes the pressure");
     std::int64_t n_triangles = 0;
     for (const UrisLeaflet &leaflet : leaflets_.leaflets())
       if (!leaflet.is_scaffold) n_triangles += view(leaflet.triangles).size();
@@ -126,24 +117,19 @@ class Forecaster {
     say("  before: " + text_of(before));
   }
 
-  // The expected drop over (R / eps) u.
-  struct Expected {
-    enum { separated, let_past, not_found } state = separated;
+  // The expected drop over (R / eps) u, if the equations were solved.
+  struct Expected : ClosedDrop {
     double drop = 0, area = 0;
   };
   Expected expected_at(double half_thickness, const SolverDistances &distances, const SolverDistances &wide,
                        const std::vector<double> &near) const {
     const double reach = std::max(2.5 * half_thickness, half_thickness + 2 * median_edge_);
-    const ClosedDrop drop =
-        closed_drop(mesh_, distances, wide, near, reach, half_thickness,
-                    {options_.resistance, options_.density, options_.viscosity, options_.time_step}, options_.quiet);
-    Expected expected;
-    expected.state = !drop.is_separated ? Expected::let_past
-                     : drop.is_solved   ? Expected::separated
-                                        : Expected::not_found;
-    if (expected.state != Expected::separated) return expected;
+    Expected expected{closed_drop(mesh_, distances, wide, near, reach, half_thickness,
+                                  {options_.resistance, options_.density, options_.viscosity, options_.time_step},
+                                  options_.quiet)};
+    if (!expected.is_solved) return expected;
     expected.area = exact_area(mesh_, leaflets_.surface(), near, half_thickness, options_.n_threads, false);
-    expected.drop = expected.area / drop.flow;
+    expected.drop = expected.area / expected.flow;
     return expected;
   }
 
@@ -156,13 +142,13 @@ class Forecaster {
     const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     const Expected expected = expected_at(half_thickness_, distances, wide, near);
-    if (expected.state == Expected::let_past) {
+    if (!expected.is_separated) {
       say("expected drop: none, because the closed leaflets do not separate two sides of this mesh");
       warn("svMultiPhysics will not hold the pressure: the closed leaflets do not separate two sides of " +
            options_.mesh);
       return;
     }
-    if (expected.state == Expected::not_found) {
+    if (!expected.is_solved) {
       say("expected drop: not found, because the equations were not solved");
       warn("the drop across the closed valve was not found, because the equations were not solved");
       return;
@@ -190,8 +176,7 @@ class Forecaster {
   // Finds the half thickness by steps of a quarter, and then by halving the last step twice.
   std::string thickness_for(const SolverDistances &wide, const std::vector<double> &near) {
     const auto is_enough = [&](double factor) {
-      const Expected expected = expected_at(factor * half_thickness_, wide, wide, near);
-      return expected.state == Expected::separated && expected.drop >= enough;
+      return expected_at(factor * half_thickness_, wide, wide, near).drop >= enough;
     };
     double below = 1, above = 1;
     do {
@@ -230,8 +215,8 @@ class Forecaster {
     const std::vector<double> near = near_nodes(3 * half_thickness_ + 2 * median_edge_);
     std::string &row = forecast_.table;
     row += (is_closing ? "close," : "open,") + std::to_string(frame) + ',' + shortest(opening);
-    for (const std::array<double, 3> *corner : {&distances.lower, &distances.upper})
-      for (const double x : *corner) row += ',' + shortest(x);
+    for (const double *corner : {distances.box.lower, distances.box.upper})
+      for (int k = 0; k < 3; ++k) row += ',' + shortest(corner[k]);
     row += ',' + std::to_string(distances.n_in_box) + ',' + shortest(solver_area(mesh_, distances, half_thickness_)) +
            ',' + shortest(exact_area(mesh_, leaflets_.surface(), near, half_thickness_, options_.n_threads, true));
     for (const SolverBand *band : {&before, &behind})

@@ -11,7 +11,6 @@
 #include "common/array_view.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
-#include "program/input/valve_file.hpp"
 #include "program/input/valve_source.hpp"
 
 namespace riis::program {
@@ -34,20 +33,6 @@ std::string name_of_leaflet(const std::string &valve, std::int32_t id) {
   return "leaflet_" + std::to_string(id);
 }
 
-std::array<double, 3> twice_area(const double *xyz, const Corners &corners) {
-  const double *a = xyz + 3 * corners[0], *b = xyz + 3 * corners[1], *c = xyz + 3 * corners[2];
-  const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-Surface fixed_surface(const ExportOptions &options, const riis_valve *valve, const std::string &subject) {
-  riis_surface_options how = options.surface_options;
-  how.triangulation = RIIS_TRIANGULATION_FIXED;
-  riis_surface *surface = nullptr;
-  check(riis_surface_create(valve, &how, &surface), subject);
-  return Surface(surface);
-}
-
 template <class Use>
 void for_all_frames(const UrisMotion &motion, const Use &use) {
   for (const std::vector<double> *openings : {&motion.opening, &motion.closing})
@@ -57,11 +42,12 @@ void for_all_frames(const UrisMotion &motion, const Use &use) {
 }  // namespace
 
 UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motion)
-    : subject_(is_valve_file(options.valve) ? options.valve : ""), valve_(make_valve(options)), net_(0, {}) {
-  check(riis_valve_set_scalar(valve_.get(), "opening", motion.opening[0]), subject_);
-  surface_ = fixed_surface(options, valve_.get(), subject_);
-  riis_surface_info info;
-  check(riis_surface_get_info(surface_.get(), &info, sizeof info));
+    : subject_(subject_of(options)), valve_(make_valve(options)), net_(0, {}) {
+  check(riis_valve_set_scalar(valve_, "opening", motion.opening[0]), subject_);
+  riis_surface_options how = options.surface_options;
+  how.triangulation = RIIS_TRIANGULATION_FIXED;
+  surface_ = create_for<Surface>(subject_, riis_surface_create, valve_, &how);
+  const riis_surface_info info = info_of(surface_);
   half_thickness_ = info.half_thickness;
   double largest = half_thickness_;
   for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(info.lower[k]), std::abs(info.upper[k])});
@@ -77,7 +63,7 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
 
 std::vector<double> UrisLeaflets::vertices_at(double opening) {
   open_to(opening);
-  const riis_triangles triangles = triangles_of(surface_.get());
+  const riis_triangles triangles = triangles_of(surface_);
   std::vector<double> all(triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
   net_.append_middles(all);
   for (double &x : all) x = std::nearbyint(x / grid_) * grid_;
@@ -88,8 +74,8 @@ std::vector<double> UrisLeaflets::vertices_at(double opening) {
 std::int64_t UrisLeaflets::n_triangles() const { return view(net_.triangles()).size(); }
 
 void UrisLeaflets::open_to(double opening) {
-  check(riis_valve_set_scalar(valve_.get(), "opening", opening), subject_);
-  check(riis_surface_update(surface_.get(), valve_.get(), nullptr), subject_);
+  check(riis_valve_set_scalar(valve_, "opening", opening), subject_);
+  check(riis_surface_update(surface_, valve_, nullptr), subject_);
 }
 
 // Returns the triangles that have an area in all frames. A triangle without area has no normal, so the solver would divide by
@@ -103,7 +89,7 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
   std::size_t n_frames = 0;
   for_all_frames(motion, [&](double opening) {
     open_to(opening);
-    const riis_triangles triangles = triangles_of(surface_.get());
+    const riis_triangles triangles = triangles_of(surface_);
     const std::int64_t n = triangles.n_triangles;
     const std::int64_t *const vertex = triangles.vertex_id, *const id = triangles.triangle_id;
     if (n > 0 && id[n - 1] >= view(seen).size()) resize(seen, id[n - 1] + 1);
@@ -125,8 +111,8 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
 void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
   do {
     if (n_triangles() > most_triangles) {
-      throw Refusal{exit_wrong_usage, "--largest-edge: " + shortest(largest_edge) + " makes more than " +
-                                          std::to_string(most_triangles) + " triangles"};
+      refuse_usage("--largest-edge: " + shortest(largest_edge) + " makes more than " + std::to_string(most_triangles) +
+                   " triangles");
     }
     for_all_frames(motion, [&](double opening) { net_.measure(vertices_at(opening)); });
     longest_edge_ = net_.longest_edge();
@@ -137,13 +123,13 @@ void UrisLeaflets::find_forward(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   for (const auto &[corners, leaflet] : net_.triangles()) {
     if (leaflet == housing_) continue;
-    const std::array<double, 3> area = twice_area(xyz.data(), corners);
+    const Point area = twice_area(vertex_of(xyz, corners[0]), vertex_of(xyz, corners[1]), vertex_of(xyz, corners[2]));
     for (std::size_t k = 0; k < 3; ++k) forward_[k] += area[k];
   }
   const double length = std::hypot(forward_[0], forward_[1], forward_[2]);
   if (!(length > 0))
-    throw Refusal{exit_bad_data, (subject_.empty() ? "" : subject_ + ": ") +
-                                     "the leaflets' normals cancel, so they tell no direction of forward flow"};
+    refuse_data((subject_.empty() ? "" : subject_ + ": ") +
+                "the leaflets' normals cancel, so they tell no direction of forward flow");
   for (double &x : forward_) x /= length;
 }
 
@@ -192,22 +178,14 @@ namespace {
 // a node at the very end of the bands inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
-struct Side {
-  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
-  double middle() const { return (lower + upper) / 2; }
-};
-
-std::array<Side, 3> box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
-  std::array<Side, 3> box;
+Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {
+  Box box = empty_box();
   for (const Corners &corners : triangles)
-    for (const std::int64_t vertex : corners)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double x = view(xyz)[3 * vertex + static_cast<std::int64_t>(k)];
-        box[k].lower = std::min(box[k].lower, x);
-        box[k].upper = std::max(box[k].upper, x);
-      }
+    for (const std::int64_t vertex : corners) box.grow(xyz.data() + 3 * vertex);
   return box;
 }
+
+double middle(const Box &box, std::size_t k) { return (box.lower[k] + box.upper[k]) / 2; }
 
 double sum_of(const Corners &corners, const std::vector<double> &xyz, std::size_t k) {
   double sum = 0;
@@ -225,12 +203,12 @@ double uris_grid(double largest) {
 UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &first, const std::vector<double> &last,
                  double half_thickness, double grid)
     : triangles_(std::move(triangles)), half_thickness_(half_thickness), grid_(grid) {
-  const std::array<Side, 3> at_first = box_of(triangles_, first), at_last = box_of(triangles_, last);
+  const Box at_first = box_of(triangles_, first), at_last = box_of(triangles_, last);
   for (std::size_t k = 0; k < 3; ++k) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      const double off = std::max(std::abs(sum_of(triangles_[i], first, k) / 3 - at_first[k].middle()),
-                                  std::abs(sum_of(triangles_[i], last, k) / 3 - at_last[k].middle()));
+      const double off = std::max(std::abs(sum_of(triangles_[i], first, k) / 3 - middle(at_first, k)),
+                                  std::abs(sum_of(triangles_[i], last, k) / 3 - middle(at_last, k)));
       if (!(off < least)) continue;
       least = off;
       chosen_[k] = i;
@@ -239,24 +217,19 @@ UrisBox::UrisBox(std::vector<Corners> triangles, const std::vector<double> &firs
 }
 
 void UrisBox::append_nodes(std::vector<double> &xyz) const {
-  const std::array<Side, 3> box = box_of(triangles_, xyz);
+  const Box box = box_of(triangles_, xyz);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double nodes[3][3];  // first index: corner; second index: coordinate
     for (std::size_t k = 0; k < 3; ++k) {
-      const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), middle = sum / 3;
-      const double half = (box[k].upper - box[k].lower) / 2,
+      const double sum = sum_of(triangles_[chosen_[axis]], xyz, k), at = sum / 3;
+      const double half = (box.upper[k] - box.lower[k]) / 2,
                    wanted = std::max(half, (half + end_of_bands * half_thickness_) / (1 + 2 * solver_share));
       // The triangle extends equally far in both directions along its axis. It also has a width across the axis, so that it has
       // an area.
-      const double reach = wanted + std::abs(middle - box[k].middle());
-      const bool is_along = k == axis, is_across = k == (axis + 1) % 3;
-      const double offsets[2] = {is_along    ? reach
-                                 : is_across ? half_thickness_
-                                             : 0,
-                                 is_along    ? -reach
-                                 : is_across ? half_thickness_
-                                             : 0};
-      for (std::size_t c = 0; c < 2; ++c) nodes[c][k] = std::nearbyint((middle + offsets[c]) / grid_) * grid_;
+      const double reach = wanted + std::abs(at - middle(box, k));
+      const double across = k == (axis + 1) % 3 ? half_thickness_ : 0;
+      const double offsets[2] = {k == axis ? reach : across, k == axis ? -reach : across};
+      for (std::size_t c = 0; c < 2; ++c) nodes[c][k] = std::nearbyint((at + offsets[c]) / grid_) * grid_;
       nodes[2][k] = sum - nodes[0][k] - nodes[1][k];
     }
     for (const auto &node : nodes) xyz.insert(xyz.end(), node, node + 3);

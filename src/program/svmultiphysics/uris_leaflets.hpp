@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/array_view.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
 #include "program/svmultiphysics/uris_export.hpp"
@@ -18,6 +19,17 @@ namespace riis::program {
 // Moving triangles that are cut into smaller ones. The cuts are the same at all times.
 
 using Corners = std::array<std::int64_t, 3>;
+using Point = std::array<double, 3>;
+
+inline Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
+  return {view(xyz)[3 * vertex], view(xyz)[3 * vertex + 1], view(xyz)[3 * vertex + 2]};
+}
+inline Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+// Returns twice the area of a triangle, times its normal.
+inline Point twice_area(const Point &a, const Point &b, const Point &c) {
+  const Point u = difference(b, a), v = difference(c, a);
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
 
 // Triangles whose corners are given vertices and middles of edges. A middle moves with the two ends of its edge.
 class FinerTriangles {

@@ -15,7 +15,8 @@
 namespace riis::program {
 namespace {
 
-struct Spans {
+struct LawWithSpans {
+  OpeningLaw law;
   TimeSpan opening, closing;
 };
 
@@ -44,85 +45,58 @@ std::optional<TimeSpan> way_between(const Keys &keys, double from, double to) {
   return std::nullopt;
 }
 
-TimeSpan found(const std::optional<TimeSpan> &way, const std::string &path, const char *verb, const char *option) {
-  if (way) return *way;
-  throw Refusal{exit_bad_data,
-                path + ": the valve does not " + verb + " there: no key of its " +
-                    (option == std::string("--opening-span") ? "largest opening follows one of the least"
-                                                             : "least opening follows one of the largest") +
-                    "; --period or " + option + " may say more"};
-}
-
-Spans spans_of_cycle(const ExportOptions &options, const OpeningTable &table) {
-  if (options.opening_span && options.closing_span) return {*options.opening_span, *options.closing_span};
+LawWithSpans law_of_cycle(const ExportOptions &options) {
+  const OpeningTable table = read_cycle(options.cycle, options.period, options.interpolation);
+  const OpeningLaw law(table, options.cycle);
+  if (options.opening_span && options.closing_span) return {law, *options.opening_span, *options.closing_span};
   const auto [least, largest] = std::minmax_element(table.openings.begin(), table.openings.end());
-  if (*least == *largest)
-    throw Refusal{exit_bad_data, options.cycle + ": the opening is " + shortest(*least) + " throughout"};
+  if (*least == *largest) refuse_data(options.cycle + ": the opening is " + shortest(*least) + " throughout");
   const Keys keys(table);
-  const auto span = [&](const std::optional<TimeSpan> &given, double from, double to, const char *verb,
-                        const char *option) {
-    return given ? *given : found(way_between(keys, from, to), options.cycle, verb, option);
+  const auto opening = options.opening_span ? options.opening_span : way_between(keys, *least, *largest);
+  const auto closing = options.closing_span ? options.closing_span : way_between(keys, *largest, *least);
+  const auto refuse = [&](const char *verb, const char *keys_that_lack, const char *option) {
+    refuse_data(options.cycle + ": the valve does not " + verb + " there: no key of its " + keys_that_lack +
+                "; --period or " + option + " may say more");
   };
-  return {span(options.opening_span, *least, *largest, "open", "--opening-span"),
-          span(options.closing_span, *largest, *least, "close", "--closing-span")};
+  if (!opening) refuse("open", "largest opening follows one of the least", "--opening-span");
+  if (!closing) refuse("close", "least opening follows one of the largest", "--closing-span");
+  return {law, *opening, *closing};
 }
 
-std::vector<double> frame_times(const TimeSpan &span, double step, const char *what) {
+// Returns the openings of the frames in a span.
+std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, double step, const char *what) {
   const double length = span.stop - span.start;
   if (step > length * (1 + 1e-9)) {
-    throw Refusal{exit_wrong_usage,
-                  "--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length)};
+    refuse_usage("--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length));
   }
   // The small subtractions keep rounding from adding a short step if the step divides the span.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
-    throw Refusal{exit_wrong_usage, "--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) +
-                                        " frames of the " + what + "; at most " + std::to_string(most_times) +
-                                        " are written"};
+    refuse_usage("--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) + " frames of the " + what +
+                 "; at most " + std::to_string(most_times) + " are written");
   }
-  std::vector<double> times;
-  for (double i = 0; i < n_steps; ++i) times.push_back(span.start + i * step);
-  times.push_back(span.stop);
-  return times;
-}
-
-std::vector<double> openings_at(const OpeningLaw &law, const std::vector<double> &times) {
   std::vector<double> openings;
-  for (const double time : times) openings.push_back(law.at(time));
+  for (double i = 0; i < n_steps; ++i) openings.push_back(law.at(span.start + i * step));
+  openings.push_back(law.at(span.stop));
   return openings;
 }
 
-struct LawWithSpans {
-  OpeningLaw law;
-  Spans spans;
-};
-
-LawWithSpans law_of_cycle(const ExportOptions &options) {
-  OpeningTable table = read_cycle(options.cycle);
-  table.period = options.period;
-  table.interpolation = options.interpolation;
-  const Spans spans = spans_of_cycle(options, table);
-  return {OpeningLaw(table, options.cycle), spans};
-}
-
 LawWithSpans law_of_seconds(const ExportOptions &options) {
-  riis_opening_times times;
-  check(riis_opening_times_init(&times, sizeof times));
+  auto times = defaults<riis_opening_times>();
   // The opening ends at time 0, and the closing starts at time 0. With this choice, the times of both ends of both ramps are
   // exact.
   times.opening_start = -*options.opening_duration;
   times.opening_duration = *options.opening_duration;
   times.closing_start = 0;
   times.closing_duration = *options.closing_duration;
-  return {OpeningLaw(times, "--opening-seconds"), {{times.opening_start, 0}, {0, times.closing_duration}}};
+  return {OpeningLaw(times, "--opening-seconds"), {times.opening_start, 0}, {0, times.closing_duration}};
 }
 
 void check_way(const std::vector<double> &openings, bool opens, const TimeSpan &span) {
   const double first = openings.front(), last = openings.back();
   if (opens ? last > first : last < first) return;
-  throw Refusal{exit_wrong_usage, std::string(opens ? "--opening-span: " : "--closing-span: ") + shortest(span.start) +
-                                      ":" + shortest(span.stop) + " takes the valve from opening " + shortest(first) +
-                                      " to " + shortest(last)};
+  refuse_usage(std::string(opens ? "--opening-span: " : "--closing-span: ") + shortest(span.start) + ":" +
+               shortest(span.stop) + " takes the valve from opening " + shortest(first) + " to " + shortest(last));
 }
 
 void warn_of_jump(const char *from, double before, const char *to, double after) {
@@ -135,11 +109,10 @@ void warn_of_jump(const char *from, double before, const char *to, double after)
 
 UrisMotion uris_motion_of(const ExportOptions &options) {
   const LawWithSpans motion = options.cycle.empty() ? law_of_seconds(options) : law_of_cycle(options);
-  const double step = options.time_step;
-  UrisMotion frames{openings_at(motion.law, frame_times(motion.spans.opening, step, "opening")),
-                    openings_at(motion.law, frame_times(motion.spans.closing, step, "closing"))};
-  check_way(frames.opening, true, motion.spans.opening);
-  check_way(frames.closing, false, motion.spans.closing);
+  UrisMotion frames{frames_of(motion.law, motion.opening, options.time_step, "opening"),
+                    frames_of(motion.law, motion.closing, options.time_step, "closing")};
+  check_way(frames.opening, true, motion.opening);
+  check_way(frames.closing, false, motion.closing);
   warn_of_jump("opening", frames.opening.back(), "closing", frames.closing.front());
   warn_of_jump("closing", frames.closing.back(), "opening", frames.opening.front());
   return frames;

@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "common/array_view.hpp"
+#include "program/base/handles.hpp"
 #include "program/base/refusal.hpp"
+#include "program/mark/mesh_marking.hpp"
 
 namespace riis::program {
 namespace {
@@ -17,8 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity(), pi = 3.1415
 // The solver widens its box by this share on each side, and takes this many closed half thicknesses as the distance of nodes
 // outside it.
 constexpr double widening = 0.1, far_in_half_thicknesses = 1e6;
-
-using Point = std::array<double, 3>;
 
 double squared_distance(const Point &a, const Point &b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
@@ -81,58 +81,36 @@ class PointTree {
 // ---- The triangles of a frame ----
 
 struct FrameTriangles {
-  Point lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+  Box box = empty_box();  // as the solver widens it
   std::vector<Point> middles, normals;
   std::vector<Corners> corners;  // as vertices of the frame
 };
-
-Point vertex_of(const std::vector<double> &xyz, std::int64_t vertex) {
-  return {view(xyz)[3 * vertex], view(xyz)[3 * vertex + 1], view(xyz)[3 * vertex + 2]};
-}
 
 FrameTriangles triangles_of(const UrisLeaflets &leaflets, const std::vector<double> &xyz, bool of_scaffold) {
   FrameTriangles frame;
   for (const UrisLeaflet &leaflet : leaflets.leaflets()) {
     if (leaflet.is_scaffold != of_scaffold) continue;
-    for (const std::int64_t vertex : leaflet.nodes) {
-      const Point p = vertex_of(xyz, vertex);
-      for (std::size_t k = 0; k < 3; ++k) {
-        frame.lower[k] = std::min(frame.lower[k], p[k]);
-        frame.upper[k] = std::max(frame.upper[k], p[k]);
-      }
-    }
+    for (const std::int64_t vertex : leaflet.nodes) frame.box.grow(xyz.data() + 3 * vertex);
     for (const Corners &corners : leaflet.triangles) {
       const auto corner = [&](std::size_t c) { return vertex_of(xyz, view(leaflet.nodes)[corners[c]]); };
       const Point a = corner(0), b = corner(1), c = corner(2);
-      Point middle, u, v;
-      for (std::size_t k = 0; k < 3; ++k) {
-        middle[k] = (a[k] + b[k] + c[k]) / 3;
-        u[k] = b[k] - a[k];
-        v[k] = c[k] - a[k];
-      }
+      Point middle;
+      for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + b[k] + c[k]) / 3;
       frame.corners.push_back(
           {view(leaflet.nodes)[corners[0]], view(leaflet.nodes)[corners[1]], view(leaflet.nodes)[corners[2]]});
       frame.middles.push_back(middle);
-      frame.normals.push_back({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+      frame.normals.push_back(twice_area(a, b, c));
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
-    const double more = (frame.upper[k] - frame.lower[k]) * widening;
-    frame.lower[k] -= more;
-    frame.upper[k] += more;
+    const double more = (frame.box.upper[k] - frame.box.lower[k]) * widening;
+    frame.box.lower[k] -= more;
+    frame.box.upper[k] += more;
   }
   return frame;
 }
 
-bool is_within(const Point &p, const Point &lower, const Point &upper) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (p[k] < lower[k] || p[k] > upper[k]) return false;
-  return true;
-}
-
 double product(const Point &a, const Point &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Point difference(const Point &a, const Point &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 // ---- The mesh ----
 
@@ -149,10 +127,9 @@ void turn_elements(SolverMesh &mesh, const std::string &path) {
     const double volume = determinant_at(mesh, e, element.at_gauss[0]);
     if (volume > 0) continue;
     const std::string subject = path + ": volume element " + std::to_string(e);
-    if (!(volume < 0)) throw Refusal{exit_bad_data, subject + " has no volume"};
+    if (!(volume < 0)) refuse_data(subject + " has no volume");
     std::int64_t *const nodes = mesh.nodes.data() + e * static_cast<std::int64_t>(element.n_nodes);
-    if (element.n_corners == 8)
-      throw Refusal{exit_bad_data, subject + " is inside out, and svMultiPhysics does not turn hexahedra"};
+    if (element.n_corners == 8) refuse_data(subject + " is inside out, and svMultiPhysics does not turn hexahedra");
     std::swap(nodes[0], nodes[1]);
     if (element.n_nodes == 6) std::swap(nodes[3], nodes[4]);
     if (element.n_nodes == 10) {
@@ -167,9 +144,8 @@ std::vector<double> node_volumes(const SolverMesh &mesh) {
   std::vector<double> volume;
   resize(volume, mesh.n_nodes);
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
-    double determinant = 0;
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
-      if (g == 0 || !element.has_one_gradient) determinant = determinant_at(mesh, e, element.at_gauss[g]);
+      const double determinant = determinant_at(mesh, e, element.at_gauss[g]);
       for (std::size_t a = 0; a < element.n_nodes; ++a)
         view(volume)[mesh.nodes_of(e)[a]] += element.gauss[g].weight * determinant * element.at_gauss[g].values[a];
     }
@@ -197,15 +173,15 @@ SolverMesh solver_mesh_of(const riis_vtk_mesh *file, const std::string &path) {
     if (std::count(std::begin(without_volume), std::end(without_volume), type) > 0) continue;
     const SolverElement *const element = solver_element_of(type);
     if (!element)
-      throw Refusal{exit_bad_data, path + ": cell " + std::to_string(i) + " has VTK's type " + std::to_string(type) +
-                                       ", and svMultiPhysics has only " + solver_element_names()};
+      refuse_data(path + ": cell " + std::to_string(i) + " has VTK's type " + std::to_string(type) +
+                  ", and svMultiPhysics has only " + solver_element_names());
     if (mesh.element && element != mesh.element)
-      throw Refusal{exit_bad_data, path + ": has " + mesh.element->name + " and " + element->name +
-                                       ", and svMultiPhysics takes one type of element in a mesh"};
+      refuse_data(path + ": has " + mesh.element->name + " and " + element->name +
+                  ", and svMultiPhysics takes one type of element in a mesh");
     mesh.element = element;
     mesh.nodes.insert(mesh.nodes.end(), nodes.data() + view(offsets)[i], nodes.data() + view(offsets)[i + 1]);
   }
-  if (!mesh.element) throw Refusal{exit_bad_data, path + ": has no volume cells, so nothing is computed in it"};
+  if (!mesh.element) refuse_data(path + ": has no volume cells, so nothing is computed in it");
   turn_elements(mesh, path);
   mesh.node_volume = node_volumes(mesh);
   return mesh;
@@ -225,20 +201,17 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
                                  bool is_closing, double half_thickness, double margin) {
   SolverDistances distances;
   const double far = far_in_half_thicknesses * half_thickness;
-  const auto node = [&mesh](std::int64_t i) {
-    return Point{mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]};
-  };
   const FrameTriangles frame = triangles_of(leaflets, xyz, false);
   for (std::size_t k = 0; k < 3; ++k) {
-    distances.lower[k] = frame.lower[k] - margin;
-    distances.upper[k] = frame.upper[k] + margin;
+    distances.box.lower[k] = frame.box.lower[k] - margin;
+    distances.box.upper[k] = frame.box.upper[k] + margin;
   }
   distances.to_leaflets.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   distances.nearest.assign(static_cast<std::size_t>(mesh.n_nodes), -1);
   const PointTree middles(frame.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
-    const Point p = node(i);
-    if (!is_within(p, distances.lower, distances.upper)) continue;
+    const Point p = mesh.point(i);
+    if (!distances.box.contains(p.data())) continue;
     ++distances.n_in_box;
     double distance = 0;
     const std::size_t nearest = middles.nearest(p, distance);
@@ -253,8 +226,8 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
   distances.to_scaffold.assign(static_cast<std::size_t>(mesh.n_nodes), far);
   const PointTree scaffold_middles(scaffold.middles);
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i)
-    if (is_within(node(i), scaffold.lower, scaffold.upper))
-      scaffold_middles.nearest(node(i), view(distances.to_scaffold)[i]);
+    if (scaffold.box.contains(mesh.xyz + 3 * i))
+      scaffold_middles.nearest(mesh.point(i), view(distances.to_scaffold)[i]);
   return distances;
 }
 
@@ -284,7 +257,7 @@ SolverBand solver_band(const SolverMesh &mesh, const SolverDistances &distances,
   for (std::int64_t i = 0; i < mesh.n_nodes; ++i) {
     const double distance = view(distances.to_leaflets)[i];
     if (!(distance >= from && distance <= to)) continue;
-    const double place = product({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, forward);
+    const double place = product(mesh.point(i), forward);
     ++band.n_nodes;
     band.volume += view(mesh.node_volume)[i];
     band.from = std::min(band.from, place);
@@ -312,8 +285,7 @@ SolverSpeeds solver_speeds(const SolverMesh &mesh, const UrisLeaflets &leaflets,
     if (!(std::abs(view(distances.to_leaflets)[i]) < half_thickness)) continue;
     const Corners &corners = view(frame.corners)[view(distances.nearest)[i]];
     const Point a = vertex_of(xyz, corners[0]), u = difference(vertex_of(xyz, corners[1]), a),
-                v = difference(vertex_of(xyz, corners[2]), a),
-                p = difference({mesh.xyz[3 * i], mesh.xyz[3 * i + 1], mesh.xyz[3 * i + 2]}, a);
+                v = difference(vertex_of(xyz, corners[2]), a), p = difference(mesh.point(i), a);
     // The part of p across the plane drops out of the products, so p needs no projection.
     const double uu = product(u, u), uv = product(u, v), vv = product(v, v), pu = product(p, u), pv = product(p, v);
     const double xi = (vv * pu - uv * pv) / (uu * vv - uv * uv), eta = (uu * pv - uv * pu) / (uu * vv - uv * uv);
@@ -329,13 +301,10 @@ double solver_area(const SolverMesh &mesh, const SolverDistances &distances, dou
   const SolverElement &element = *mesh.element;
   double integral = 0;
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
-    double determinant = 0;
     for (std::size_t g = 0; g < element.gauss.size(); ++g) {
       const double delta = solver_delta(mesh, e, element.at_gauss[g], distances, half_thickness);
       if (delta == 0) continue;
-      if (!element.has_one_gradient || determinant == 0)
-        determinant = determinant_at(mesh, e, element.at_gauss[element.has_one_gradient ? 0 : g]);
-      integral += element.gauss[g].weight * determinant * delta;
+      integral += element.gauss[g].weight * determinant_at(mesh, e, element.at_gauss[g]) * delta;
     }
   }
   return half_thickness * integral;
@@ -344,18 +313,12 @@ double solver_area(const SolverMesh &mesh, const SolverDistances &distances, dou
 std::vector<double> exact_distances(std::int64_t n_nodes, const double *xyz, const riis_surface *surface, double limit,
                                     std::int32_t n_threads) {
   std::vector<double> distances(static_cast<std::size_t>(n_nodes), infinity);
-  riis_mesh *mesh_handle = nullptr;
-  check(riis_mesh_create(n_nodes, xyz, xyz + 1, xyz + 2, 3, &mesh_handle));
-  const Mesh mesh(mesh_handle);
-  riis_marks *marks_handle = nullptr;
-  check(riis_marks_create(&marks_handle));
-  const Marks marks(marks_handle);
-  riis_mark_options options;
-  check(riis_mark_options_init(&options, sizeof options));
+  const auto mesh = create<Mesh>(riis_mesh_create, n_nodes, xyz, xyz + 1, xyz + 2, 3);
+  auto options = defaults<riis_mark_options>();
   options.distance_limit = limit;
   options.n_threads = n_threads;
-  check(riis_mark_nodes(surface, mesh.get(), &options, marks.get()));
-  const riis_mark_list list = list_of(marks.get(), RIIS_LIST_WITHIN_LIMIT);
+  const Marks marks = marks_of(surface, mesh, options);
+  const riis_mark_list list = list_of(marks, RIIS_LIST_WITHIN_LIMIT);
   for (std::int64_t i = 0; i < list.n_nodes; ++i) view(distances)[list.node_id[i]] = list.distance[i];
   return distances;
 }
@@ -369,16 +332,14 @@ double exact_area(const SolverMesh &mesh, const riis_surface *surface, const std
   for (std::int64_t e = 0; e < mesh.n_elements(); ++e) {
     double nearest = infinity, size = 0;
     for (std::size_t a = 0; a < element.n_nodes; ++a) {
-      const std::int64_t node = mesh.nodes_of(e)[a], first = mesh.nodes_of(e)[0];
+      const std::int64_t node = mesh.nodes_of(e)[a];
+      const Point off = difference(mesh.point(node), mesh.point(mesh.nodes_of(e)[0]));
       nearest = std::min(nearest, view(near)[node]);
-      size = std::max(
-          size, std::hypot(mesh.xyz[3 * node] - mesh.xyz[3 * first], mesh.xyz[3 * node + 1] - mesh.xyz[3 * first + 1],
-                           mesh.xyz[3 * node + 2] - mesh.xyz[3 * first + 2]));
+      size = std::max(size, std::hypot(off[0], off[1], off[2]));
     }
     if (!(nearest <= half_thickness + 2 * size)) continue;
     for (std::size_t g = 0; g < points.size(); ++g) {
-      const ShapeFunctions &mapped = functions[at_solver_points && element.has_one_gradient ? 0 : g];
-      weights.push_back(points[g].weight * determinant_at(mesh, e, mapped));
+      weights.push_back(points[g].weight * determinant_at(mesh, e, functions[g]));
       for (std::int64_t k = 0; k < 3; ++k) {
         double x = 0;
         for (std::size_t a = 0; a < element.n_nodes; ++a)

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "program/base/units.hpp"
 #include "program/svmultiphysics/uris_leaflets.hpp"
 
 namespace riis::program {
@@ -33,8 +34,6 @@ struct SolverElement {
   std::uint8_t vtk_type;
   std::size_t n_nodes, n_corners;
   std::vector<std::array<double, 3>> node_places;  // in the coordinates of the reference element
-  // The solver evaluates the gradients of some elements at its first Gauss point only.
-  bool has_one_gradient;
   std::vector<ReferencePoint> gauss;
   std::vector<ShapeFunctions> at_gauss;
   // Points for integrals that are more exact than the solver's, 4 in each direction.
@@ -58,6 +57,7 @@ struct SolverMesh {
   std::int64_t n_elements() const {
     return static_cast<std::int64_t>(nodes.size()) / static_cast<std::int64_t>(element->n_nodes);
   }
+  Point point(std::int64_t node) const { return {xyz[3 * node], xyz[3 * node + 1], xyz[3 * node + 2]}; }
   const std::int64_t *nodes_of(std::int64_t e) const {
     return nodes.data() + e * static_cast<std::int64_t>(element->n_nodes);
   }
@@ -71,7 +71,7 @@ double determinant_at(const SolverMesh &mesh, std::int64_t e, const ShapeFunctio
 
 // The distances of one frame.
 struct SolverDistances {
-  std::array<double, 3> lower{}, upper{};  // the solver's box
+  Box box = empty_box();  // the solver's
   std::int64_t n_in_box = 0;
   // (n_nodes): signed distances to the leaflets, and distances to the scaffold. Far nodes have the solver's large number. The
   // list of the scaffold is empty if there is none.

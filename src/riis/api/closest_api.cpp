@@ -145,13 +145,9 @@ riis_status riis_closest_point(const riis_surface *surface, const double *point,
   });
 }
 
-riis_status riis_closest_options_init(riis_closest_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
-}
+RIIS_DEFINE_INIT(riis_closest_options_init, riis_closest_options, options, default_options)
 
-riis_status riis_closest_arrays_init(riis_closest_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
-}
+RIIS_DEFINE_INIT(riis_closest_arrays_init, riis_closest_arrays, arrays, default_arrays)
 
 riis_status riis_closest_points(const riis_surface *surface, const riis_points *points,
                                 const riis_closest_options *options, const riis_closest_arrays *arrays) {

@@ -50,16 +50,9 @@ riis_crossing_list list_of(const riis::TriangleSet &set, const riis::Crossings &
 
 extern "C" {
 
-riis_status riis_crossing_options_init(riis_crossing_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
-}
+RIIS_DEFINE_INIT(riis_crossing_options_init, riis_crossing_options, options, default_options)
 
-riis_status riis_crossings_create(riis_crossings **crossings) {
-  return guarded([&] {
-    require(crossings, "crossings");
-    *crossings = new riis_crossings{};
-  });
-}
+riis_status riis_crossings_create(riis_crossings **crossings) { return riis::create_handle(crossings, "crossings"); }
 
 void riis_crossings_destroy(riis_crossings **crossings) { riis::destroy_handle(crossings, "crossings"); }
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "arrays/keyframes.hpp"
+#include "arrays/user_arrays.hpp"
 #include "base/errors.hpp"
 #include "base/recycled.hpp"
 #include "marks/marks.hpp"
@@ -50,6 +50,12 @@ AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
   require(handle, argument);
   if (handle->kind != AnyHandle::own_kind) fail(RIIS_INVALID_ARGUMENT, argument, " is a handle of another kind");
   return handle;
+}
+
+// The body of a create function that makes an empty object.
+template <class AnyHandle>
+riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
+  return guarded([&] { *require(handle, argument) = new AnyHandle{}; });
 }
 
 // The body of a destroy function. A handle of another kind is not destroyed, because losing its memory is better than freeing it

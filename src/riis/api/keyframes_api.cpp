@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of riis_keyframes_*. The work is in arrays/keyframes.hpp.
+// Checks the arguments of riis_keyframes_*. The work is in arrays/keyframes.cpp.
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "base/errors.hpp"
@@ -22,9 +22,7 @@ riis_surface_arrays default_arrays() {
 
 extern "C" {
 
-riis_status riis_keyframe_arrays_init(riis_keyframe_arrays *frames, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(frames, struct_size, "frames", default_frames); });
-}
+RIIS_DEFINE_INIT(riis_keyframe_arrays_init, riis_keyframe_arrays, frames, default_frames)
 
 riis_status riis_keyframes_create(const riis_surface_arrays *arrays, const riis_keyframe_arrays *frames,
                                   riis_keyframes **keyframes) {

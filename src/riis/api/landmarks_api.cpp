@@ -8,7 +8,7 @@
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "geometry/strided.hpp"
-#include "landmarks/place.hpp"
+#include "landmarks/landmarks.hpp"
 
 using riis::guarded;
 using riis::require;
@@ -43,7 +43,7 @@ riis::Landmarks landmarks_of(const riis_landmarks &given) {
   if (!riis::is_usable(flow))
     riis::fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is ", flow.x, " ", flow.y, " ", flow.z,
                "; it must be finite and at most ", riis::max_coordinate);
-  const double largest = std::max({std::abs(flow.x), std::abs(flow.y), std::abs(flow.z)});
+  const double largest = riis::largest_coordinate(flow);
   if (largest > 0) {
     const riis::Vec3 even{flow.x / largest, flow.y / largest, flow.z / largest};
     made.flow = (1 / length(even)) * even;
@@ -72,13 +72,9 @@ riis::Landmarks landmarks_of(const riis_landmarks &given) {
 
 extern "C" {
 
-riis_status riis_landmarks_init(riis_landmarks *landmarks, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(landmarks, struct_size, "landmarks", default_landmarks); });
-}
+RIIS_DEFINE_INIT(riis_landmarks_init, riis_landmarks, landmarks, default_landmarks)
 
-riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
-}
+RIIS_DEFINE_INIT(riis_placement_arrays_init, riis_placement_arrays, arrays, default_arrays)
 
 riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                        const riis_placement_arrays *arrays, riis_placement *placement, int64_t struct_size) {

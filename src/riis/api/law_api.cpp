@@ -44,9 +44,7 @@ void advance(const Law *law, const Law &default_law, const State *before, const 
 
 extern "C" {
 
-riis_status riis_opening_table_init(riis_opening_table *table, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(table, struct_size, "table", default_table); });
-}
+RIIS_DEFINE_INIT(riis_opening_table_init, riis_opening_table, table, default_table)
 
 riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening, double *rate) {
   return guarded([&] {
@@ -55,9 +53,7 @@ riis_status riis_opening_from_table(const riis_opening_table *table, double time
   });
 }
 
-riis_status riis_opening_times_init(riis_opening_times *times, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(times, struct_size, "times", default_times); });
-}
+RIIS_DEFINE_INIT(riis_opening_times_init, riis_opening_times, times, default_times)
 
 riis_status riis_opening_from_times(const riis_opening_times *times, double time, double *opening, double *rate) {
   return guarded([&] {
@@ -66,13 +62,9 @@ riis_status riis_opening_from_times(const riis_opening_times *times, double time
   });
 }
 
-riis_status riis_opening_switch_init(riis_opening_switch *law, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(law, struct_size, "law", default_switch); });
-}
+RIIS_DEFINE_INIT(riis_opening_switch_init, riis_opening_switch, law, default_switch)
 
-riis_status riis_opening_switch_state_init(riis_opening_switch_state *state, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(state, struct_size, "state", default_switch_state); });
-}
+RIIS_DEFINE_INIT(riis_opening_switch_state_init, riis_opening_switch_state, state, default_switch_state)
 
 riis_status riis_opening_switch_advance(const riis_opening_switch *law, const riis_opening_switch_state *before,
                                         double time, double pressure_difference, double flow,
@@ -81,13 +73,9 @@ riis_status riis_opening_switch_advance(const riis_opening_switch *law, const ri
       [&] { advance(law, default_switch, before, default_switch_state, time, pressure_difference, flow, now); });
 }
 
-riis_status riis_opening_angle_init(riis_opening_angle *law, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(law, struct_size, "law", default_angle); });
-}
+RIIS_DEFINE_INIT(riis_opening_angle_init, riis_opening_angle, law, default_angle)
 
-riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(state, struct_size, "state", default_angle_state); });
-}
+RIIS_DEFINE_INIT(riis_opening_angle_state_init, riis_opening_angle_state, state, default_angle_state)
 
 riis_status riis_opening_angle_advance(const riis_opening_angle *law, const riis_opening_angle_state *before,
                                        double time, double pressure_difference, double flow,

@@ -37,9 +37,7 @@ const char *riis_status_name(riis_status status) {
   }
 }
 
-riis_status riis_points_init(riis_points *points, int64_t struct_size) {
-  return riis::guarded([&] { riis::init_struct(points, struct_size, "points", riis::default_points); });
-}
+RIIS_DEFINE_INIT(riis_points_init, riis_points, points, riis::default_points)
 
 void riis_set_log(riis_log_function function, void *user_data) { riis::set_log_function(function, user_data); }
 

@@ -8,6 +8,7 @@
 #include "api/structs.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
+#include "measures/measures.hpp"
 #include "obstacle/resistance.hpp"
 #include "pipeline/mark_nodes.hpp"
 #include "seal/seal.hpp"
@@ -216,22 +217,13 @@ riis::ArrayView<const std::int64_t> checked_end(const riis::SearchRequest &reque
 
 extern "C" {
 
-riis_status riis_marks_create(riis_marks **marks) {
-  return guarded([&] {
-    require(marks, "marks");
-    *marks = new riis_marks{};
-  });
-}
+riis_status riis_marks_create(riis_marks **marks) { return riis::create_handle(marks, "marks"); }
 
 void riis_marks_destroy(riis_marks **marks) { riis::destroy_handle(marks, "marks"); }
 
-riis_status riis_resistance_init(riis_resistance *resistance, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(resistance, struct_size, "resistance", default_resistance); });
-}
+RIIS_DEFINE_INIT(riis_resistance_init, riis_resistance, resistance, default_resistance)
 
-riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
-}
+RIIS_DEFINE_INIT(riis_mark_options_init, riis_mark_options, options, default_options)
 
 riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh, const riis_mark_options *options,
                             riis_marks *marks) {
@@ -257,9 +249,7 @@ riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mar
   });
 }
 
-riis_status riis_dense_arrays_init(riis_dense_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_dense); });
-}
+RIIS_DEFINE_INIT(riis_dense_arrays_init, riis_dense_arrays, arrays, default_dense)
 
 riis_status riis_marks_get_dense(const riis_marks *marks, const riis_dense_arrays *arrays) {
   return guarded([&] {
@@ -275,9 +265,7 @@ riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats
   return guarded([&] { riis::write_struct(stats, struct_size, "stats", require_handle(marks, "marks")->marks.stats); });
 }
 
-riis_status riis_resistance_arrays_init(riis_resistance_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_resistance_arrays); });
-}
+RIIS_DEFINE_INIT(riis_resistance_arrays_init, riis_resistance_arrays, arrays, default_resistance_arrays)
 
 riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resistance *resistance,
                                       const riis_resistance_arrays *arrays) {
@@ -293,13 +281,9 @@ riis_status riis_marks_add_resistance(const riis_marks *marks, const riis_resist
   });
 }
 
-riis_status riis_flow_arrays_init(riis_flow_arrays *flow, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(flow, struct_size, "flow", default_flow); });
-}
+RIIS_DEFINE_INIT(riis_flow_arrays_init, riis_flow_arrays, flow, default_flow)
 
-riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(reaction, struct_size, "reaction", default_reaction); });
-}
+RIIS_DEFINE_INIT(riis_reaction_init, riis_reaction, reaction, default_reaction)
 
 riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                     const riis_flow_arrays *flow, const riis_reaction *reaction) {
@@ -315,9 +299,7 @@ riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistan
   });
 }
 
-riis_status riis_band_init(riis_band *band, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(band, struct_size, "band", default_band); });
-}
+RIIS_DEFINE_INIT(riis_band_init, riis_band, band, default_band)
 
 riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band, riis_band_sums *sums,
                                      int64_t struct_size) {
@@ -337,12 +319,21 @@ riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *b
   });
 }
 
-riis_status riis_leaks_create(riis_leaks **leaks) {
+riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh, riis_cells_across *cells,
+                                        int64_t struct_size) {
   return guarded([&] {
-    require(leaks, "leaks");
-    *leaks = new riis_leaks{};
+    const riis::Marks &content = require_handle(marks, "marks")->marks;
+    const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
+    riis::check_struct_size<riis_cells_across>(struct_size, "cells");
+    require(cells, "cells");
+    const riis::Adjacency &adjacency = require_adjacency(nodes, "whose edges are measured");
+    check_are_of_mesh(nodes, content);
+    const int n_threads = riis::threads_for(0, nodes.nodes().n, riis::nodes_per_thread);
+    riis::write_struct(cells, struct_size, "cells", riis::cells_across(content, nodes, adjacency, n_threads));
   });
 }
+
+riis_status riis_leaks_create(riis_leaks **leaks) { return riis::create_handle(leaks, "leaks"); }
 
 void riis_leaks_destroy(riis_leaks **leaks) { riis::destroy_handle(leaks, "leaks"); }
 
@@ -393,9 +384,7 @@ riis_status riis_label_open_regions(const riis_mesh *mesh, const riis_marks *mar
   });
 }
 
-riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(ends, struct_size, "ends", default_ends); });
-}
+RIIS_DEFINE_INIT(riis_passage_ends_init, riis_passage_ends, ends, default_ends)
 
 riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh, const riis_passage_ends *ends,
                               const riis_mark_options *options, riis_passage *passage, int64_t struct_size) {

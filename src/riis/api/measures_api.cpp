@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the arguments of the public functions for leaflets, orifice, leak, first passage, cells across and swept volume.
+// Checks the arguments of the public functions for leaflets, orifice, leak, first passage and swept volume.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -237,9 +237,7 @@ riis_status riis_surface_get_leak(const riis_surface *surface, const riis_resist
   });
 }
 
-riis_status riis_first_passage_options_init(riis_first_passage_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", default_first_passage); });
-}
+RIIS_DEFINE_INIT(riis_first_passage_options_init, riis_first_passage_options, options, default_first_passage)
 
 riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
                                     const riis_first_passage_options *options, riis_first_passage *first,
@@ -261,24 +259,6 @@ riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *me
     found.seconds = elapsed.count();
     found.n_openings = trials.n;
     riis::write_struct(first, struct_size, "first", found);
-  });
-}
-
-riis_status riis_marks_get_cells_across(const riis_marks *marks, const riis_mesh *mesh, riis_cells_across *cells,
-                                        int64_t struct_size) {
-  return guarded([&] {
-    const riis::Marks &content = require_handle(marks, "marks")->marks;
-    const riis::Mesh &nodes = require_handle(mesh, "mesh")->mesh;
-    riis::check_struct_size<riis_cells_across>(struct_size, "cells");
-    require(cells, "cells");
-    if (!nodes.adjacency().has_value())
-      riis::fail(RIIS_INVALID_ARGUMENT, "mesh has no adjacency, whose edges are measured: see riis_mesh_set_adjacency");
-    if (!content.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
-    if (content.stats.n_nodes != nodes.nodes().n)
-      riis::fail(RIIS_INVALID_ARGUMENT, "marks are of a mesh with ", content.stats.n_nodes, " nodes, mesh has ",
-                 nodes.nodes().n);
-    const int n_threads = riis::threads_for(0, nodes.nodes().n, riis::nodes_per_thread);
-    riis::write_struct(cells, struct_size, "cells", riis::cells_across(content, nodes, *nodes.adjacency(), n_threads));
   });
 }
 

@@ -92,9 +92,7 @@ riis_status riis_mesh_prepare(riis_mesh *mesh, int32_t n_threads) {
 
 void riis_mesh_destroy(riis_mesh **mesh) { riis::destroy_handle(mesh, "mesh"); }
 
-riis_status riis_csr_init(riis_csr *csr, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(csr, struct_size, "csr", default_csr); });
-}
+RIIS_DEFINE_INIT(riis_csr_init, riis_csr, csr, default_csr)
 
 riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
   return guarded([&] {
@@ -106,9 +104,7 @@ riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr) {
   });
 }
 
-riis_status riis_mesh_cells_init(riis_mesh_cells *cells, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(cells, struct_size, "cells", default_cells); });
-}
+RIIS_DEFINE_INIT(riis_mesh_cells_init, riis_mesh_cells, cells, default_cells)
 
 riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_adjacency **adjacency) {
   return guarded([&] {
@@ -119,9 +115,7 @@ riis_status riis_adjacency_create_from_cells(const riis_mesh_cells *cells, riis_
   });
 }
 
-riis_status riis_mesh_faces_init(riis_mesh_faces *faces, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(faces, struct_size, "faces", default_faces); });
-}
+RIIS_DEFINE_INIT(riis_mesh_faces_init, riis_mesh_faces, faces, default_faces)
 
 riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *faces, riis_adjacency **adjacency) {
   return guarded([&] {

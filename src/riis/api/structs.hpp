@@ -4,7 +4,6 @@
 // field.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -88,12 +87,20 @@ inline void copy_bytes(void *to, const void *from, std::int64_t size) {
 
 // The body of an init function.
 template <class Struct>
-void init_struct(Struct *out, std::int64_t size, const char *name, const Struct &defaults) {
-  require(out, name);
-  check_struct_size<Struct>(size, name);
-  copy_bytes(out, &defaults, size);
-  out->struct_size = size;
+riis_status init_struct(Struct *out, std::int64_t size, const char *name, const Struct &defaults) noexcept {
+  return guarded([&] {
+    require(out, name);
+    check_struct_size<Struct>(size, name);
+    copy_bytes(out, &defaults, size);
+    out->struct_size = size;
+  });
 }
+
+// Defines the public init function of a struct. `argument` is the argument's name in messages.
+#define RIIS_DEFINE_INIT(function, Struct, argument, defaults)            \
+  riis_status function(Struct *argument, int64_t struct_size) {           \
+    return riis::init_struct(argument, struct_size, #argument, defaults); \
+  }
 
 // Returns the caller's struct, with defaults for the fields that its size leaves out. Returns all defaults for NULL.
 template <class Struct>

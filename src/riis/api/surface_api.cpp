@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "api/handles.hpp"
 #include "api/structs.hpp"
@@ -89,15 +88,19 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.options = options;
 }
 
+// Returns the options, or the options of the surface's last update if the caller gives none.
+riis_surface_options options_for(const riis_surface &surface, const riis_surface_options *options,
+                                 const char *name = "options") {
+  return riis::completed(options, name, options ? riis::default_surface_options : surface.options);
+}
+
 // Checks all handles before it checks the options. `earlier` may be NULL.
 void update_from_valve(riis_surface *surface, const riis_valve *valve, const riis_surface_options *options,
                        const EarlierArguments *earlier) {
   require_handle(surface, "surface");
   require_handle(valve, "valve");
   if (earlier) require_handle(earlier->valve_before, "valve_before");
-  fill_from_valve(*surface, valve,
-                  riis::completed(options, "options", options ? riis::default_surface_options : surface->options),
-                  earlier);
+  fill_from_valve(*surface, valve, options_for(*surface, options), earlier);
 }
 
 // Each direction keeps 24 bytes for each vertex.
@@ -155,13 +158,9 @@ void create(const riis_surface_options *options, riis_surface **surface, const F
 
 extern "C" {
 
-riis_status riis_surface_options_init(riis_surface_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", riis::default_surface_options); });
-}
+RIIS_DEFINE_INIT(riis_surface_options_init, riis_surface_options, options, riis::default_surface_options)
 
-riis_status riis_surface_arrays_init(riis_surface_arrays *arrays, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(arrays, struct_size, "arrays", default_arrays); });
-}
+RIIS_DEFINE_INIT(riis_surface_arrays_init, riis_surface_arrays, arrays, default_arrays)
 
 riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options, riis_surface **surface) {
   return guarded([&] {
@@ -208,8 +207,7 @@ riis_status riis_surface_add_direction(riis_surface *surface, const riis_valve *
                  "; it must be the parameter's difference from valve_before to valve_after, from 1e-30 to 1e+30 in "
                  "magnitude");
     const auto placement = [&](const riis_surface_options *given, const char *name) {
-      const riis_surface_options whole =
-          riis::completed(given, name, given ? riis::default_surface_options : surface->options);
+      const riis_surface_options whole = options_for(*surface, given, name);
       riis::check_placement(whole, name);
       return riis::placement_of(whole);
     };
@@ -240,8 +238,7 @@ riis_status riis_surface_update_from_arrays(riis_surface *surface, const riis_su
                                             const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    fill_from_arrays(*surface, completed(arrays),
-                     riis::completed(options, "options", options ? riis::default_surface_options : surface->options));
+    fill_from_arrays(*surface, completed(arrays), options_for(*surface, options));
   });
 }
 
@@ -258,9 +255,7 @@ riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis
                                                double dt, const riis_surface_options *options) {
   return guarded([&] {
     require_handle(surface, "surface");
-    fill_from_keyframes(
-        *surface, keyframes, time, dt,
-        riis::completed(options, "options", options ? riis::default_surface_options : surface->options));
+    fill_from_keyframes(*surface, keyframes, time, dt, options_for(*surface, options));
   });
 }
 

@@ -100,9 +100,7 @@ riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *
   });
 }
 
-riis_status riis_patches_init(riis_patches *patches, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(patches, struct_size, "patches", default_patches); });
-}
+RIIS_DEFINE_INIT(riis_patches_init, riis_patches, patches, default_patches)
 
 riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve) {
   return guarded([&] {

@@ -73,9 +73,7 @@ void fit(riis_warp &warp) {
 
 extern "C" {
 
-riis_status riis_warp_options_init(riis_warp_options *options, int64_t struct_size) {
-  return guarded([&] { riis::init_struct(options, struct_size, "options", default_options); });
-}
+RIIS_DEFINE_INIT(riis_warp_options_init, riis_warp_options, options, default_options)
 
 riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp) {
   return guarded([&] {

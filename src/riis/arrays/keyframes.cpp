@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "arrays/keyframes.hpp"
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

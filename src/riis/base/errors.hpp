@@ -23,9 +23,6 @@ template <class... Parts>
   throw Error{status, Message(parts...)};
 }
 
-// Records the text as the calling thread's last error. Returns the status.
-riis_status record_error(riis_status status, const char *text) noexcept;
-
 // Returns the calling thread's last error, or "" if it has none.
 const char *recorded_error() noexcept;
 

@@ -23,6 +23,7 @@ inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a
 inline double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec3 a, Vec3 b) { return length(b - a); }
 inline Vec3 mix(Vec3 a, Vec3 b, double t) { return (1.0 - t) * a + t * b; }
+inline double largest_coordinate(Vec3 a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
 
 // Writes entry i of an array (3, n).
 inline void put_vector(double *list, std::int64_t i, Vec3 value) {
@@ -46,6 +47,18 @@ struct Bounds {
   // Coordinates are halved before they are added, so that the sum of two large ones does not overflow.
   Vec3 middle() const { return 0.5 * lower + 0.5 * upper; }
   Vec3 half_extent() const { return 0.5 * upper - 0.5 * lower; }
+
+  double largest_coordinate() const {
+    return std::max(riis::largest_coordinate(lower), riis::largest_coordinate(upper));
+  }
+
+  // Returns the square of the distance from p to the box. For any point q in the box, the result is at most dot(q - p, q - p),
+  // even in the last bit, because rounding keeps the order of differences, squares and sums.
+  double distance_sq_to(Vec3 p) const {
+    const auto outside = [](double x, double least, double most) { return std::max({least - x, x - most, 0.0}); };
+    const Vec3 away{outside(p.x, lower.x, upper.x), outside(p.y, lower.y, upper.y), outside(p.z, lower.z, upper.z)};
+    return dot(away, away);
+  }
 };
 
 // Returns true if the boxes have a point in common.

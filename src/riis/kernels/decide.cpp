@@ -40,9 +40,6 @@ RIIS_INLINE Doubles dot(Doubles3 a, Doubles3 b) { return a.x * b.x + a.y * b.y +
 RIIS_INLINE Doubles3 cross(Doubles3 a, Doubles3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-RIIS_INLINE Doubles choose(Doubles::Mask where, Doubles yes, Doubles no) {
-  return choose<double, DoubleRegister, 8>(where, yes, no);
-}
 RIIS_INLINE Doubles3 choose(Doubles::Mask where, Doubles3 yes, Doubles3 no) {
   return {choose(where, yes.x, no.x), choose(where, yes.y, no.y), choose(where, yes.z, no.z)};
 }

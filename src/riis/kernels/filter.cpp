@@ -150,7 +150,7 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
       sum = multiply_add(difference, difference, sum);
     }
     // A surface has fewer than 2^24 groups, so single precision holds their positions exactly.
-    at = choose<float, FloatRegister, 16>(sum < least_sq, Floats::all(static_cast<float>(k)), at);
+    at = choose(sum < least_sq, Floats::all(static_cast<float>(k)), at);
     least_sq = least(least_sq, sum);
   }
   alignas(64) float positions[16];
@@ -227,7 +227,7 @@ RIIS_INLINE void begin_leaf(const FilterTask &task, LeafTask &leaf, ClusterTask 
         sum = multiply_add(gap, gap, sum);
       }
       sum.store(lower_bounds + nodes_per_leaf * k + 16 * h);
-      first_group[h] = choose<float, FloatRegister, 16>(sum < least_bound[h], number, first_group[h]);
+      first_group[h] = choose(sum < least_bound[h], number, first_group[h]);
       least_bound[h] = least(least_bound[h], sum);
     }
   }
@@ -356,7 +356,7 @@ RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
     for (int h = 0; h < halves; ++h) {
       const int32_t at = first_node_of(leaf) + 16 * h;
       const Floats best = Floats::load(cluster.best + at), none = Floats::all(-1);
-      const Floats limit = choose<float, FloatRegister, 16>(best < reach_sq, best + tolerance, none);
+      const Floats limit = choose(best < reach_sq, best + tolerance, none);
       limit.store(cluster.limit + at);
       leaf.found |= bits_different(limit, none) << 16 * h;
     }

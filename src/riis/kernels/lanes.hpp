@@ -171,6 +171,38 @@ struct Lanes {
   RIIS_INLINE void store(Scalar *to) const {
     for (int i = 0; i < n_registers; ++i) reinterpret_cast<InMemory *>(to)[i] = part[i];
   }
+
+// The body of a function that computes each register of its result from the registers i of its arguments.
+#define RIIS_LANEWISE(Result, expression)                       \
+  Result r;                                                     \
+  for (int i = 0; i < n_registers; ++i) r.part[i] = expression; \
+  return r
+#define RIIS_ARITHMETIC(Result, expression) \
+  count(&Counts::operations, n);            \
+  RIIS_LANEWISE(Result, expression)
+
+  // clang-format off
+  friend RIIS_INLINE Lanes operator+(Lanes a, Lanes b) { RIIS_ARITHMETIC(Lanes, a.part[i] + b.part[i]); }
+  friend RIIS_INLINE Lanes operator-(Lanes a, Lanes b) { RIIS_ARITHMETIC(Lanes, a.part[i] - b.part[i]); }
+  friend RIIS_INLINE Lanes operator*(Lanes a, Lanes b) { RIIS_ARITHMETIC(Lanes, a.part[i] * b.part[i]); }
+  friend RIIS_INLINE Lanes operator/(Lanes a, Lanes b) { RIIS_ARITHMETIC(Lanes, a.part[i] / b.part[i]); }
+  friend RIIS_INLINE Mask operator<(Lanes a, Lanes b) { RIIS_ARITHMETIC(Mask, a.part[i] < b.part[i]); }
+  friend RIIS_INLINE Mask operator<=(Lanes a, Lanes b) { RIIS_ARITHMETIC(Mask, a.part[i] <= b.part[i]); }
+  friend RIIS_INLINE Mask operator>(Lanes a, Lanes b) { return b < a; }
+  friend RIIS_INLINE Mask operator>=(Lanes a, Lanes b) { return b <= a; }
+  friend RIIS_INLINE Mask operator==(Lanes a, Lanes b) { RIIS_ARITHMETIC(Mask, a.part[i] == b.part[i]); }
+  friend RIIS_INLINE Lanes least(Lanes a, Lanes b) { RIIS_ARITHMETIC(Lanes, least(a.part[i], b.part[i])); }
+  friend RIIS_INLINE Lanes greatest(Lanes a, Lanes b) { RIIS_ARITHMETIC(Lanes, greatest(a.part[i], b.part[i])); }
+  friend RIIS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    RIIS_ARITHMETIC(Lanes, multiply_add(a.part[i], b.part[i], c.part[i]));
+  }
+  friend RIIS_INLINE Lanes subtract_product(Lanes a, Lanes b, Lanes c) {
+    RIIS_ARITHMETIC(Lanes, subtract_product(a.part[i], b.part[i], c.part[i]));
+  }
+  friend RIIS_INLINE Lanes choose(Mask where, Lanes yes, Lanes no) {
+    RIIS_LANEWISE(Lanes, where.part[i] ? yes.part[i] : no.part[i]);
+  }
+  // clang-format on
 };
 
 typedef Lanes<float, FloatRegister, 16> Floats;
@@ -237,66 +269,6 @@ RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #endif
 }
 
-#define RIIS_LANES                   \
-  template <class S, class R, int n> \
-  RIIS_INLINE
-#define RIIS_LANEWISE(result, expression)                                       \
-  result r;                                                                     \
-  for (int i = 0; i < Lanes<S, R, n>::n_registers; ++i) r.part[i] = expression; \
-  return r
-#define RIIS_ARITHMETIC(result, expression) \
-  count(&Counts::operations, n);            \
-  RIIS_LANEWISE(result, expression)
-
-// clang-format off
-RIIS_LANES Lanes<S, R, n> operator+(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, a.part[i] + b.part[i]);
-}
-RIIS_LANES Lanes<S, R, n> operator-(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, a.part[i] - b.part[i]);
-}
-RIIS_LANES Lanes<S, R, n> operator*(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, a.part[i] * b.part[i]);
-}
-RIIS_LANES Lanes<S, R, n> operator/(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, a.part[i] / b.part[i]);
-}
-RIIS_LANES typename Lanes<S, R, n>::Mask operator<(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef typename Lanes<S, R, n>::Mask M;
-  RIIS_ARITHMETIC(M, a.part[i] < b.part[i]);
-}
-RIIS_LANES typename Lanes<S, R, n>::Mask operator<=(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef typename Lanes<S, R, n>::Mask M;
-  RIIS_ARITHMETIC(M, a.part[i] <= b.part[i]);
-}
-RIIS_LANES typename Lanes<S, R, n>::Mask operator>(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b < a; }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator>=(Lanes<S, R, n> a, Lanes<S, R, n> b) { return b <= a; }
-RIIS_LANES typename Lanes<S, R, n>::Mask operator==(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef typename Lanes<S, R, n>::Mask M;
-  RIIS_ARITHMETIC(M, a.part[i] == b.part[i]);
-}
-RIIS_LANES Lanes<S, R, n> least(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, least(a.part[i], b.part[i]));
-}
-RIIS_LANES Lanes<S, R, n> greatest(Lanes<S, R, n> a, Lanes<S, R, n> b) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, greatest(a.part[i], b.part[i]));
-}
-RIIS_LANES Lanes<S, R, n> multiply_add(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, multiply_add(a.part[i], b.part[i], c.part[i]));
-}
-RIIS_LANES Lanes<S, R, n> subtract_product(Lanes<S, R, n> a, Lanes<S, R, n> b, Lanes<S, R, n> c) {
-  typedef Lanes<S, R, n> L;
-  RIIS_ARITHMETIC(L, subtract_product(a.part[i], b.part[i], c.part[i]));
-}
-// clang-format on
-
 template <class Mask>
 RIIS_INLINE Mask both(Mask a, Mask b) {
   Mask r;
@@ -309,11 +281,6 @@ RIIS_INLINE Mask opposite(Mask a) {
   Mask r;
   for (unsigned i = 0; i < sizeof r.part / sizeof r.part[0]; ++i) r.part[i] = ~a.part[i];
   return r;
-}
-
-RIIS_LANES Lanes<S, R, n> choose(typename Lanes<S, R, n>::Mask where, Lanes<S, R, n> yes, Lanes<S, R, n> no) {
-  typedef Lanes<S, R, n> L;
-  RIIS_LANEWISE(L, where.part[i] ? yes.part[i] : no.part[i]);
 }
 
 // Returns one bit for each lane. The lowest bit belongs to the first lane.
@@ -401,7 +368,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
   r.part[0] = (FloatRegister)_mm512_maskz_mov_ps(keep, (__m512)x.part[0]);
   return r;
 #else
-  return choose<float, FloatRegister, 16>(a >= b, Floats::all(0), x);
+  return choose(a >= b, Floats::all(0), x);
 #endif
 }
 

@@ -143,19 +143,22 @@ Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
   return area;
 }
 
+// Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly across it.
+double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose) {
+  const double along = dot(landmarks.flow, normal);
+  constexpr double most_degrees = 75;
+  if (std::abs(along) < std::cos(most_degrees * pi / 180))
+    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
+         " degrees to ", whose, " normal; it must be at most ", most_degrees);
+  return along;
+}
+
 // The direction towards the atrium, which the flow or the commissures show. It is 0 if the landmarks do not show it.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
              lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
   Vec3 found{0, 0, 0};
-  if (landmarks.has_flow()) {
-    const double along = dot(landmarks.flow, normal);
-    constexpr double most_degrees = 75;
-    if (std::abs(along) < std::cos(most_degrees * pi / 180))
-      fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
-           " degrees to the annulus' normal; it must be at most ", most_degrees);
-    found = along > 0 ? -normal : normal;
-  }
+  if (landmarks.has_flow()) found = checked_flow(landmarks, normal, "the annulus'") > 0 ? -normal : normal;
   if (medial.empty() || lateral.empty()) return found;
   const double side = dot(cross(landmarks.at(medial[0]) - landmarks.at(lateral[0]), forward), normal);
   const Vec3 by_commissures = side > 0 ? normal : -normal;
@@ -212,9 +215,7 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   const Vec3 horn_there = back * to_horn;
   const double depth = horn_there.y - lower.y, width = upper.x - lower.x;
 
-  auto shift = std::array<double, 3>{};
-  valve.get("translation", 3, shift.data());
-  const Vec3 by{shift[0], shift[1], shift[2]};
+  const Vec3 by = vector_of(valve, "translation");
   auto model = std::make_unique<MitralModel>(landmarks, by);
   const double grown = depth / value_of(valve, "AP_diameter"), largest = 5 * depth;
   const auto add = [&](const char *name, double start, double least, double most, double spread_share) {
@@ -308,12 +309,8 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
   const auto ring = landmarks.with_role(RIIS_LANDMARK_ANNULUS), hinges = landmarks.with_role(RIIS_LANDMARK_HINGE);
   check_spread(landmarks, ring, one_place);
   const Spread spread = spread_of(landmarks, ring), hinge_spread = spread_of(landmarks, hinges);
-  const double along = dot(landmarks.flow, spread.direction[2]);
-  const Vec3 up = along < 0 ? -spread.direction[2] : spread.direction[2], middle = landmarks.mean_of(ring);
-  constexpr double most_degrees = 75;
-  if (std::abs(along) < std::cos(most_degrees * pi / 180))
-    fail(RIIS_INVALID_ARGUMENT, "landmarks.flow is at ", rounded(std::acos(std::abs(along)) * 180 / pi, 3),
-         " degrees to the ring's normal; it must be at most ", most_degrees);
+  const Vec3 normal = spread.direction[2], middle = landmarks.mean_of(ring);
+  const Vec3 up = checked_flow(landmarks, normal, "the ring's") < 0 ? -normal : normal;
   double radius = 0;
   for (const std::size_t i : ring) {
     const Vec3 p = landmarks.at(i) - middle;

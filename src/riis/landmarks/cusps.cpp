@@ -355,9 +355,7 @@ KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks) {
                Rc = mean_radius(landmarks, axes.order.commissure, axes), h = axes.height;
   KindOfLandmarks made{nullptr, {}, "root_radius", nullptr};
   if (is_aortic) {
-    std::array<double, 3> shift{};
-    valve.get("right.translation", 3, shift.data());
-    const Vec3 by{shift[0], shift[1], shift[2]};
+    const Vec3 by = vector_of(valve, "right.translation");
     auto model = std::make_unique<AorticModel>(landmarks, axes, by);
     const double grown = R / value_of(valve, "root_radius");
     const auto add = [&](const std::string &name, double start) {
@@ -374,8 +372,7 @@ KindOfLandmarks cusp_landmarks(const Valve &valve, const Landmarks &landmarks) {
   } else {
     const auto *names = std::find_if(std::begin(equal_cusps), std::end(equal_cusps),
                                      [&](const EqualCusps &cusps) { return std::strcmp(cusps.kind, kind) == 0; });
-    const Vec3 by{value_of(valve, "translation", 0), value_of(valve, "translation", 1),
-                  value_of(valve, "translation", 2)};
+    const Vec3 by = vector_of(valve, "translation");
     auto model = std::make_unique<EqualCuspModel>(landmarks, axes, by);
     const double grown = R / value_of(valve, names->radius);
     model->sizes = {length_size(names->radius, R, grown * value_of(valve, names->radius), R),

@@ -8,7 +8,7 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "landmarks/least_squares.hpp"
+#include "landmarks/fit.hpp"
 
 namespace riis {
 namespace {

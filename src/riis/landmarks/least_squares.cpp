@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "landmarks/least_squares.hpp"
+#include "landmarks/fit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "landmarks/place.hpp"
-
 #include <riis/riis.h>
 
 #include <algorithm>
@@ -18,11 +16,16 @@
 
 namespace riis {
 
-double value_of(const Valve &valve, const std::string &name, std::size_t component) {
-  double values[3] = {0, 0, 0};
-  for (const ParameterSpec &spec : valve.kind().parameters)
-    if (spec.name == name) valve.get(name, spec.n_values, values);
-  return values[component];
+double value_of(const Valve &valve, const std::string &name) {
+  double value = 0;
+  valve.get(name, 1, &value);
+  return value;
+}
+
+Vec3 vector_of(const Valve &valve, const char *name) {
+  std::array<double, 3> values{};
+  valve.get(name, 3, values.data());
+  return vector_of(values);
 }
 
 namespace {

@@ -210,9 +210,7 @@ class Finder {
     parallel_for_ranges(n_groups(), groups_per_task, n_threads_, [&](const Range &range, int) {
       for (std::int64_t g = range.begin; g < range.end; ++g) enclose(view(groups_.bounds)[g], view(boxes_)[g]);
     });
-    const Bounds &bounds = groups.of_all;
-    const auto largest = [](Vec3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); };
-    rounding_ = 0x1p-46 * std::max(largest(bounds.lower), largest(bounds.upper));
+    rounding_ = 0x1p-46 * groups.of_all.largest_coordinate();
   }
 
   std::vector<Pair> find() const {

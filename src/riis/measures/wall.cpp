@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <string_view>
-#include <utility>
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
@@ -133,16 +131,9 @@ SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, co
   if (n_too_far > 0) {
     const auto first = static_cast<std::size_t>(std::find_if(found.begin(), found.end(), is_too_far) - found.begin());
     const Vec3 p = starts[first].point;
-    const std::string_view how = found[first] ? "too far, at " : "missed";
-    const double away = found[first].value_or(0);
-    const auto text_of = [&](auto... rest) {
-      fail(RIIS_INVALID_ARGUMENT, "wall is not within longest, ", longest, ", at ", n_too_far, " of ", found.size(),
-           " points of the attachment; at the first, (", p.x, ", ", p.y, ", ", p.z, "), it is ", how, rest...);
-    };
-    if (found[first])
-      text_of(away);
-    else
-      text_of();
+    const Message how = found[first] ? Message("too far, at ", *found[first]) : Message("missed");
+    fail(RIIS_INVALID_ARGUMENT, "wall is not within longest, ", longest, ", at ", n_too_far, " of ", found.size(),
+         " points of the attachment; at the first, (", p.x, ", ", p.y, ", ", p.z, "), it is ", how.text());
   }
   SkirtLengths lengths;
   std::vector<Vec3> ends;

@@ -242,50 +242,7 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-constexpr std::int64_t rows_per_block = 4096;
-// Makes rows. append(i, neighbors) appends the neighbours of node i in any order, perhaps with repeats. It is called twice for
-// each node: first for the row's length, then for the row's columns. So memory never holds a list of all pairs.
-template <class Append>
-OwnAdjacency rows_of(std::int64_t n_nodes, int n_threads, const Append &append) {
-  OwnAdjacency made;
-  resize(made.offsets, n_nodes + 1);
-  view(made.offsets)[0] = 0;
-  const auto neighbors_of = [&](std::int64_t i, std::vector<std::int64_t> &neighbors) {
-    neighbors.clear();
-    append(i, neighbors);
-    std::sort(neighbors.begin(), neighbors.end());
-    neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
-  };
-  parallel_for_ranges(n_nodes, rows_per_block, n_threads, [&](const Range &range, int) {
-    std::vector<std::int64_t> neighbors;
-    for (std::int64_t i = range.begin; i < range.end; ++i) {
-      neighbors_of(i, neighbors);
-      view(made.offsets)[i + 1] = view(neighbors).size();
-    }
-  });
-  for (std::int64_t i = 0; i < n_nodes; ++i) view(made.offsets)[i + 1] += view(made.offsets)[i];
-  const bool small = n_nodes <= std::numeric_limits<std::int32_t>::max();
-  if (small)
-    resize(made.columns_32, made.offsets.back());
-  else
-    resize(made.columns_64, made.offsets.back());
-  parallel_for_ranges(n_nodes, rows_per_block, n_threads, [&](const Range &range, int) {
-    std::vector<std::int64_t> neighbors;
-    for (std::int64_t i = range.begin; i < range.end; ++i) {
-      neighbors_of(i, neighbors);
-      std::int64_t at = view(made.offsets)[i];
-      for (const std::int64_t j : neighbors) {
-        if (small)
-          view(made.columns_32)[at++] = static_cast<std::int32_t>(j);
-        else
-          view(made.columns_64)[at++] = j;
-      }
-    }
-  });
-  return made;
-}
-
-// The lists that incidence.hpp takes, for the neighbours of cells: here the nodes are the cells, and an entry is a face between
+// The lists of the neighbours of cells: here the nodes are the cells, and an entry is a face between
 // two cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
@@ -307,6 +264,30 @@ struct InnerFaces {
   void for_each_neighbor(std::int64_t face, std::int64_t node, const Visit &visit) const {
     const std::int64_t a = owner[face * stride] - base, b = neighbor[face * stride] - base;
     visit(a == node ? b : a);
+  }
+  void prefetch(std::int64_t) const {}
+};
+
+// The lists of a grid. An entry is the node itself.
+struct GridNodes {
+  static constexpr std::int64_t most_neighbors = 6;
+
+  std::int64_t ni, nj, nk;
+  std::int64_t n_nodes = ni * nj * nk, n_items = n_nodes;
+
+  template <class Visit>
+  void for_each_entry(const Range &range, const Visit &visit) const {
+    for (std::int64_t node = range.begin; node < range.end; ++node) visit(node, node);
+  }
+  template <class Visit>
+  void for_each_neighbor(std::int64_t node, std::int64_t, const Visit &visit) const {
+    const std::int64_t i = node % ni, j = node / ni % nj, k = node / (ni * nj);
+    if (k > 0) visit(node - ni * nj);
+    if (j > 0) visit(node - ni);
+    if (i > 0) visit(node - 1);
+    if (i + 1 < ni) visit(node + 1);
+    if (j + 1 < nj) visit(node + ni);
+    if (k + 1 < nk) visit(node + ni * nj);
   }
   void prefetch(std::int64_t) const {}
 };
@@ -434,15 +415,7 @@ std::int64_t nodes_of_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk) {
 }
 
 OwnAdjacency adjacency_from_grid(std::int64_t ni, std::int64_t nj, std::int64_t nk, int n_threads) {
-  return rows_of(nodes_of_grid(ni, nj, nk), n_threads, [&](std::int64_t node, std::vector<std::int64_t> &neighbors) {
-    const std::int64_t i = node % ni, j = node / ni % nj, k = node / (ni * nj);
-    if (i > 0) neighbors.push_back(node - 1);
-    if (i + 1 < ni) neighbors.push_back(node + 1);
-    if (j > 0) neighbors.push_back(node - ni);
-    if (j + 1 < nj) neighbors.push_back(node + ni);
-    if (k > 0) neighbors.push_back(node - ni * nj);
-    if (k + 1 < nk) neighbors.push_back(node + ni * nj);
-  });
+  return adjacency_of_lists(GridNodes{ni, nj, nk}, nodes_of_grid(ni, nj, nk), n_threads, {});
 }
 
 }  // namespace riis

@@ -145,7 +145,7 @@ class Cells {
   CellNodes<Id> nodes_;
 };
 
-// The lists that incidence.hpp takes, for cells of one shape. An entry is a position in the cells' lists.
+// The lists that RowMaker takes (adjacency.cpp), for cells of one shape. An entry is a position in the cells' lists.
 template <class Id, const CellShape &shape>
 struct CellsOfOneShape {
   static constexpr std::int64_t most_neighbors = neighbors_in<shape>.most;
@@ -170,7 +170,7 @@ struct CellsOfOneShape {
   void prefetch(std::int64_t entry) const { nodes.prefetch(entry); }
 };
 
-// The lists that incidence.hpp takes, for cells of any shapes. An entry is a cell.
+// The lists of cells of any shapes. An entry is a cell.
 template <class Id>
 struct CellsOfAnyShape {
   static constexpr std::int64_t most_neighbors = 7;  // a node listed twice in a cell may be joined to all other nodes

@@ -6,11 +6,10 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
+#include "base/made_once.hpp"
 #include "geometry/strided.hpp"
 #include "geometry/vec3.hpp"
 #include "mesh/adjacency.hpp"
@@ -93,9 +92,9 @@ class Mesh {
 
   // Call this function when the nodes have moved. Balls, clusters and edges are then made again when they are next needed.
   void forget_places() {
-    has_balls_.store(false, std::memory_order_relaxed);
-    has_clusters_.store(false, std::memory_order_relaxed);
-    has_edges_.store(false, std::memory_order_relaxed);
+    balls_.forget();
+    clusters_.forget();
+    edges_.forget();
   }
 
   // Both functions set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
@@ -115,7 +114,7 @@ class Mesh {
   }
   void set_adjacency(const std::optional<Adjacency> &adjacency) {
     adjacency_ = adjacency;
-    has_edges_.store(false, std::memory_order_relaxed);
+    edges_.forget();
   }
 
   // Returns the nodes in balls. Several threads may call this function and the next two at once.
@@ -145,16 +144,11 @@ class Mesh {
   std::vector<double> own_xyz_;  // (3, n), used if the nodes are copied
   Bounds bounds_;
   std::optional<Adjacency> adjacency_;
-  mutable std::mutex balls_mutex_;
-  mutable NodeBalls balls_;
-  mutable std::atomic<bool> has_balls_{false};
-  mutable std::mutex clusters_mutex_;
-  mutable Clusters clusters_;
-  mutable std::atomic<bool> has_clusters_{false}, was_marked_{false};
+  mutable MadeOnce<NodeBalls> balls_;
+  mutable MadeOnce<Clusters> clusters_;
+  mutable MadeOnce<EdgeBlocks> edges_;
+  mutable std::atomic<bool> was_marked_{false};
   mutable WarnedSurfaces warned_surfaces_;
-  mutable std::mutex edges_mutex_;
-  mutable EdgeBlocks edges_;
-  mutable std::atomic<bool> has_edges_{false};
 };
 
 }  // namespace riis

@@ -19,15 +19,6 @@ double largest_coordinate(const Edges &edges) {
   return largest;
 }
 
-double outside(double x, double lower, double upper) { return std::max({lower - x, x - upper, 0.0}); }
-
-template <class AnyBox>
-double distance_sq(const AnyBox &box, Vec3 p) {
-  const Vec3 away{outside(p.x, box.lower.x, box.upper.x), outside(p.y, box.lower.y, box.upper.y),
-                  outside(p.z, box.lower.z, box.upper.z)};
-  return dot(away, away);
-}
-
 // Returns the coordinate in which the box is longest.
 double Vec3::*longest_axis(Vec3 extent) {
   if (extent.x >= extent.y && extent.x >= extent.z) return &Vec3::x;
@@ -61,15 +52,13 @@ NearestEdges::NearestEdges(const Edges &edges) : edges_(edges), rounding_(1e-15 
 }
 
 NearestEdges::Box NearestEdges::box_around(std::int64_t begin, std::int64_t end) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
-  for (std::int64_t k = begin; k < end; ++k)
-    for (const Vec3 p : {edges_.first(view(order_)[k]), edges_.second(view(order_)[k])}) {
-      lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-      upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-    }
+  Bounds bounds;
+  for (std::int64_t k = begin; k < end; ++k) {
+    bounds.add(edges_.first(view(order_)[k]));
+    bounds.add(edges_.second(view(order_)[k]));
+  }
   const Vec3 margin{rounding_, rounding_, rounding_};
-  return {lower - margin, upper + margin, begin, end, 0};
+  return {{bounds.lower - margin, bounds.upper + margin}, begin, end, 0};
 }
 
 // Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is halved by the middles of its edges.
@@ -78,7 +67,7 @@ void NearestEdges::add(std::int64_t begin, std::int64_t end) {
   boxes_.push_back(box_around(begin, end));
   if (end - begin <= edges_per_box) return;
   const std::int64_t half = begin + (end - begin) / 2;
-  double Vec3::*const axis = longest_axis(view(boxes_)[own].upper - view(boxes_)[own].lower);
+  double Vec3::*const axis = longest_axis(view(boxes_)[own].bounds.upper - view(boxes_)[own].bounds.lower);
   std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
                    [&](std::int64_t a, std::int64_t b) {
                      const double at_a = edges_.middle(a).*axis, at_b = edges_.middle(b).*axis;
@@ -103,7 +92,7 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   std::int64_t nearest = -1;
   // Rounding may put the distance of a box just above the distance of an edge in the box. The bound is therefore a little
   // smaller, and the search never skips a box with an equally near edge.
-  const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * distance_sq(view(boxes_)[box], point); };
+  const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
   std::array<std::int64_t, 64> open;  // boxes to visit: at most one for each of the tree's levels, fewer than 64
   std::size_t n_open = 0;
   open[n_open++] = tree->root;

@@ -40,7 +40,7 @@ class NearestEdges {
   // A box around the edges order_[begin] to order_[end - 1]. If `second` is 0, the box has no parts. Otherwise the next box of
   // boxes_ holds the first half of the edges, and boxes_[second] holds the second half.
   struct Box {
-    Vec3 lower, upper;
+    Bounds bounds;
     std::int64_t begin, end, second;
   };
   struct Tree {

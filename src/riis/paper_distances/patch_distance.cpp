@@ -53,10 +53,8 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
   for (const PlacedPatch &patch : patches_.patches) {
     const Speeds speeds = largest_speeds(patch.grid);
     extents_.push_back({bounds_of(patch.grid), speeds.u, speeds.v});
-    const Bounds &box = extents_.back().box;
-    box_.add(box);
-    for (const Vec3 &p : {box.lower, box.upper})
-      largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    box_.add(extents_.back().box);
+    largest = std::max(largest, extents_.back().box.largest_coordinate());
   }
   // A computed point is the result of three linear interpolations. Each is accurate to two units of rounding in each of three
   // coordinates.
@@ -64,7 +62,7 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
 }
 
 double Minimizer::lower_bound(const Bounds &box, Vec3 p) const {
-  return std::sqrt(distance_sq_to(box, p)) * (1 - 1e-15) - rounding_;
+  return std::sqrt(box.distance_sq_to(p)) * (1 - 1e-15) - rounding_;
 }
 
 bool Minimizer::may_be_within(Vec3 p, double limit) const { return lower_bound(box_, p) <= limit; }
@@ -180,13 +178,6 @@ Bounds bounds_of(const QuadGrid &grid) {
   Bounds box;
   for (const Vec3 &p : grid.points) box.add(p);
   return box;
-}
-
-double distance_sq_to(const Bounds &box, Vec3 p) {
-  const auto outside = [](double x, double lower, double upper) { return std::max({lower - x, x - upper, 0.0}); };
-  const Vec3 gap{outside(p.x, box.lower.x, box.upper.x), outside(p.y, box.lower.y, box.upper.y),
-                 outside(p.z, box.lower.z, box.upper.z)};
-  return dot(gap, gap);
 }
 
 }  // namespace riis

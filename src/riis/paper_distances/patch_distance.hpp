@@ -68,10 +68,6 @@ Speeds largest_speeds(const QuadGrid &grid);
 // Returns the box of the grid's points. The box also holds every S(u,v), which is a weighted mean of these points.
 Bounds bounds_of(const QuadGrid &grid);
 
-// Returns the square of the distance from p to a box. For any point q in the box, the result is at most dot(q - p, q - p), even
-// in the last bit, because rounding keeps the order of differences, squares and sums.
-double distance_sq_to(const Bounds &box, Vec3 p);
-
 struct ClosestOnPatches {
   double distance_sq = std::numeric_limits<double>::infinity();
   std::int64_t patch = -1;  // position among the placed patches; -1 for none

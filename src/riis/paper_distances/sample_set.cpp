@@ -124,8 +124,8 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
   const Node &node = view(nodes_)[at];
   if (node.second >= 0) {
     std::int32_t near = at + 1, far = node.second;
-    double to_near = distance_sq_to(view(nodes_)[near].box, query.p);
-    double to_far = distance_sq_to(view(nodes_)[far].box, query.p);
+    double to_near = view(nodes_)[near].box.distance_sq_to(query.p);
+    double to_far = view(nodes_)[far].box.distance_sq_to(query.p);
     if (to_far < to_near) {
       std::swap(near, far);
       std::swap(to_near, to_far);
@@ -168,7 +168,7 @@ ClosestOnPatches SampleSet::closest(Vec3 p, double limit) const {
 }
 
 bool SampleSet::may_be_within(Vec3 p, double limit) const {
-  return std::sqrt(distance_sq_to(nodes_.front().box, p)) <= limit;
+  return std::sqrt(nodes_.front().box.distance_sq_to(p)) <= limit;
 }
 
 }  // namespace riis

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step run on OpenMP's
-// threads or, after a long wait for one of them, on a team. No other file uses OpenMP.
+// threads or, after a long wait for one of them, on a team. Only parallel_for.cpp uses OpenMP.
 #pragma once
 
-#include <omp.h>
-
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
 #include <cstdint>
-#include <exception>
-#include <mutex>
 
-#include "common/array_view.hpp"
-#include "common/float_environment.hpp"
 #include "parallel/team.hpp"
 #include "parallel/threads.hpp"
 
@@ -22,10 +12,7 @@ namespace riis {
 
 // Returns the number of processors in the affinity mask of the calling thread. n_threads = 0 never stands for more threads. If
 // OpenMP binds threads to places, the mask is the process's mask at its start.
-inline int default_thread_count() noexcept {
-  const int n = omp_get_num_procs();
-  return n < 1 ? 1 : n;
-}
+int default_thread_count() noexcept;
 
 // Returns the number of the machine's processors, also of processors outside the calling thread's affinity mask.
 int processors_of_machine() noexcept;
@@ -42,81 +29,24 @@ inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::in
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// The blocks of a loop. Each thread begins with a share of the blocks, and then helps with the other shares. If the last loop
-// used the same data, a thread finds most of its data in its own cache. The blocks of a share are handed out in ascending order.
-// If a body throws, no higher block begins any more, and the exception of the lowest block is rethrown after the loop. It is the
-// exception that a single thread would meet, because all lower blocks run to their end. They are handed out, because the calling
-// thread goes through the shares in ascending order.
-template <class Body>
-class Blocks {
+// Refers to a body(block, thread) of any type, which must live as long as the loop. So the loops are compiled once, not once for
+// each body, and a block costs one call through a pointer.
+class LoopBody {
  public:
-  Blocks(std::int64_t n_blocks, int n_threads, const Body &body)
-      : n_shares_(std::min<std::int64_t>({n_blocks, n_threads, most_shares})), body_(body), end_(n_blocks) {
-    for (std::int64_t i = 0; i < n_shares_; ++i) {
-      view(shares_)[i].next.store(n_blocks * i / n_shares_, std::memory_order_relaxed);
-      view(shares_)[i].end = n_blocks * (i + 1) / n_shares_;
-    }
+  template <class Body>
+  LoopBody(const Body &body)  // NOLINT(google-explicit-constructor): callers pass a lambda
+      : body_(&body),
+        call_([](const void *of, std::int64_t block, int thread) { (*static_cast<const Body *>(of))(block, thread); }) {
   }
-
-  // Runs blocks until none is left, or until has_to_stop() before a block. Returns how many blocks it ran. Each thread of the
-  // loop calls this once, and the calling thread may also call it before the other threads begin.
-  template <class HasToStop>
-  std::int64_t run(int thread, const HasToStop &has_to_stop) {
-    const FloatEnvironment environment;
-    std::int64_t block = 0, n_ran = 0;
-    try {
-      for (std::int64_t i = 0; i < n_shares_; ++i) {
-        Share &share = view(shares_)[(thread + i) % n_shares_];
-        while (share.next.load(std::memory_order_relaxed) < share.end) {
-          if (has_to_stop()) return n_ran;
-          block = share.next.fetch_add(1, std::memory_order_relaxed);
-          if (block >= share.end || block >= end_.load(std::memory_order_relaxed)) break;
-          body_(block, thread);
-          ++n_ran;
-        }
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (block < end_.load(std::memory_order_relaxed)) {
-        end_.store(block, std::memory_order_relaxed);
-        exception_ = std::current_exception();
-      }
-    }
-    return n_ran;
-  }
-  std::int64_t run(int thread) {
-    return run(thread, [] { return false; });
-  }
-  void rethrow() const {
-    if (exception_) std::rethrow_exception(exception_);
-  }
+  void operator()(std::int64_t block, int thread) const { call_(body_, block, thread); }
 
  private:
-  static constexpr std::int64_t most_shares = 64;  // further threads share these, which take 4 kB of the stack
-  struct alignas(64) Share {
-    std::atomic<std::int64_t> next;
-    std::int64_t end;
-  };
-
-  const std::int64_t n_shares_;
-  const Body &body_;
-  std::array<Share, most_shares> shares_;
-  std::atomic<std::int64_t> end_;  // the lowest block that has failed, or the number of blocks
-  std::mutex mutex_;
-  std::exception_ptr exception_;
+  const void *body_;
+  void (*call_)(const void *of, std::int64_t block, int thread);
 };
 
-// Runs body(block, thread) once for every block in [0, n_blocks) on the calling thread.
-template <class Body>
-int run_alone(std::int64_t n_blocks, const Body &body) {
-  for (std::int64_t block = 0; block < n_blocks; ++block) body(block, 0);
-  return 1;
-}
-
-inline std::int64_t nanoseconds() noexcept {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
+// Returns the time of a steady clock in nanoseconds, which a LoopChoice takes.
+std::int64_t nanoseconds() noexcept;
 
 // When the calling thread begins its work in a loop, and when it has no more.
 struct TimesOfCaller {
@@ -124,85 +54,18 @@ struct TimesOfCaller {
 };
 
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads of OpenMP, and returns how many
-// threads ran. The caller's OpenMP settings do not change. Inside a caller's parallel region, the loop uses as many threads as
-// nesting allows. With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no
-// memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
-// threads that are left out, and the next loop has to wait for new ones. If OpenMP runs the loop, `of_caller` gets the times of
-// the calling thread. It may be null.
-template <class Body>
-int openmp_for(std::int64_t n_blocks, int n_threads, const Body &body, TimesOfCaller *of_caller = nullptr) {
-  if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
-  Blocks<Body> blocks(n_blocks, n_threads, body);
-  int n_ran = 1;
-#pragma omp parallel num_threads(n_threads) default(none) shared(blocks, n_ran, of_caller)
-  {
-    const int thread = omp_get_thread_num();
-    if (thread == 0) {
-      n_ran = omp_get_num_threads();
-      if (of_caller) of_caller->begins = nanoseconds();
-    }
-    blocks.run(thread);
-    if (thread == 0 && of_caller) of_caller->has_worked = nanoseconds();
-  }
-  blocks.rethrow();
-  return n_ran;
-}
+// threads ran. If a body throws, the exception that a single thread would meet is rethrown after the loop. The caller's OpenMP
+// settings do not change. Inside a caller's parallel region, the loop uses as many threads as nesting allows. If OpenMP runs the
+// loop, `of_caller` gets the times of the calling thread. It may be null.
+int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
 // Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up. The calling thread first
 // works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
-template <class Body>
-int team_for(std::int64_t n_blocks, int n_threads, const Body &body, LoopChoice &choice) {
-  if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
-  struct Loop {
-    Blocks<Body> blocks;
-    std::int64_t n_of_caller;  // the number of blocks that the calling thread ran in the team
-    std::int64_t has_worked;   // when it had run them
-  } loop{{n_blocks, n_threads, body}, 0, 0};
-  std::int64_t n_alone = 0, begin = nanoseconds();
-  if (const std::int64_t time_alone = choice.time_alone(begin); time_alone > 0) {
-    const std::int64_t until = begin + time_alone;
-    n_alone = loop.blocks.run(0, [&begin, until] { return (begin = nanoseconds()) >= until; });
-    loop.blocks.rethrow();
-    if (n_alone == n_blocks) return n_threads;
-  }
-  const auto work = [](void *context, int thread) {
-    Loop &of_team = *static_cast<Loop *>(context);
-    const std::int64_t n = of_team.blocks.run(thread);
-    if (thread == 0) of_team.n_of_caller = n, of_team.has_worked = nanoseconds();
-  };
-  const int n_ran = run_by_team(n_threads, work, &loop);
-  loop.blocks.rethrow();
-  const std::int64_t end = nanoseconds(), n_of_others = n_blocks - n_alone - loop.n_of_caller;
-  const double per_block =
-      static_cast<double>(loop.has_worked - begin) / static_cast<double>(std::max<std::int64_t>(loop.n_of_caller, 1));
-  choice.record_team(end - loop.has_worked - static_cast<std::int64_t>(static_cast<double>(n_of_others) * per_block),
-                     end);
-  return n_ran;
-}
+int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
 // Does the same on threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's parallel
 // region, and if the user binds OpenMP's threads to places.
-template <class Body>
-int parallel_for(std::int64_t n_blocks, int n_threads, const Body &body) {
-  if (n_blocks <= 1 || n_threads == 1) return run_alone(n_blocks, body);
-  if (omp_in_parallel() || omp_get_proc_bind() != omp_proc_bind_false) return openmp_for(n_blocks, n_threads, body);
-#if defined(RIIS_STD_THREADS)
-  // The thread sanitizer then sees the loops of a time step on a team.
-  return team_for(n_blocks, n_threads, body, loop_choice);
-#else
-  const std::int64_t begin = nanoseconds();
-  // More threads than processors wait for each other in every loop of OpenMP.
-  if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
-    return team_for(n_blocks, n_threads, body, loop_choice);
-  TimesOfCaller of_caller{begin, begin};
-  const int n_ran = openmp_for(n_blocks, n_threads, body, &of_caller);
-  const std::int64_t end = nanoseconds();
-  // GCC's run-time waits for all threads also at the beginning, until they have left the loop before. The first loop starts them.
-  const std::int64_t waited = loop_choice.has_recorded() ? of_caller.begins - begin : 0;
-  loop_choice.record(waited + (end - of_caller.has_worked), end);
-  return n_ran;
-#endif
-}
+int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body);
 
 // Calls body(range, thread) for the ranges of per_block numbers in [0, n). The last range may be shorter.
 template <class Body>

@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "arrays/keyframes.hpp"
+#include "arrays/user_arrays.hpp"
 #include "pipeline/make_surface.hpp"
 #include "scene/surface.hpp"
 #include "valve/valve.hpp"

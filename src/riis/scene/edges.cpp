@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -76,14 +75,14 @@ class Cancelling {
   Cancelling(const TriangleSet &set, std::vector<OpenEdge> edges) : set_(set), edges_(std::move(edges)) {
     is_left_.assign(edges_.size(), true);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
-      from_.emplace(edges_[i].from, i);
-      to_.emplace(edges_[i].to, i);
+      from_.with.emplace(edges_[i].from, i);
+      to_.with.emplace(edges_[i].to, i);
     }
   }
 
   std::vector<OpenEdge> left() {
     for (std::size_t i = 0; i < edges_.size(); ++i)
-      while (is_left_[i] && shorten(i)) continue;
+      while (is_left_[i] && (shorten(i, from_, to_) || shorten(i, to_, from_))) continue;
     std::vector<OpenEdge> made;
     for (std::size_t i = 0; i < edges_.size(); ++i)
       if (is_left_[i]) made.push_back(edges_[i]);
@@ -91,28 +90,37 @@ class Cancelling {
   }
 
  private:
-  // Looks for an edge that covers one end of the given edge in the opposite direction. If there is one, the two cancel there.
-  // Returns false if there is none.
-  bool shorten(std::size_t i) {
+  // One end of the edges, and the edges that have a vertex there.
+  struct Ends {
+    std::int64_t OpenEdge::*end;
+    std::unordered_multimap<std::int64_t, std::size_t> with;
+
+    void erase(std::int64_t vertex, std::size_t i) {
+      for (auto [at, last] = with.equal_range(vertex); at != last; ++at)
+        if (at->second == i) {
+          with.erase(at);
+          return;
+        }
+    }
+  };
+
+  // Looks for an edge in the opposite direction that covers this end of the given edge. Its own other end is then at the same
+  // vertex, and it leads to a point on the given edge. The two cancel there. Returns false if there is no such edge.
+  bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
-    // At the start, the other edge ends where the given edge begins, and comes from a point on the given edge.
-    for (auto [at, end] = to_.equal_range(edge.from); at != end; ++at)
-      if (at->second != i && is_left_[at->second] && is_on(edge, edges_[at->second].from)) {
-        const std::size_t other = at->second;
-        const std::int64_t point = edges_[other].from;
-        drop(other);
-        move_from(i, point);
-        return true;
+    for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {
+      const std::size_t other = at->second;
+      const std::int64_t point = edges_[other].*here.end;
+      if (other == i || !is_left_[other] || !is_on(edge, point)) continue;
+      drop(other);
+      if (point == edge.*there.end) {
+        drop(i);
+      } else {
+        here.erase(edge.*here.end, i);
+        here.with.emplace(edges_[i].*here.end = point, i);
       }
-    // At the end, the other edge begins where the given edge ends, and leads to a point on the given edge.
-    for (auto [at, end] = from_.equal_range(edge.to); at != end; ++at)
-      if (at->second != i && is_left_[at->second] && is_on(edge, edges_[at->second].to)) {
-        const std::size_t other = at->second;
-        const std::int64_t point = edges_[other].to;
-        drop(other);
-        move_to(i, point);
-        return true;
-      }
+      return true;
+    }
     return false;
   }
 
@@ -125,33 +133,16 @@ class Cancelling {
     return share > 0 && share < 1 && length(ap - share * ab) <= near;
   }
 
-  void erase(std::unordered_multimap<std::int64_t, std::size_t> &ends, std::int64_t vertex, std::size_t i) {
-    for (auto [at, end] = ends.equal_range(vertex); at != end; ++at)
-      if (at->second == i) {
-        ends.erase(at);
-        return;
-      }
-  }
   void drop(std::size_t i) {
     is_left_[i] = false;
-    erase(from_, edges_[i].from, i);
-    erase(to_, edges_[i].to, i);
-  }
-  void move_from(std::size_t i, std::int64_t vertex) {
-    if (vertex == edges_[i].to) return drop(i);
-    erase(from_, edges_[i].from, i);
-    from_.emplace(edges_[i].from = vertex, i);
-  }
-  void move_to(std::size_t i, std::int64_t vertex) {
-    if (vertex == edges_[i].from) return drop(i);
-    erase(to_, edges_[i].to, i);
-    to_.emplace(edges_[i].to = vertex, i);
+    from_.erase(edges_[i].from, i);
+    to_.erase(edges_[i].to, i);
   }
 
   const TriangleSet &set_;
   std::vector<OpenEdge> edges_;
   std::vector<bool> is_left_;
-  std::unordered_multimap<std::int64_t, std::size_t> from_, to_;
+  Ends from_{&OpenEdge::from, {}}, to_{&OpenEdge::to, {}};
 };
 
 // The triangles around vertices, in groups that are connected by edges through the vertex.

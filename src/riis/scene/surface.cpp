@@ -58,11 +58,10 @@ void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) 
   triangles_ = std::move(triangles);
   half_thickness_ = half_thickness;
   collect_leaflets(triangles_, leaflet_ids_);
-  attachment_.reset();
-  leaflets_.reset();
+  attachment_.forget() = {};
+  leaflets_.forget() = {};
   area_.store(not_known, std::memory_order_relaxed);
-  pseudonormals_.store(nullptr, std::memory_order_relaxed);
-  pseudonormals_owner_.reset();
+  pseudonormals_.forget().reset();
   other_distance_.reset();
   source_valve_.reset();
   patches_.reset();
@@ -95,27 +94,6 @@ void Surface::add_direction(const Direction &direction, int n_threads) {
   if (rates_.size() == n) rates_.emplace_back();
   make_vertex_rates(*patches(), triangles_.grids, direction, n_threads, rates_[n]);
   ++n_directions_;
-}
-
-const Attachment &Surface::attachment() const {
-  const std::lock_guard<std::mutex> lock(attachment_mutex_);
-  if (!attachment_) attachment_.emplace(attachment_of(triangles_));
-  return *attachment_;
-}
-
-const std::vector<riis_leaflet> &Surface::leaflets() const {
-  const std::lock_guard<std::mutex> lock(leaflets_mutex_);
-  if (!leaflets_) leaflets_.emplace(leaflets_of(triangles_));
-  return *leaflets_;
-}
-
-const Pseudonormals &Surface::make_pseudonormals() const {
-  const std::lock_guard<std::mutex> lock(pseudonormals_mutex_);
-  if (!pseudonormals_owner_) {
-    pseudonormals_owner_.emplace(triangles_);
-    pseudonormals_.store(&*pseudonormals_owner_, std::memory_order_release);
-  }
-  return *pseudonormals_owner_;
 }
 
 }  // namespace riis

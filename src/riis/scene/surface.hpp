@@ -6,11 +6,11 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/made_once.hpp"
 #include "geometry/placement.hpp"
 #include "motion/vertex_rates.hpp"
 #include "paper_distances/patch_distance.hpp"
@@ -71,10 +71,14 @@ class Surface {
 
   // Returns the sides at which leaflets are attached. A surface from arrays has none. The first call makes them. Several threads
   // may call this function at once.
-  const Attachment &attachment() const;
+  const Attachment &attachment() const {
+    return attachment_.get([this](Attachment &made) { made = attachment_of(triangles_); });
+  }
 
   // Returns the leaflets, ascending by id. The first call measures them. Several threads may call this function at once.
-  const std::vector<riis_leaflet> &leaflets() const;
+  const std::vector<riis_leaflet> &leaflets() const {
+    return leaflets_.get([this](std::vector<riis_leaflet> &made) { made = leaflets_of(triangles_); });
+  }
 
   // Returns the other method that measures distances, or null if the triangles' scene measures them.
   const PatchDistance *other_distance() const { return other_distance_.get(); }
@@ -83,14 +87,11 @@ class Surface {
 
   // Returns the normals for sides and rims. The first call makes them. Several threads may call this function at once.
   const Pseudonormals &pseudonormals() const {
-    const Pseudonormals *made = pseudonormals_.load(std::memory_order_acquire);
-    return made ? *made : make_pseudonormals();
+    return *pseudonormals_.get([this](auto &made) { made.emplace(triangles_); });
   }
 
  private:
   static constexpr double not_known = -1;
-
-  const Pseudonormals &make_pseudonormals() const;
 
   TriangleSet triangles_;
   TriangleScene scene_;
@@ -105,13 +106,9 @@ class Surface {
   std::unique_ptr<const PatchDistance> other_distance_;
   double triangle_error_ = 0;
   // The pseudonormals are made when a side is first queried, because marking alone does not need them.
-  mutable std::mutex pseudonormals_mutex_;
-  mutable std::optional<const Pseudonormals> pseudonormals_owner_;
-  mutable std::atomic<const Pseudonormals *> pseudonormals_{nullptr};
-  mutable std::mutex attachment_mutex_;
-  mutable std::optional<const Attachment> attachment_;
-  mutable std::mutex leaflets_mutex_;
-  mutable std::optional<const std::vector<riis_leaflet>> leaflets_;
+  mutable MadeOnce<std::optional<const Pseudonormals>> pseudonormals_;
+  mutable MadeOnce<Attachment> attachment_;
+  mutable MadeOnce<std::vector<riis_leaflet>> leaflets_;
 };
 
 }  // namespace riis

@@ -8,13 +8,13 @@
 #endif
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <utility>
 
 #include "base/errors.hpp"
+#include "base/made_once.hpp"
 #include "common/array_view.hpp"
 #include "parallel/arena.hpp"
 
@@ -63,7 +63,7 @@ constexpr double far_away = 1e6;
 // e and the term 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the rounding of the
 // kernel. 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
-  const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+  const double largest = largest_coordinate(q);
   return round_up(distance * (1.0 + 0x1p-20) + largest * 0x1p-22 + rounding + 0x1p-60);
 }
 
@@ -74,24 +74,17 @@ struct TriangleScene::Implementation {
   double rounding = 0;  // TriangleScene::rounding_ in the frame's units
   int n_threads = 1;    // of the tree
   std::shared_ptr<std::remove_pointer_t<RTCDevice>> device = shared_device();
-  Scene scene;
+  MadeOnce<Scene> scene;
   Geometry geometry;
   bool tree_fits = false;  // whether the tree, when it was last built, had the same groups
-  std::mutex building;
-  std::atomic<bool> is_built{false};
 
-  // Builds Embree's tree over the groups, if no query did so since they were made.
-  void build_if_needed() {
-    if (is_built.load(std::memory_order_acquire)) return;
-    const std::lock_guard<std::mutex> lock(building);
-    if (is_built.load(std::memory_order_relaxed)) return;
-    build();
-    tree_fits = true;
-    is_built.store(true, std::memory_order_release);
+  // Returns Embree's tree over the groups. Builds it if no query did so since they were made.
+  RTCScene tree() {
+    return scene.get([this](Scene &made) { build(made); }).get();
   }
 
  private:
-  void build();
+  void build(Scene &made);
 };
 
 namespace {
@@ -178,6 +171,14 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   return true;
 }
 
+// Calls visit for the groups within a radius of a point, and perhaps for others.
+void visit_groups(RTCScene tree, const float *point, float radius, RTCPointQueryFunction visit, void *user_data) {
+  RTCPointQuery sphere{point[0], point[1], point[2], 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(tree, &sphere, &context, visit, user_data);
+}
+
 struct Collected {
   std::vector<std::int32_t> &groups;
   bool is_out_of_memory;
@@ -197,20 +198,17 @@ bool add_group(RTCPointQueryFunctionArguments *arguments) {
 // Bounds the rounding of a distance. The kernel computes a point of the triangle. Each of the point's coordinates is accurate to
 // a few units of rounding of the largest coordinate, and 16 units cover this amply. The distance from that point is accurate to
 // its own rounding.
-double rounding_of_distances(const Bounds &bounds) {
-  const Vec3 a = bounds.lower, b = bounds.upper;
-  return 0x1p-49 * std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z), std::abs(b.x), std::abs(b.y), std::abs(b.z)});
-}
+double rounding_of_distances(const Bounds &bounds) { return 0x1p-49 * bounds.largest_coordinate(); }
 
 }  // namespace
 
-void TriangleScene::Implementation::build() {
+void TriangleScene::Implementation::build(Scene &made) {
   const auto check = [this](const char *what) {
     const RTCError error = rtcGetDeviceError(device.get());
     if (error != RTC_ERROR_NONE) fail_embree(error, what);
   };
   rtcGetDeviceError(device.get());  // clears an earlier error of this thread
-  if (!scene) {
+  if (!made) {
     Geometry of_groups(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("create a geometry");
     rtcSetGeometryUserData(of_groups.get(), this);
@@ -219,13 +217,13 @@ void TriangleScene::Implementation::build() {
     check("create a scene");
     rtcAttachGeometry(of_geometry.get(), of_groups.get());
     check("attach the geometry");
-    scene = std::move(of_geometry);
+    made = std::move(of_geometry);
     geometry = std::move(of_groups);
   } else {
     // A scene that moves is built more often and is queried less often after each build. If the groups are the same, their tree
     // is kept with new boxes.
-    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_DYNAMIC);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);
+    rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
   }
   tree_fits = false;  // until the tree is complete
@@ -234,8 +232,9 @@ void TriangleScene::Implementation::build() {
   check("take the triangles");
   // Embree builds with TBB. Outside of an arena, TBB would call as many threads as there are processors.
   constexpr std::size_t few = 1024;  // with fewer groups, Embree itself builds on one thread
-  Arena(groups.groups.size() < few ? 1 : n_threads).run([this] { rtcCommitScene(scene.get()); });
+  Arena(groups.groups.size() < few ? 1 : n_threads).run([&] { rtcCommitScene(made.get()); });
   check("build the scene");
+  tree_fits = true;
 }
 
 TriangleScene::TriangleScene() : implementation_(std::make_unique<Implementation>()) {}
@@ -251,19 +250,15 @@ void TriangleScene::make(const TriangleSet &set, int n_threads) {
 
   in.n_threads = n_threads;
   in.tree_fits = in.tree_fits && in.groups.are_as_before;
-  in.is_built.store(false, std::memory_order_relaxed);
+  in.scene.forget();
 }
 
-void TriangleScene::build_tree() const { implementation_->build_if_needed(); }
+void TriangleScene::build_tree() const { implementation_->tree(); }
 
 TriangleScene::~TriangleScene() = default;
 
 bool TriangleScene::may_be_within(Vec3 p, double limit) const {
-  const auto outside = [](double x, double lower, double upper) { return std::max({lower - x, x - upper, 0.0}); };
-  const Vec3 &lower = bounds_.lower, &upper = bounds_.upper;
-  const double distance =
-      length(Vec3{outside(p.x, lower.x, upper.x), outside(p.y, lower.y, upper.y), outside(p.z, lower.z, upper.z)});
-  return distance <= limit * (1 + 1e-12) + rounding_;
+  return std::sqrt(bounds_.distance_sq_to(p)) <= limit * (1 + 1e-12) + rounding_;
 }
 
 ClosestTriangle TriangleScene::closest(Vec3 p, double limit, InstructionSet instructions, Ties *ties) const {
@@ -275,7 +270,7 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   const Implementation &in = *implementation_;
   const SurfaceFrame &frame = in.groups.frame;
   const Vec3 q = frame(p);
-  const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+  const double largest = largest_coordinate(q);
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
@@ -292,17 +287,10 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
       reach = std::sqrt(query.best.distance_sq);
     }
     if constexpr (keeps_ties) reach += ties->rule.of_leaflets;
-    RTCPointQuery sphere;
-    sphere.x = static_cast<float>(query.q.x);
-    sphere.y = static_cast<float>(query.q.y);
-    sphere.z = static_cast<float>(query.q.z);
-    sphere.time = 0;
-    sphere.radius = inflated_radius(reach * frame.scale, query.q, in.rounding);
     query.largest += reach * frame.scale;
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    build_tree();
-    rtcPointQuery(in.scene.get(), &sphere, &context, visit_group<keeps_ties>, &query);
+    const float point[3] = {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z)};
+    visit_groups(implementation_->tree(), point, inflated_radius(reach * frame.scale, q, in.rounding),
+                 visit_group<keeps_ties>, &query);
     if (keeps_ties && query.is_out_of_memory) throw std::bad_alloc();
   }
   if (query.best.triangle >= 0 && !(std::sqrt(query.best.distance_sq) <= limit)) return {infinity, -1};
@@ -312,19 +300,11 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
 const TriangleGroups &TriangleScene::groups() const { return implementation_->groups; }
 
 void TriangleScene::collect_groups(const float *point, float radius, std::vector<std::int32_t> &found) const {
-  RTCPointQuery sphere;
-  sphere.x = point[0];
-  sphere.y = point[1];
-  sphere.z = point[2];
-  sphere.time = 0;
   // The radius is increased to cover Embree's own rounding, as in inflated_radius.
-  sphere.radius =
+  const float inflated =
       radius * (1 + 0x1p-20f) + 0x1p-22f * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
   Collected collected{found, false};
-  build_tree();
-  rtcPointQuery(implementation_->scene.get(), &sphere, &context, add_group, &collected);
+  visit_groups(implementation_->tree(), point, inflated, add_group, &collected);
   if (collected.is_out_of_memory) throw std::bad_alloc();
 }
 
@@ -336,7 +316,7 @@ void TriangleScene::collect_along(Vec3 a, Vec3 b, std::vector<std::int32_t> &fou
   const TriangleGroups &all = implementation_->groups;
   const Vec3 from = all.frame(a), to = all.frame(b), middle = 0.5 * (from + to);
   const double radius = 0.5 * distance(from, to);
-  const double largest = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z), radius});
+  const double largest = std::max(largest_coordinate(middle), radius);
   if (!(largest <= far_away)) {  // in the frame's units, such a segment may overflow
     for (std::size_t i = 0; i < all.bounds.size(); ++i) found.push_back(static_cast<std::int32_t>(i));
   } else {

@@ -67,10 +67,7 @@ class ClosestPoints {
   // `wide`, one frame serves all batches.
   static constexpr double far = 0x1p10, wide = 0x1p4;
 
-  double reach_of(Vec3 p) const {
-    const Vec3 q = scene_.groups().frame(p);
-    return std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z)});
-  }
+  double reach_of(Vec3 p) const { return largest_coordinate(scene_.groups().frame(p)); }
   bool is_any_beyond(double reach) const {
     return !(std::max(reach_of(wanted_.bounds.lower), reach_of(wanted_.bounds.upper)) <= reach);
   }

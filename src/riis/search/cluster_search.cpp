@@ -30,7 +30,7 @@ struct Placing {
   Placing(const NodeFrame &nodes, const SurfaceFrame &frame)
       : ratio(frame.scale / nodes.scale),
         shift(frame.scale * (nodes.centre - frame.centre)),
-        largest_shift(std::max({std::abs(shift.x), std::abs(shift.y), std::abs(shift.z)})) {}
+        largest_shift(largest_coordinate(shift)) {}
 };
 
 #if defined(__SIZEOF_INT128__)

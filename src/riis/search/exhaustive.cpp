@@ -2,7 +2,6 @@
 #include "common/array_view.hpp"
 #include "search/search.hpp"
 
-#include <algorithm>
 #include <atomic>
 
 #include "base/errors.hpp"

@@ -15,7 +15,6 @@
 #include "mesh/mesh.hpp"
 #include "parallel/threads.hpp"
 #include "scene/surface.hpp"
-#include "scene/ties.hpp"
 #include "triangulate/triangle_set.hpp"
 
 namespace riis {

@@ -205,8 +205,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
                                                    : open_half_of(closed.values, cusp);
     // The position of a cusp consists of angles and a shift instead of control points. So these numbers are blended.
     const auto vector_of = [&](OfCusp parameter) {
-      const auto &from = closed.values[position_of(cusp, parameter)], &to = open.values[position_of(cusp, parameter)];
-      return riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
+      const std::size_t i = position_of(cusp, parameter);
+      return riis::blend(riis::vector_of(closed.values[i]), riis::vector_of(open.values[i]), opening);
     };
     add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half),
               {{rotation_xyz(vector_of(rotation)), vector_of(translation), static_cast<std::int32_t>(cusp)}});

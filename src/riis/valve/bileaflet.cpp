@@ -175,12 +175,8 @@ void add_leaflets(const Shape &shape, PatchSet &set) {
   const double R = shape.radius, x0 = 0.5 * shape.gap, y_end = std::sqrt((R - x0) * (R + x0));
   const double whole_angle = std::atan2(y_end, x0);
   const Vec3 apex = turn(R, 0), middle = turn(x0, 0), end = turn(x0, y_end);
-  const auto add = [&](const Curve &curve) {
-    set.curves.push_back(curve);
-    return Side{set.curves.size() - 1};
-  };
-  const Side rim = add(make_arc(R, whole_angle, x0, y_end, turn)), edge = add(Bezier::line(middle, end));
-  const Side symmetry = add(Bezier::line(apex, middle)), corner = add(Bezier::point(end));
+  const Side rim = set.add(make_arc(R, whole_angle, x0, y_end, turn)), edge = set.add(Bezier::line(middle, end));
+  const Side symmetry = set.add(Bezier::line(apex, middle)), corner = set.add(Bezier::point(end));
   // u runs from the symmetry plane to the corner, and v from the rim to the middle edge. So S_u x S_v points downstream.
   Patch patch{rim, edge, symmetry, corner, {}};
   for (const std::int32_t leaflet_id : {RIIS_LEAFLET_POSITIVE, RIIS_LEAFLET_NEGATIVE})
@@ -193,17 +189,13 @@ void add_leaflets(const Shape &shape, PatchSet &set) {
 
 void add_ring(const Shape &shape, PatchSet &set) {
   const double R = shape.radius, whole_angle = 0.5 * pi;
-  const auto add = [&](const Curve &curve) {
-    set.curves.push_back(curve);
-    return Side{set.curves.size() - 1};
-  };
   const auto arc_at = [&](double z) {
-    return add(make_arc(R, whole_angle, 0, R, [z](double x, double y) { return Vec3{x, y, z}; }));
+    return set.add(make_arc(R, whole_angle, 0, R, [z](double x, double y) { return Vec3{x, y, z}; }));
   };
   const double upper = 0.5 * shape.ring_height, lower = -upper;
   const Side bottom = arc_at(lower), top = arc_at(upper);
-  const Side first = add(Bezier::line({R, 0, lower}, {R, 0, upper}));
-  const Side last = add(Bezier::line({0, R, lower}, {0, R, upper}));
+  const Side first = set.add(Bezier::line({R, 0, lower}, {R, 0, upper}));
+  const Side last = set.add(Bezier::line({0, R, lower}, {0, R, upper}));
   // u runs round the axis, and v runs downstream. So S_u x S_v points outwards.
   Patch patch{bottom, top, first, last, {}};
   std::int32_t patch_id = 4;

@@ -462,9 +462,7 @@ void check_values(const ParameterValues &values) {
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   const CuspNumbers from = closed_cusp(closed.values), to = open_cusp(open.values);
-  const auto &shift_from = closed.values[translation], &shift_to = open.values[translation];
-  const Vec3 shift = riis::blend(Vec3{shift_from[0], shift_from[1], shift_from[2]},
-                                 Vec3{shift_to[0], shift_to[1], shift_to[2]}, opening);
+  const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   PatchSet set;
   add_cusps(set, half_cusp(blend(from, to, opening)), rate_at(from, to, opening), equal_places(shift));
   // The cusps meet only at the commissures, where the side u1 of the top patch is one point.

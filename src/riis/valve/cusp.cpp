@@ -129,9 +129,8 @@ void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state
 
 void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places) {
   const auto add = [&](const Bezier &curve, const Bezier &its_rate) {
-    set.curves.push_back(curve);
     set.rates.push_back(its_rate);
-    return Side{set.curves.size() - 1};
+    return set.add(curve);
   };
   const auto add_one = [&](Bezier HalfCusp::*curve) { return add(half.*curve, rate.*curve); };
   const Side root = add(Bezier::point(half.symmetry_below.first()), Bezier::point(rate.symmetry_below.first()));

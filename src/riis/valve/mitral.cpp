@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mitral valve. It has an annulus, an anterior leaflet, and a posterior leaflet of three scallops. It can be closed, open or
 // in between (paper, appendix "Parametric modeling of the mitral valve"; docs/theory/mitral.md).
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -222,12 +221,12 @@ class Patches {
   Patches(const HalfValve &half, bool is_closed, Vec3 shift) : half_(half), annulus_(half.annulus), shift_(shift) {
     const auto [side_edge, rest] = split(half.anterior, half.cleft);
     const Bezier middle_edge = up_to_symmetry_plane(rest, (0.5 - half.cleft) / (1 - half.cleft));
-    const std::size_t anterior_side = add(side_edge), anterior_middle = add(middle_edge);
+    const std::size_t anterior_side = set_.add(side_edge).curve, anterior_middle = set_.add(middle_edge).curve;
     // Closed leaflets share their edge. So the edge is stored once and becomes one polyline.
-    const std::size_t posterior_side = is_closed ? anterior_side : add(half.side_scallop);
+    const std::size_t posterior_side = is_closed ? anterior_side : set_.add(half.side_scallop).curve;
     const std::size_t posterior_middle =
-        is_closed ? anterior_middle : add(up_to_symmetry_plane(half.middle_scallop, 0.5));
-    const std::size_t commissure = add(Bezier::point(side_edge.first()));
+        is_closed ? anterior_middle : set_.add(up_to_symmetry_plane(half.middle_scallop, 0.5)).curve;
+    const Side commissure = set_.add(Bezier::point(side_edge.first()));
 
     // u runs along the annulus. The part of the annulus beside the triangle is divided between the spans of the anterior edge
     // in proportion to their lengths.
@@ -237,7 +236,7 @@ class Patches {
     begin_at(0.5, middle_edge.last());
     add_patch({anterior_middle, true}, u_anterior_cleft, middle_edge.first(), RIIS_LEAFLET_ANTERIOR, 2, 3);
     add_patch({anterior_side, true}, u_triangle, side_edge.first(), RIIS_LEAFLET_ANTERIOR, 1, 4);
-    add_patch({commissure}, u_pm, side_edge.first(), RIIS_LEAFLET_ANTERIOR, 0, 5);
+    add_patch(commissure, u_pm, side_edge.first(), RIIS_LEAFLET_ANTERIOR, 0, 5);
     add_patch({posterior_side}, u_pm / 3, set_.curves[posterior_side].last(), RIIS_LEAFLET_POSTERIOR, 6, 9);
     add_patch({posterior_middle}, 0, set_.curves[posterior_middle].last(), RIIS_LEAFLET_POSTERIOR, 7, 8);
   }
@@ -251,18 +250,13 @@ class Patches {
     Side side;
   };
 
-  std::size_t add(const Curve &curve) {
-    set_.curves.push_back(curve);
-    return set_.curves.size() - 1;
-  }
-
   // Returns the arc from the annulus at u to a point of the edge. Two neighbouring patches share the arc as a side.
   Arc arc(double u, Vec3 on_edge) {
     const PointOnSpan where = annulus_.half().on_span(2 * u);
     const auto [on_annulus, along] = annulus_.half().with_tangent(where);
     Vec3 offset = arc_offset(on_edge - on_annulus, along, half_.bulge);
     if (u == 0 || u == 0.5) offset.x = 0;  // the plane of symmetry is x = 0 exactly
-    return {where, on_annulus, {add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))}};
+    return {where, on_annulus, set_.add(Bezier::quadratic(on_annulus, 0.5 * (on_annulus + on_edge) + offset, on_edge))};
   }
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
@@ -274,7 +268,7 @@ class Patches {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
     Vector<Bezier> spans = annulus_.half().spans_between(to.where, from.where);
     reverse(spans);
-    const Side base{add(Curve(std::move(spans)).through(from.on_annulus, to.on_annulus))};
+    const Side base = set_.add(Curve(std::move(spans)).through(from.on_annulus, to.on_annulus));
     set_.patches.push_back({base,
                             edge,
                             from.side,
@@ -301,8 +295,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   checked_length(half.anterior, "anterior", half.annulus[0]);
   checked_length(half.side_scallop, "side scallop's", half.annulus[0]);
   checked_length(half.middle_scallop, "middle scallop's", half.annulus[0]);
-  const auto &from = closed.values[translation], &to = open.values[translation];
-  const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
+  const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   return Patches(half, opening == 0, shift).take();
 }
 

@@ -159,6 +159,11 @@ struct PatchSet {
   Vector<NeighbourEnds> neighbour_ends = {};
 
   const Curve &curve_of(const Side &side) const { return curves[side.curve]; }
+  // Adds a curve, and returns it as a side.
+  Side add(const Curve &curve) {
+    curves.push_back(curve);
+    return {curves.size() - 1};
+  }
 };
 
 // Returns the curve of a side, in the direction of the side.

@@ -106,8 +106,7 @@ void check_values(const ParameterValues &values) {
 
 PatchSet make_patches(const ValveState &closed, const ValveState &open, double opening) {
   const HalfCusp closed_half = half_cusp(closed_shape(closed.values)), open_half = half_cusp(open_shape(open.values));
-  const auto &from = closed.values[translation], &to = open.values[translation];
-  const Vec3 shift = riis::blend(Vec3{from[0], from[1], from[2]}, Vec3{to[0], to[1], to[2]}, opening);
+  const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   PatchSet set;
   add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), equal_places(shift));
   // Sews the cusps together along their free edges at opening 0, and otherwise only at the commissures.

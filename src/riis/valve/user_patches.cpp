@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"
@@ -47,14 +46,10 @@ Vector<Bezier> curves_of(const riis_patches &arrays) {
 
 // Returns the diagonal of the box around all control points.
 double size_of(const Vector<Bezier> &curves) {
-  Vec3 lower = curves.front().first(), upper = lower;
+  Bounds box;
   for (const Bezier &curve : curves)
-    for (int k = 0; k <= curve.degree; ++k) {
-      const Vec3 q = view(curve.control)[k];
-      lower = {std::min(lower.x, q.x), std::min(lower.y, q.y), std::min(lower.z, q.z)};
-      upper = {std::max(upper.x, q.x), std::max(upper.y, q.y), std::max(upper.z, q.z)};
-    }
-  return distance(lower, upper);
+    for (int k = 0; k <= curve.degree; ++k) box.add(view(curve.control)[k]);
+  return distance(box.lower, box.upper);
 }
 
 class PatchReader {

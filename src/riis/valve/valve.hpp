@@ -18,6 +18,7 @@
 namespace riis {
 
 using ParameterValues = Vector<std::array<double, 3>>;  // one entry for each spec
+inline Vec3 vector_of(const std::array<double, 3> &values) { return {values[0], values[1], values[2]}; }
 
 // Computes the value of a parameter that was not set from other parameters' values. Those parameters come earlier in the list, so
 // their values are known already.

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <charconv>
+#include <functional>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
@@ -62,6 +65,18 @@ bool read_number(std::string_view text, Number &number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size();
 }
+
+// XML files, element by element (xml_elements.cpp). No tree is built, because a hostile file could nest so deeply that destroying
+// the tree would overflow the stack.
+
+// Names and values in turn, and then NULL.
+using XmlAttributes = const char **;
+std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
+
+// Calls visit(way, attributes) for each element that lies at most three elements deep. `way` has the names of the elements around
+// it, from the outermost one, and then its own name. Fails if the file is not XML.
+using VisitElement = std::function<void(const std::vector<std::string> &way, XmlAttributes attributes)>;
+void for_each_element(const std::string &path, const CaughtOutput &caught, const VisitElement &visit);
 
 // Returns the path's ending in lower case without the dot, or "" if there is none.
 std::string ending_of(const std::string &path);

@@ -81,6 +81,14 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
+// The body of a destroy function.
+template <class Object>
+void destroy(Object **object) {
+  if (!object) return;
+  delete *object;
+  *object = nullptr;
+}
+
 // While an object of this type lives, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
 // repeats every error. VTK does not tell the level of the log on stderr, only the highest level of all logs. So the destructor
 // sets the log on stderr to that highest level.

@@ -6,6 +6,7 @@
 
 #include <riis/riis_vtk.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -43,6 +44,20 @@ namespace riis::vtk {
 // Gives the grid points in double precision. A grid without points gets an empty list of them.
 void make_points_double(vtkUnstructuredGrid *grid);
 
+// The properties that all cells of a type of VTK have in common. Nodes are positions in the cell's list of nodes. Edges and faces
+// are empty if they depend on the cell.
+using Edge = std::array<vtkIdType, 2>;
+struct CellShape {
+  struct Face {
+    std::vector<vtkIdType> nodes;  // the corners come first, anticlockwise seen from outside
+    int n_corners;
+  };
+  int dimension = 0;
+  std::vector<Edge> edges;  // of a face or a volume
+  std::vector<Face> faces;  // of a volume
+};
+const CellShape &shape_of(int type);
+
 struct VolumeCounts {
   std::int64_t n_volumes = 0;
   std::int64_t n_linear = 0;   // the volume cells that volume_cells_of returns
@@ -66,13 +81,26 @@ struct VolumeEdges {
 };
 VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid);
 
-// Returns the edges that are longer than a length, if their bounding box meets the box from lower to upper. xyz(3, n) are the
-// grid's points.
-VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
-                          const double *upper);
+// The edges that are longer than a length, and whose bounding box meets the box from lower to upper.
+struct LongEdges {
+  LongEdges(double longer_than, const double *box_lower, const double *box_upper)
+      : least_square(longer_than * (1 - 1e-9) * (longer_than * (1 - 1e-9))), lower(box_lower), upper(box_upper) {}
+  // Compares the length first, because few edges of a fine mesh are long.
+  bool has(const double *a, const double *b) const;
+
+  double least_square;
+  const double *lower, *upper;
+};
+// xyz(3, n) are the grid's points.
+VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const LongEdges &wanted);
+
+// Returns the median, or 0 for no lengths.
+double median_of(std::vector<double> lengths);
+inline constexpr std::int64_t most_measured =
+    20'000;  // cells or pairs of cells that a median is of, at equal distances in the list
 
 // Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge counts once for each of its
-// cells. At most 20,000 cells are used, at equal distances in the list.
+// cells.
 double median_edge_of(vtkUnstructuredGrid *grid);
 
 // Writes the arrays of cells as fields of a case of OpenFOAM, into the folder of a time (foam_fields.cpp).

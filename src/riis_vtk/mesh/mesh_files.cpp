@@ -100,40 +100,25 @@ const double *points_of(const riis_vtk_mesh *mesh) {
                        : vtkDoubleArray::SafeDownCast(mesh->grid->GetPoints()->GetData())->GetPointer(0);
 }
 
-// Returns the pairs of neighbouring cells that are farther apart than a length, if their bounding box meets the box from lower to
-// upper.
-std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, double longer_than, const double *lower,
-                                        const double *upper) {
+// Returns the pairs of neighbouring cells whose centres are the ends of such edges.
+std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, const LongEdges &wanted) {
   std::vector<std::int64_t> pairs;
   for (std::int64_t i = 0; i < view(centers.pairs).size(); i += 2) {
-    const double *const a = centers.xyz.data() + 3 * view(centers.pairs)[i];
-    const double *const b = centers.xyz.data() + 3 * view(centers.pairs)[i + 1];
-    double length_sq = 0;
-    bool meets = true;
-    for (int c = 0; c < 3; ++c) {
-      length_sq += (b[c] - a[c]) * (b[c] - a[c]);
-      meets = meets && std::min(a[c], b[c]) <= upper[c] && std::max(a[c], b[c]) >= lower[c];
-    }
-    constexpr double margin = 1 - 1e-9;
-    if (meets && std::sqrt(length_sq) > longer_than * margin)
-      pairs.insert(pairs.end(), {view(centers.pairs)[i], view(centers.pairs)[i + 1]});
+    const std::int64_t a = view(centers.pairs)[i], b = view(centers.pairs)[i + 1];
+    if (wanted.has(centers.xyz.data() + 3 * a, centers.xyz.data() + 3 * b)) pairs.insert(pairs.end(), {a, b});
   }
   return pairs;
 }
 
 double median_edge_of(const CellCenters &centers) {
-  constexpr std::int64_t most = 20000;
-  const std::int64_t n = view(centers.pairs).size() / 2, step = std::max<std::int64_t>(1, n / most);
+  const std::int64_t n = view(centers.pairs).size() / 2, step = std::max<std::int64_t>(1, n / most_measured);
   std::vector<double> lengths;
   for (std::int64_t i = 0; i < n; i += step) {
     const double *const a = centers.xyz.data() + 3 * view(centers.pairs)[2 * i];
     const double *const b = centers.xyz.data() + 3 * view(centers.pairs)[2 * i + 1];
     lengths.push_back(std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]));
   }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return median_of(std::move(lengths));
 }
 
 // The functions below make point arrays of a grid. riis_vtk.h documents their names. The values come from a marking or from the
@@ -285,11 +270,7 @@ RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh) {
   });
 }
 
-RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) {
-  if (!mesh) return;
-  delete *mesh;
-  *mesh = nullptr;
-}
+RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh) { destroy(mesh); }
 
 RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t *n_nodes, int64_t *n_cells,
                                              const double **xyz) {
@@ -321,11 +302,12 @@ RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, 
     require(adjacency, "adjacency");
     riis_surface_info info;
     check_core(riis_surface_get_info(surface, &info, sizeof info));
+    const LongEdges wanted(longer_than, info.lower, info.upper);
     VolumeEdges edges;
     if (mesh->centers)
-      edges.node_ids = long_pairs_of(*mesh->centers, longer_than, info.lower, info.upper);
+      edges.node_ids = long_pairs_of(*mesh->centers, wanted);
     else
-      edges = long_edges_of(mesh->grid, points_of(mesh), longer_than, info.lower, info.upper);
+      edges = long_edges_of(mesh->grid, points_of(mesh), wanted);
     *adjacency = adjacency_of_edges(mesh->n_nodes(), edges.node_ids, n_threads);
     if (n_cells_left_out) *n_cells_left_out = edges.n_cells_left_out;
   });

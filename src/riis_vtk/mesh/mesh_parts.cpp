@@ -6,14 +6,12 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
-#include <vtkUnsignedCharArray.h>
 
 #include "common/array_view.hpp"
 #include "riis_vtk/base/files.hpp"

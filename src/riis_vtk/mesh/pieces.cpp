@@ -4,31 +4,21 @@
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
-#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include <vtkCell.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
-#include <vtkDoubleArray.h>
-#include <vtkGenericCell.h>
 #include <vtkIdList.h>
-#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkUnsignedCharArray.h>
-#include <vtkXMLParser.h>
 
 #include "common/array_view.hpp"
 #include "common/xml_text.hpp"
@@ -61,54 +51,6 @@ constexpr std::int64_t most_pieces = 1'000'000;
 
 // ---- The list ----
 
-// Collects the pieces and the declared arrays of a .pvtu file. It builds no tree, because a hostile file could nest so deeply
-// that destroying the tree would overflow the stack.
-class PiecesParser : public vtkXMLParser {
- public:
-  static PiecesParser *New();
-  vtkTypeMacro(PiecesParser, vtkXMLParser);
-
-  std::vector<std::optional<std::string>> sources;
-  std::vector<Declared> point_arrays, cell_arrays;
-  std::exception_ptr failure;  // thrown in one of the functions below, which are called from C code
-
- protected:
-  void StartElement(const char *name, const char **attributes) override {
-    try {
-      if (depth_ < 3) view(way_)[depth_] = name;
-      if (depth_ >= 2 && way_[0] == "VTKFile" && way_[1] == "PUnstructuredGrid") keep(name, attributes);
-    } catch (...) {
-      failure = std::current_exception();
-    }
-    ++depth_;
-  }
-  void EndElement(const char *) override { --depth_; }
-
- private:
-  static std::optional<std::string> value_of(const char **attributes, const char *name) {
-    for (; attributes[0] && attributes[1]; attributes += 2)
-      if (std::strcmp(attributes[0], name) == 0) return attributes[1];
-    return std::nullopt;
-  }
-
-  void keep(const std::string &name, const char **attributes) {
-    if (depth_ == 2 && name == "Piece") sources.push_back(value_of(attributes, "Source"));
-    const bool is_array = name == "PDataArray" || name == "PArray" || name == "DataArray" || name == "Array";
-    if (depth_ != 3 || !is_array) return;
-    Declared array;
-    array.name = value_of(attributes, "Name").value_or("");
-    array.type = value_of(attributes, "type").value_or("");
-    if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
-      array.n_components = -1;
-    if (way_[2] == "PPointData") point_arrays.push_back(array);
-    if (way_[2] == "PCellData") cell_arrays.push_back(array);
-  }
-
-  std::int64_t depth_ = 0;
-  std::array<std::string, 3> way_;  // the names of the outermost open elements
-};
-vtkStandardNewMacro(PiecesParser);
-
 // Returns the paths of the pieces. Relative names are relative to the folder of the list.
 std::vector<std::string> files_of(const std::string &path, const std::vector<std::optional<std::string>> &sources) {
   if (sources.empty()) fail_file(path, "names no pieces: it has no Piece in a PUnstructuredGrid");
@@ -136,6 +78,13 @@ std::vector<std::string> files_of(const std::string &path, const std::vector<std
   return files;
 }
 
+Declared declared_array(XmlAttributes attributes) {
+  Declared array{value_of(attributes, "Name").value_or(""), value_of(attributes, "type").value_or("")};
+  if (const auto n = value_of(attributes, "NumberOfComponents"); n && !read_number(*n, array.n_components))
+    array.n_components = -1;
+  return array;
+}
+
 void check_declared(const std::string &path, const std::vector<Declared> &arrays) {
   for (const Declared &array : arrays)
     if (array.n_components < 1) fail_file(path, "array ", array.name, " has no valid NumberOfComponents");
@@ -150,19 +99,21 @@ void set_files(riis_vtk_pieces &pieces, std::vector<std::string> files) {
 std::unique_ptr<riis_vtk_pieces> read_pieces(const std::string &path, const CaughtOutput &caught) {
   if (ending_of(path) != "pvtu") fail_file(path, "a list of pieces must be a .pvtu file");
   check_xml(path, "PUnstructuredGrid");
-  vtkNew<PiecesParser> parser;
-  parser->SetFileName(path.c_str());
-  const bool parsed = parser->Parse() != 0;
-  if (parser->failure) std::rethrow_exception(parser->failure);
-  caught.check(path);
-  if (!parsed) fail_file(path, "cannot be parsed");
-  check_declared(path, parser->point_arrays);
-  check_declared(path, parser->cell_arrays);
   auto made = std::make_unique<riis_vtk_pieces>();
+  std::vector<std::optional<std::string>> sources;
+  for_each_element(path, caught, [&](const std::vector<std::string> &way, XmlAttributes attributes) {
+    if (way.size() < 3 || way[0] != "VTKFile" || way[1] != "PUnstructuredGrid") return;
+    const std::string &name = way.back();
+    if (way.size() == 3 && name == "Piece") sources.push_back(value_of(attributes, "Source"));
+    const bool is_array = name == "PDataArray" || name == "PArray" || name == "DataArray" || name == "Array";
+    if (way.size() != 4 || !is_array) return;
+    if (way[2] == "PPointData") made->point_arrays.push_back(declared_array(attributes));
+    if (way[2] == "PCellData") made->cell_arrays.push_back(declared_array(attributes));
+  });
+  check_declared(path, made->point_arrays);
+  check_declared(path, made->cell_arrays);
   made->path = path;
-  set_files(*made, files_of(path, parser->sources));
-  made->point_arrays = std::move(parser->point_arrays);
-  made->cell_arrays = std::move(parser->cell_arrays);
+  set_files(*made, files_of(path, sources));
   return made;
 }
 
@@ -244,37 +195,6 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// The faces of a type of cells, as positions in the cell's list of nodes. There are none if they depend on the cell.
-struct CellFaces {
-  int dimension = 0;
-  std::vector<std::vector<vtkIdType>> faces;
-};
-
-CellFaces cell_faces_of(int type) {
-  CellFaces made;
-  const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
-  if (!cell) return made;
-  made.dimension = cell->GetCellDimension();
-  if (made.dimension < 3 || type >= VTK_HIGHER_ORDER_EDGE || cell->RequiresExplicitFaceRepresentation() ||
-      type == VTK_CONVEX_POINT_SET)
-    return made;
-  for (vtkIdType i = 0; i < cell->GetNumberOfPoints(); ++i) cell->GetPointIds()->SetId(i, i);
-  for (int i = 0; i < cell->GetNumberOfFaces(); ++i) {
-    vtkIdList *ids = cell->GetFace(i)->GetPointIds();
-    made.faces.emplace_back(ids->begin(), ids->end());
-  }
-  return made;
-}
-
-const CellFaces &known_faces(int type) {
-  static const std::array<CellFaces, 256> all = [] {
-    std::array<CellFaces, 256> made;
-    for (int i = 0; i < 256; ++i) view(made)[i] = cell_faces_of(i);
-    return made;
-  }();
-  return view(all)[type];
-}
-
 vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
   vtkAbstractArray *array = data->GetAbstractArray(vtkDataSetAttributes::GhostArrayName());
   auto *const ghosts = vtkUnsignedCharArray::SafeDownCast(array);
@@ -321,10 +241,10 @@ class NodeRoles {
     const vtkIdType *ids = nullptr;
     grid_->GetCells()->GetCellAtId(cell, n, ids);
     const int type = grid_->GetCellType(cell);
-    const CellFaces &known = known_faces(type);
-    const bool has_faces = type == VTK_POLYHEDRON || !known.faces.empty();
+    const CellShape &shape = shape_of(type);
+    const bool has_faces = type == VTK_POLYHEDRON || !shape.faces.empty();
     const int use = is_ghost(cell)         ? in_ghost
-                    : known.dimension != 3 ? in_other
+                    : shape.dimension != 3 ? in_other
                     : has_faces            ? in_volume
                                            : in_volume | in_unknown;
     for (vtkIdType i = 0; i < n; ++i) view(uses_)[ids[i]] |= static_cast<std::uint8_t>(use);
@@ -334,11 +254,11 @@ class NodeRoles {
     if (type == VTK_POLYHEDRON) return add_polyhedron(cell);
     codes_.resize(static_cast<std::size_t>(n));
     for (vtkIdType i = 0; i < n; ++i) view(codes_)[i] = mixed(static_cast<std::uint64_t>(ids[i]));
-    for (const std::vector<vtkIdType> &face : known.faces) {
+    for (const CellShape::Face &face : shape.faces) {
       std::uint64_t sum = 0;
-      for (const vtkIdType i : face) sum += view(codes_)[i];
+      for (const vtkIdType i : face.nodes) sum += view(codes_)[i];
       const std::uint64_t code = mixed(sum);
-      for (const vtkIdType i : face) view(faces_at_)[ids[i]] ^= code;
+      for (const vtkIdType i : face.nodes) view(faces_at_)[ids[i]] ^= code;
     }
   }
 
@@ -466,11 +386,7 @@ RIIS_API riis_status riis_vtk_pieces_set_files(riis_vtk_pieces *pieces, int64_t 
   });
 }
 
-RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces) {
-  if (!pieces) return;
-  delete *pieces;
-  *pieces = nullptr;
-}
+RIIS_API void riis_vtk_pieces_destroy(riis_vtk_pieces **pieces) { destroy(pieces); }
 
 RIIS_API riis_status riis_vtk_pieces_get_files(const riis_vtk_pieces *pieces, int64_t *n_files,
                                                const char *const **paths) {

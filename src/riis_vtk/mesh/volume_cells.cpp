@@ -26,8 +26,6 @@
 namespace riis::vtk {
 namespace {
 
-using Edge = std::array<vtkIdType, 2>;
-
 bool is_linear_volume(int type) {
   return type == VTK_TETRA || type == VTK_PYRAMID || type == VTK_WEDGE || type == VTK_HEXAHEDRON || type == VTK_VOXEL;
 }
@@ -81,14 +79,18 @@ void add_inner_edges(int type, std::vector<Edge> &edges) {
   if (type == VTK_BIQUADRATIC_QUADRATIC_WEDGE) edges.insert(edges.end(), {{15, 16}, {16, 17}, {15, 17}});
 }
 
-// The properties that all cells of a type have in common.
-struct Shape {
-  int dimension = 0;
-  std::vector<Edge> edges;  // pairs of positions in the cell's list of nodes; empty if they depend on the cell
-};
+// Lists the nodes of a face, first its corners in their order round the face. VTK lists the corners of a voxel's face row by row.
+CellShape::Face listed_face(vtkCell *face) {
+  CellShape::Face made{{face->GetPointIds()->begin(), face->GetPointIds()->end()}, face->GetNumberOfEdges()};
+  if (face->GetCellType() == VTK_PIXEL) {
+    std::swap(made.nodes[2], made.nodes[3]);
+    std::rotate(made.nodes.begin(), std::min_element(made.nodes.begin(), made.nodes.end()), made.nodes.end());
+  }
+  return made;
+}
 
-Shape shape_of(int type) {
-  Shape shape;
+CellShape shape_from_vtk(int type) {
+  CellShape shape;
   const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
   if (!cell) return shape;
   shape.dimension = cell->GetCellDimension();
@@ -97,19 +99,13 @@ Shape shape_of(int type) {
     return shape;
   for (vtkIdType i = 0; i < cell->GetNumberOfPoints(); ++i) cell->GetPointIds()->SetId(i, i);
   if (shape.dimension == 2) add_face(cell, shape.edges);
-  for (int i = 0; i < cell->GetNumberOfFaces(); ++i) add_face(cell->GetFace(i), shape.edges);
+  for (int i = 0; i < cell->GetNumberOfFaces(); ++i) {
+    add_face(cell->GetFace(i), shape.edges);
+    shape.faces.push_back(listed_face(cell->GetFace(i)));
+  }
   add_inner_edges(type, shape.edges);
   sort_edges(shape.edges);
   return shape;
-}
-
-const Shape &known_shape(int type) {
-  static const std::array<Shape, 256> shapes = [] {
-    std::array<Shape, 256> made;
-    for (int i = 0; i < 256; ++i) view(made)[i] = shape_of(i);
-    return made;
-  }();
-  return view(shapes)[type];
 }
 
 // Each of the next functions adds the edges between neighbouring nodes of a lattice.
@@ -204,15 +200,6 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
   return false;
 }
 
-// Returns whether the edge is long and meets the box. The length comes first, because few edges of a fine mesh are long.
-bool is_long_and_near(const double *a, const double *b, double least_square, const double *lower, const double *upper) {
-  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
-  if (x * x + y * y + z * z < least_square) return false;
-  for (int i = 0; i < 3; ++i)
-    if (std::max(a[i], b[i]) < lower[i] || std::min(a[i], b[i]) > upper[i]) return false;
-  return true;
-}
-
 // The edges of cells. If a cell has straight sides, its edges are these sides. The nodes of a cell of higher order divide it
 // into linear cells, and the cell has the edges of these. A face without a node in its middle has edges between the middles of
 // neighbouring sides.
@@ -223,7 +210,7 @@ class CellEdges {
   }
 
   // Returns whether the cell is a volume. Other cells are on the boundary of volumes or do not belong to any.
-  bool is_volume(vtkIdType cell) const { return known_shape(grid_->GetCellType(cell)).dimension == 3; }
+  bool is_volume(vtkIdType cell) const { return shape_of(grid_->GetCellType(cell)).dimension == 3; }
 
   // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.
   template <class Visit>
@@ -244,7 +231,7 @@ class CellEdges {
     }
     vtkIdType n = 0;
     grid_->GetCells()->GetCellAtId(cell, n, ids);
-    return is_lattice(type) ? lattice_of(type, cell, n) : known_shape(type).edges;
+    return is_lattice(type) ? lattice_of(type, cell, n) : shape_of(type).edges;
   }
 
   // Lists the edges of a polyhedron. Its stream of faces has the number of faces, and then the size and the nodes of each face.
@@ -302,6 +289,30 @@ VolumeEdges edges_where(vtkUnstructuredGrid *grid, const IsWanted &is_wanted) {
 
 }  // namespace
 
+const CellShape &shape_of(int type) {
+  static const std::array<CellShape, 256> shapes = [] {
+    std::array<CellShape, 256> made;
+    for (int i = 0; i < 256; ++i) view(made)[i] = shape_from_vtk(i);
+    return made;
+  }();
+  return view(shapes)[type];
+}
+
+bool LongEdges::has(const double *a, const double *b) const {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  if (x * x + y * y + z * z < least_square) return false;
+  for (int i = 0; i < 3; ++i)
+    if (std::max(a[i], b[i]) < lower[i] || std::min(a[i], b[i]) > upper[i]) return false;
+  return true;
+}
+
+double median_of(std::vector<double> lengths) {
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
 VolumeCounts count_volumes(vtkUnstructuredGrid *grid, vtkUnsignedCharArray *ghosts) {
   VolumeCounts counts;
   CellEdges edges(grid);
@@ -350,17 +361,12 @@ VolumeEdges volume_edges_of(vtkUnstructuredGrid *grid) {
   return edges_where(grid, [](vtkIdType, vtkIdType) { return true; });
 }
 
-VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, double longer_than, const double *lower,
-                          const double *upper) {
-  const double least = longer_than * (1 - 1e-9), least_square = least * least;
-  return edges_where(grid, [&](vtkIdType a, vtkIdType b) {
-    return is_long_and_near(xyz + 3 * a, xyz + 3 * b, least_square, lower, upper);
-  });
+VolumeEdges long_edges_of(vtkUnstructuredGrid *grid, const double *xyz, const LongEdges &wanted) {
+  return edges_where(grid, [&](vtkIdType a, vtkIdType b) { return wanted.has(xyz + 3 * a, xyz + 3 * b); });
 }
 
 double median_edge_of(vtkUnstructuredGrid *grid) {
-  constexpr vtkIdType most_cells = 20'000;
-  const vtkIdType n_cells = grid->GetNumberOfCells(), n_asked = std::min(n_cells, most_cells);
+  const vtkIdType n_cells = grid->GetNumberOfCells(), n_asked = std::min<vtkIdType>(n_cells, most_measured);
   CellEdges edges(grid);
   std::vector<double> lengths;
   for (vtkIdType i = 0; i < n_asked; ++i) {
@@ -370,10 +376,7 @@ double median_edge_of(vtkUnstructuredGrid *grid) {
       if (length > 0 && std::isfinite(length)) lengths.push_back(length);
     });
   }
-  if (lengths.empty()) return 0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return median_of(std::move(lengths));
 }
 
 }  // namespace riis::vtk

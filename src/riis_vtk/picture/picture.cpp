@@ -232,10 +232,6 @@ RIIS_API riis_status riis_vtk_film_draw(riis_vtk_film *film, const riis_surface 
   });
 }
 
-RIIS_API void riis_vtk_film_destroy(riis_vtk_film **film) {
-  if (!film) return;
-  delete *film;
-  *film = nullptr;
-}
+RIIS_API void riis_vtk_film_destroy(riis_vtk_film **film) { destroy(film); }
 
 }  // extern "C"

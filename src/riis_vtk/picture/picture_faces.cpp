@@ -16,61 +16,36 @@
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 
+#include "riis_vtk/mesh/mesh.hpp"
+
 namespace riis::vtk {
 namespace {
 
 using Corners = std::vector<vtkIdType>;
 
-// The faces of one type of cell. Each is a list of corners, anticlockwise seen from outside. For a triangle the list ends with
-// -1.
-using FaceTable = std::vector<std::array<int, 4>>;
-
-const FaceTable *faces_of_type(int type) {
-  static const FaceTable tetra = {{0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}, {0, 2, 1, -1}};
-  static const FaceTable pyramid = {{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
-  static const FaceTable wedge = {{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}};
-  static const FaceTable hexahedron = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4},
-                                       {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-  static const FaceTable voxel = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
-  switch (type) {
-    case VTK_TETRA:
-      return &tetra;
-    case VTK_PYRAMID:
-      return &pyramid;
-    case VTK_WEDGE:
-      return &wedge;
-    case VTK_HEXAHEDRON:
-      return &hexahedron;
-    case VTK_VOXEL:
-      return &voxel;
-    default:
-      return nullptr;
-  }
-}
-
-// The cells of a grid as polygons of corners. For types of cells without a table of faces, VTK gives the faces.
+// The cells of a grid as polygons of corners. VTK gives the faces that depend on the cell.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}
 
   int n_faces_of_volume(vtkIdType cell) {
-    if (const FaceTable *table = faces_of_type(grid_->GetCellType(cell))) return static_cast<int>(table->size());
-    return generic(cell)->GetNumberOfFaces();
+    const CellShape &shape = shape_of(grid_->GetCellType(cell));
+    return shape.faces.empty() ? generic(cell)->GetNumberOfFaces() : static_cast<int>(shape.faces.size());
   }
 
   // Returns the corners of a face. The result is valid until the next call.
   const Corners &face_of_volume(vtkIdType cell, int face) {
     corners_.clear();
-    if (const FaceTable *table = faces_of_type(grid_->GetCellType(cell))) {
-      vtkIdType n = 0;
-      const vtkIdType *ids = nullptr;
-      grid_->GetCells()->GetCellAtId(cell, n, ids);
-      for (const int corner : view(*table)[face]) {
-        if (corner >= 0) corners_.push_back(ids[corner]);
-      }
-    } else {
+    const CellShape &shape = shape_of(grid_->GetCellType(cell));
+    if (shape.faces.empty()) {
       add_corners(generic(cell)->GetFace(face));
+      return corners_;
     }
+    vtkIdType n = 0;
+    const vtkIdType *ids = nullptr;
+    grid_->GetCells()->GetCellAtId(cell, n, ids);
+    const auto &[nodes, n_corners] = view(shape.faces)[face];
+    for (int i = 0; i < n_corners; ++i) corners_.push_back(ids[view(nodes)[i]]);
     return corners_;
   }
 
@@ -226,21 +201,16 @@ bool is_wanted(const std::vector<std::uint8_t> *wanted, vtkIdType cell) { return
 
 }  // namespace
 
-CellDimensions::CellDimensions(vtkUnstructuredGrid *grid) {
-  of_type_.fill(-1);
-  vtkNew<vtkGenericCell> cell;
-  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
-    int &dimension = view(of_type_)[grid->GetCellType(i)];
-    if (dimension >= 0) continue;
-    cell->SetCellType(grid->GetCellType(i));
-    dimension = cell->GetCellDimension();
-    largest_ = std::max(largest_, dimension);
-  }
+int largest_dimension(vtkUnstructuredGrid *grid) {
+  int largest = 0;
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+    largest = std::max(largest, shape_of(grid->GetCellType(i)).dimension);
+  return largest;
 }
 
 Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *wanted,
                    const std::vector<std::uint8_t> *face_wanted) {
-  const CellDimensions dimensions(grid);
+  const int dimension = largest_dimension(grid);
   Polygons polygons(grid);
   Collected collected(grid);
   Outside outside;
@@ -251,9 +221,9 @@ Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *w
   };
   LoneFaces lone(grid->GetNumberOfPoints());
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
-    if (!is_wanted(wanted, cell) || !dimensions.is_largest(grid->GetCellType(cell))) continue;
-    if (dimensions.largest() == 2) add(cell, polygons.flat_cell(cell));
-    if (dimensions.largest() < 3) continue;
+    if (!is_wanted(wanted, cell) || shape_of(grid->GetCellType(cell)).dimension != dimension) continue;
+    if (dimension == 2) add(cell, polygons.flat_cell(cell));
+    if (dimension < 3) continue;
     const int n_faces = polygons.n_faces_of_volume(cell);
     for (int face = 0; face < n_faces; ++face) {
       const Corners &corners = polygons.face_of_volume(cell, face);
@@ -267,7 +237,7 @@ Outside outside_of(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> *w
     add(face.cell, corners);
   });
   outside.faces = collected.faces();
-  outside.of_volumes = dimensions.largest() == 3;
+  outside.of_volumes = dimension == 3;
   return outside;
 }
 

@@ -5,7 +5,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -16,19 +15,9 @@ class vtkUnstructuredGrid;
 
 namespace riis::vtk {
 
-// The dimensions of a grid's cells. In a grid with volumes, flat cells are not drawn, because they only repeat the grid's
-// boundary.
-class CellDimensions {
- public:
-  explicit CellDimensions(vtkUnstructuredGrid *grid);
-  int largest() const { return largest_; }  // the largest dimension of a cell, from 0 to 3
-  // Returns whether cells of a type have the grid's largest dimension. The type must occur in the grid.
-  bool is_largest(int type) const { return view(of_type_)[type] == largest_; }
-
- private:
-  std::array<int, 256> of_type_;
-  int largest_ = 0;
-};
+// Returns the largest dimension of a cell, from 0 to 3. In a grid with volumes, flat cells are not drawn, because they only
+// repeat the grid's boundary.
+int largest_dimension(vtkUnstructuredGrid *grid);
 
 struct Outside {
   vtkSmartPointer<vtkPolyData> faces;  // has only the points that the faces use

@@ -23,6 +23,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "riis_vtk/base/files.hpp"
+#include "riis_vtk/mesh/mesh.hpp"
 #include "riis_vtk/picture/drawing.hpp"
 #include "riis_vtk/picture/picture_faces.hpp"
 
@@ -83,11 +84,11 @@ std::vector<std::uint8_t> marked_nodes(vtkUnstructuredGrid *grid) {
 
 // Returns one value for each cell. Cells below the grid's largest dimension count as not marked.
 std::vector<std::uint8_t> marked_parts(vtkUnstructuredGrid *grid, const std::vector<std::uint8_t> &marked) {
-  const CellDimensions dimensions(grid);
+  const int dimension = largest_dimension(grid);
   std::vector<std::uint8_t> parts(static_cast<std::size_t>(grid->GetNumberOfCells()), not_marked);
   for (std::size_t at = 0; at < parts.size(); ++at) {
     const auto cell = static_cast<vtkIdType>(at);
-    if (!dimensions.is_largest(grid->GetCellType(cell))) continue;
+    if (shape_of(grid->GetCellType(cell)).dimension != dimension) continue;
     vtkIdType n = 0;
     const vtkIdType *nodes = nullptr;
     grid->GetCells()->GetCellAtId(cell, n, nodes);

@@ -116,7 +116,10 @@ class GmshFile {
     if (!tags_) fail_file(path_, "is truncated: it has no section $Nodes");
     // gmsh always writes this section, also if it has no elements.
     if (!has_elements_) fail_file(path_, "is truncated: it has no section $Elements");
+    const std::int64_t n_copies = drop_copies();
     const auto grid = mesh_.grid(path_);
+    if (n_copies > 0)
+      add_note(grid, joined(n_copies, " elements of further physical groups are the cells of the first ones"));
     if (std::any_of(physical_.begin(), physical_.end(), [](std::int32_t tag) { return tag != 0; })) {
       const auto array = named_array<vtkTypeInt32Array>("gmsh:physical", static_cast<vtkIdType>(physical_.size()));
       std::copy(physical_.begin(), physical_.end(), array->GetPointer(0));
@@ -331,6 +334,60 @@ class GmshFile {
       mesh_.ids->InsertNextValue(view(ids)[type.order.empty() ? i : view(type.order)[i]]);
     mesh_.end_cell(type.vtk_type);
     physical_.push_back(static_cast<std::int32_t>(physical));
+  }
+
+  // Version 2 has an element once for each of its physical groups, each time with another number. Keeps the first of these
+  // elements, and returns how many are left out. Equal elements of one group stay.
+  std::int64_t drop_copies() {
+    const bool are_grouped =
+        std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });
+    if (is_new_ || !are_grouped) return 0;
+    const std::int64_t n = view(physical_).size();
+    std::vector<std::pair<std::uint64_t, std::int64_t>> order;  // of the elements, by a hash of type and nodes
+    order.reserve(static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+      std::uint64_t hash = mesh_.types->GetValue(i);
+      for (const vtkIdType node : sorted_nodes(i))
+        hash = (hash ^ static_cast<std::uint64_t>(node)) * 0x9e3779b97f4a7c15u;
+      order.emplace_back(hash, i);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<char> is_copy(static_cast<std::size_t>(n), 0);
+    std::int64_t n_copies = 0;
+    for (std::int64_t i = 1, first = 0; i < n; ++i) {
+      if (view(order)[i].first != view(order)[first].first) first = i;
+      const std::int64_t a = view(order)[first].second, b = view(order)[i].second;
+      if (a == b || view(physical_)[a] == view(physical_)[b] || mesh_.types->GetValue(a) != mesh_.types->GetValue(b) ||
+          sorted_nodes(a) != sorted_nodes(b))
+        continue;
+      view(is_copy)[b] = 1;
+      ++n_copies;
+    }
+    if (n_copies > 0) remove(is_copy);
+    return n_copies;
+  }
+
+  std::vector<vtkIdType> sorted_nodes(std::int64_t element) const {
+    const vtkIdType *const ids = mesh_.ids->GetPointer(0);
+    std::vector<vtkIdType> nodes(ids + mesh_.ends->GetValue(element), ids + mesh_.ends->GetValue(element + 1));
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  }
+
+  void remove(const std::vector<char> &is_copy) {
+    vtkIdType n_kept = 0, n_ids = 0;
+    for (std::int64_t i = 0, begin = 0, end = 0; i < view(physical_).size(); ++i, begin = end) {
+      end = mesh_.ends->GetValue(i + 1);
+      if (view(is_copy)[i] != 0) continue;
+      for (vtkIdType k = begin; k < end; ++k) mesh_.ids->SetValue(n_ids++, mesh_.ids->GetValue(k));
+      mesh_.types->SetValue(n_kept, mesh_.types->GetValue(i));
+      view(physical_)[n_kept] = view(physical_)[i];
+      mesh_.ends->SetValue(++n_kept, n_ids);
+    }
+    mesh_.ids->Resize(n_ids);
+    mesh_.types->Resize(n_kept);
+    mesh_.ends->Resize(n_kept + 1);
+    physical_.resize(static_cast<std::size_t>(n_kept));
   }
 
   const std::string &path_;

@@ -19,6 +19,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
@@ -364,9 +365,10 @@ vtkSmartPointer<DataSet> read_xml(const std::string &path, const CaughtOutput &c
   return data;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const CaughtOutput &caught) {
-  const std::int64_t n_cells = check_legacy(path);
-  vtkNew<vtkUnstructuredGridReader> reader;
+// Reads a legacy file with VTK. `n_cells` is the number of cells that the scan found.
+template <class Reader, class DataSet>
+vtkSmartPointer<DataSet> read_scanned(const std::string &path, std::int64_t n_cells, const CaughtOutput &caught) {
+  vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   // Without these calls, the reader would keep only one array of each kind.
   reader->ReadAllScalarsOn();
@@ -378,12 +380,30 @@ vtkSmartPointer<vtkUnstructuredGrid> read_legacy(const std::string &path, const 
   reader->ReadAllFieldsOn();
   reader->Update();
   caught.check(path);
-  vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
-  if (!grid) fail_file(path, "could not be read");
-  if (grid->GetNumberOfCells() != n_cells) {
-    fail_file(path, "gives ", grid->GetNumberOfCells(), " of the ", n_cells, " cells that it promises");
+  vtkSmartPointer<DataSet> data = reader->GetOutput();
+  if (!data) fail_file(path, "could not be read");
+  if (data->GetNumberOfCells() != n_cells) {
+    fail_file(path, "gives ", data->GetNumberOfCells(), " of the ", n_cells, " cells that it promises");
   }
-  return grid;
+  return data;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> read_legacy_grid(const std::string &path, std::int64_t n_cells,
+                                                      const CaughtOutput &caught) {
+  return read_scanned<vtkUnstructuredGridReader, vtkUnstructuredGrid>(path, n_cells, caught);
+}
+
+// Checks polydata after reading, and prepares its cells.
+void finish_polydata(const std::string &path, vtkPolyData *data) {
+  check_data_set(path, data);
+  if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
+    fail_file(path, "holds ", data->GetNumberOfVerts(), " vertices and ", data->GetNumberOfLines(),
+              " lines; a surface has faces only");
+  }
+  check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
+  check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
+  // VTK determines the types of the cells in this call.
+  data->BuildCells();
 }
 
 }  // namespace
@@ -404,7 +424,7 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
     check_xml(path, "UnstructuredGrid");
     grid = read_xml<GridReader, vtkUnstructuredGrid>(path, caught);
   } else if (ending == "vtk") {
-    grid = read_legacy(path, caught);
+    grid = read_legacy_grid(path, check_legacy(path, LegacyKinds::grid).n_cells, caught);
   } else if (ending == "msh") {
     grid = read_gmsh(path);
   } else if (ending == "xdmf" || ending == "xmf") {
@@ -424,15 +444,19 @@ vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::string &path, const Ca
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught) {
   check_xml(path, "PolyData");
   vtkSmartPointer<vtkPolyData> data = read_xml<WatchedReader<vtkXMLPolyDataReader>, vtkPolyData>(path, caught);
-  check_data_set(path, data);
-  if (data->GetNumberOfVerts() > 0 || data->GetNumberOfLines() > 0) {
-    fail_file(path, "holds ", data->GetNumberOfVerts(), " vertices and ", data->GetNumberOfLines(),
-              " lines; a surface has faces only");
+  finish_polydata(path, data);
+  return data;
+}
+
+vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught) {
+  const LegacyContent content = check_legacy(path, LegacyKinds::grid_or_polydata);
+  if (!content.is_polydata) {
+    const auto grid = read_legacy_grid(path, content.n_cells, caught);
+    check_grid(path, grid);
+    return grid;
   }
-  check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
-  check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
-  // VTK determines the types of the cells in this call.
-  data->BuildCells();
+  const auto data = read_scanned<vtkPolyDataReader, vtkPolyData>(path, content.n_cells, caught);
+  finish_polydata(path, data);
   return data;
 }
 

@@ -10,6 +10,7 @@
 #include "riis_vtk/base/files.hpp"
 
 class vtkAbstractArray;
+class vtkPointSet;
 class vtkPolyData;
 class vtkUnstructuredGrid;
 class vtkXMLDataElement;
@@ -28,10 +29,18 @@ void check_grid(const std::string &path, vtkUnstructuredGrid *grid);
 // Reads polydata with at least one point from a .vtp (XML) file. Its cells are only polygons and strips.
 vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const CaughtOutput &caught);
 
-// Returns the number of cells of a legacy .vtk file. Fails for a file that is not an unstructured grid or is not complete. VTK's
-// legacy reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. So this
-// function checks the sections before VTK reads them.
-std::int64_t check_legacy(const std::string &path);
+// Reads a legacy .vtk file with polydata or with a grid, checked as by read_polydata and read_grid.
+vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught);
+
+// Returns the content of a legacy .vtk file. Fails for another kind of data and for a file that is not complete. VTK's legacy
+// reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. So this function
+// checks the sections before VTK reads them.
+enum class LegacyKinds { grid, grid_or_polydata };
+struct LegacyContent {
+  bool is_polydata;
+  std::int64_t n_cells;
+};
+LegacyContent check_legacy(const std::string &path, LegacyKinds allowed);
 
 // Fails for a file that is truncated or is not a VTK XML file of the wanted type. VTK's parser would stop at appended data
 // without looking for the end of the file, and it crashes on a field array of unknown type. XmlSizes checks the sizes.

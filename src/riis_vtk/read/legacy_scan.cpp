@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <set>
 
 #include <vtkCellType.h>
 #include <vtkInformationDoubleKey.h>
@@ -64,6 +65,12 @@ std::uint64_t big_endian(std::string_view bytes) {
   return bits;
 }
 
+std::string upper_case(std::string text) {
+  for (char &c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
 // A sequence of whole numbers. The scan has already checked that they exist and are numbers.
@@ -98,17 +105,18 @@ class Scan {
  public:
   Scan(const std::string &path, std::string_view bytes) : path_(path), rest_(bytes) {}
 
-  // Scans the file, and returns the number of cells.
-  std::int64_t file() {
-    header();
+  // Scans the file, and returns its content.
+  LegacyContent file(LegacyKinds allowed) {
+    header(allowed);
     for (std::string keyword = word(); !keyword.empty(); keyword = word()) section(keyword);
     // The format has no end mark. Without this check, a file that ends after its points would look like a grid without cells.
     if (n_cells_ < 0) refuse("holds no cells (is it truncated?)");
+    if (is_polydata_) return {true, n_cells_};
     if (n_types_ != n_cells_)
       refuse("has ", std::max<std::int64_t>(n_types_, 0), " types for ", n_cells_, " cells",
              n_types_ < 0 ? " (is it truncated?)" : "");
     if (has_polyhedra()) check_polyhedra();
-    return n_cells_;
+    return {false, n_cells_};
   }
 
  private:
@@ -156,7 +164,7 @@ class Scan {
 
   std::int64_t n_bits_left() const { return 8 * view(rest_).size(); }
 
-  void header() {
+  void header(LegacyKinds allowed) {
     const std::string magic = "# vtk datafile version ";
     const std::string first = lower_case(line());
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
@@ -176,7 +184,8 @@ class Scan {
     binary_ = encoding == "binary";
     if (next() != "dataset") refuse("holds no data set");
     const std::string kind = next();
-    if (kind != "unstructured_grid") refuse("holds ", kind, ", not unstructured_grid");
+    is_polydata_ = kind == "polydata" && allowed == LegacyKinds::grid_or_polydata;
+    if (!is_polydata_ && kind != "unstructured_grid") refuse("holds ", kind, ", not unstructured_grid");
   }
 
   void skip_bytes(std::int64_t n) {
@@ -301,9 +310,9 @@ class Scan {
     } else if (keyword == "points") {
       n_points_ = count();
       skip_tuples(n_points_, 3, next());
-    } else if (keyword == "cells") {
-      if (n_cells_ >= 0) refuse("has CELLS twice");
-      cells();
+    } else if (is_list_of_cells(keyword)) {
+      if (!lists_.insert(keyword).second) refuse("has ", upper_case(keyword), " twice");
+      cells(upper_case(keyword));
     } else if (keyword == "cell_types") {
       if (n_types_ >= 0) refuse("has CELL_TYPES twice");
       n_types_ = count();
@@ -329,14 +338,20 @@ class Scan {
     }
   }
 
-  void cells() {
+  bool is_list_of_cells(std::string_view keyword) const {
+    if (!is_polydata_) return keyword == "cells";
+    return keyword == "vertices" || keyword == "lines" || keyword == "polygons" || keyword == "triangle_strips";
+  }
+
+  // Skips a list of cells. `name` is its keyword.
+  void cells(const std::string &name) {
     const std::int64_t first = count();
     const std::int64_t second = count();
     if (version_ >= 5) {
       // In version 5 the two numbers are the counts of offsets and of corners.
-      n_cells_ = std::max<std::int64_t>(first - 1, 0);
+      add_cells(std::max<std::int64_t>(first - 1, 0));
       if (first == 0) return;
-      if (next() != "offsets") refuse("has CELLS without OFFSETS");
+      if (next() != "offsets") refuse("has ", name, " without OFFSETS");
       type_of_offsets_ = next();
       offsets_ = values_behind_line();
       skip_tuples(first, 1, type_of_offsets_);
@@ -346,24 +361,27 @@ class Scan {
       corners_ = values_behind_line();
       skip_tuples(second, 1, type_of_corners_);
     } else {
-      n_cells_ = first;
-      counted_cells(first, second);
+      add_cells(first);
+      counted_cells(first, second, name);
     }
   }
 
+  void add_cells(std::int64_t n) { n_cells_ = std::max<std::int64_t>(n_cells_, 0) + n; }
+
   // Skips the cells of files up to version 4. Each cell is stored as its number of corners, followed by the corners. n_values is
   // the count of all these numbers.
-  void counted_cells(std::int64_t n_cells, std::int64_t n_values) {
+  void counted_cells(std::int64_t n_cells, std::int64_t n_values, const std::string &name) {
     line();
     corners_ = rest_;
     std::int64_t n_left = n_values;
     for (std::int64_t i = 0; i < n_cells; ++i) {
       const std::int64_t n_corners = binary_ ? binary_int() : number_of(next());
-      if (n_corners < 0 || n_corners >= n_left) refuse("cell ", i, " has ", n_corners, " points, more than CELLS has");
+      if (n_corners < 0 || n_corners >= n_left)
+        refuse("cell ", i, " has ", n_corners, " points, more than ", name, " has");
       n_left -= 1 + n_corners;
       binary_ ? skip_bytes(4 * n_corners) : skip_words(n_corners, "int");
     }
-    if (n_left != 0) refuse("has CELLS with ", n_left, " numbers too many");
+    if (n_left != 0) refuse("has ", name, " with ", n_left, " numbers too many");
   }
 
   // Returns the values of an array whose type was the last word. They begin on the next line.
@@ -485,8 +503,9 @@ class Scan {
   const std::string &path_;
   std::string_view rest_;
   std::int64_t version_ = 0;  // major version
-  bool binary_ = false;
-  std::int64_t n_cells_ = -1;  // -1 if not known yet
+  bool binary_ = false, is_polydata_ = false;
+  std::set<std::string> lists_;  // the keywords of the lists of cells so far
+  std::int64_t n_cells_ = -1;    // -1 if not known yet
   std::int64_t n_types_ = -1;
   std::int64_t n_points_ = 0;
   // Each view begins at its array. Files up to version 4 have no offsets: each cell begins with its number of corners, and its
@@ -499,9 +518,9 @@ class Scan {
 
 }  // namespace
 
-std::int64_t check_legacy(const std::string &path) {
+LegacyContent check_legacy(const std::string &path, LegacyKinds allowed) {
   const MappedFile file(path, check_readable(path));
-  return Scan(path, file.bytes()).file();
+  return Scan(path, file.bytes()).file(allowed);
 }
 
 }  // namespace riis::vtk

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of other programs.
+// Meshes and surfaces of other programs.
 // In: a path. Out: a grid with points in double precision, whose cells have VTK's types and orders of nodes. read_grid checks the
 // cells again. No count of a file is believed before the file holds as many bytes as the count needs.
 #pragma once
@@ -41,6 +41,10 @@ void write_xdmf(const std::string &path, vtkUnstructuredGrid *grid);
 // Exodus by VTK, and the .vtu files of a .vtm (blocks.cpp).
 vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const CaughtOutput &caught);
 vtkSmartPointer<vtkUnstructuredGrid> read_blocks(const std::string &path, const CaughtOutput &caught);
+
+// Surfaces: the polygons of .obj and .ply files, with the vertices of the file (obj.cpp, ply.cpp).
+vtkSmartPointer<vtkUnstructuredGrid> read_obj(const std::string &path);
+vtkSmartPointer<vtkUnstructuredGrid> read_ply(const std::string &path);
 
 // A mesh while a file is read.
 struct PlainGrid {
@@ -84,6 +88,9 @@ class Source {
   // Reads the next number. A binary one has n_bytes bytes, and a real one of 4 bytes is a float.
   std::int64_t integer(int n_bytes);
   double real(int n_bytes);
+  // Reads the next binary number of this type.
+  template <class T>
+  T raw();
   // Returns the next number of things. Fails if the rest of the file cannot hold that many: each takes `least_bytes` or more.
   std::int64_t count(int n_bytes, std::int64_t least_bytes, const char *things);
   void check_count(std::int64_t n, std::int64_t least_bytes, const char *things) const;
@@ -94,8 +101,6 @@ class Source {
   }
 
  private:
-  template <class T>
-  T raw();
   std::string place() const;
 
   const std::string &path_;

@@ -73,18 +73,18 @@ class XdmfFile {
     if (outermost.name != "Xdmf") fail_file(path_, "is not an XDMF file: it holds <", shortened(outermost.name), ">");
     const XmlElement *domain = outermost.child("Domain");
     if (!domain) fail_file(path_, "holds no Domain");
-    const XmlElement &mesh = first_mesh(*domain);
-    read_points(*mesh.child("Geometry"));
-    read_cells(*mesh.child("Topology"));
+    const XmlElement &first = first_mesh(*domain);
+    read_points(part_of(*domain, first, "Geometry"));
+    read_cells(part_of(*domain, first, "Topology"));
     const auto grid = mesh_.grid(path_);
-    for (const XmlElement &child : mesh.children)
+    for (const XmlElement &child : first.children)
       if (child.name == "Attribute") read_attribute(child, grid);
     if (is_single_) add_note(grid, "its points have single precision");
     return grid;
   }
 
  private:
-  // Returns the first grid with cells. A collection over time begins with its first time.
+  // Returns the first grid that is no collection. A collection over time begins with its first time.
   const XmlElement &first_mesh(const XmlElement &parent) const {
     const XmlElement *grid = parent.child("Grid");
     if (!grid) fail_file(path_, "holds no Grid with a Topology");
@@ -95,9 +95,43 @@ class XdmfFile {
         fail_file(path_, "holds a ", type, " of several meshes; one mesh is read");
       return first_mesh(*grid);
     }
-    if (!grid->child("Topology") || !grid->child("Geometry"))
-      fail_file(path_, "has a Grid without a Topology or without a Geometry");
     return *grid;
+  }
+
+  // Returns the Topology or the Geometry of a grid. A grid of a series in time may include the one of another grid, which meshio
+  // and dolfinx write once.
+  const XmlElement &part_of(const XmlElement &domain, const XmlElement &grid, const char *name) const {
+    if (const XmlElement *own = grid.child(name)) return *own;
+    for (const XmlElement &child : grid.children) {
+      // The prefix of the element's name may be any.
+      const std::string &element = child.name;
+      if (element.substr(element.rfind(':') + 1) != "include") continue;
+      if (!child.attribute("href").empty()) fail_file(path_, "includes the mesh of another file");
+      const XmlElement *included = grid_with(domain, name, named_in(child.attribute("xpointer")));
+      if (included) return *included->child(name);
+    }
+    fail_file(path_, "has a Grid without a Topology or without a Geometry");
+  }
+
+  // Returns the name in a pointer such as //Grid[@Name="mesh"]/..., or "" if it names none.
+  static std::string named_in(const std::string &pointer) {
+    const std::string begin = "@Name=";
+    const std::size_t at = pointer.find(begin);
+    if (at == std::string::npos || at + begin.size() + 1 >= pointer.size()) return "";
+    const std::size_t first = at + begin.size() + 1;
+    return pointer.substr(first, pointer.find(pointer[first - 1], first) - first);
+  }
+
+  // Returns the first grid that has a part of a mesh itself, and that is in a grid of the given name or has the name itself.
+  // The name "" stands for any. Returns NULL if there is none.
+  static const XmlElement *grid_with(const XmlElement &parent, const char *part, const std::string &name) {
+    for (const XmlElement &child : parent.children) {
+      if (child.name != "Grid") continue;
+      const bool has_name = name.empty() || child.attribute("Name") == name;
+      if (has_name && child.child(part)) return &child;
+      if (const XmlElement *found = grid_with(child, part, has_name ? "" : name)) return found;
+    }
+    return nullptr;
   }
 
   static const XmlElement *item_of(const XmlElement &element) { return element.child("DataItem"); }
@@ -180,8 +214,10 @@ class XdmfFile {
     while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     const std::string name = plain_text(text);
-    const std::size_t colon = name.rfind(":/");
-    if (colon == std::string::npos || colon == 0)
+    // FEniCS's checkpoints write FILE.h5:DATASET. A dataset's name may have colons.
+    std::size_t colon = name.rfind(":/");
+    if (colon == std::string::npos) colon = name.rfind(':');
+    if (colon == std::string::npos || colon == 0 || colon + 1 == name.size())
       fail_file(path_, "has a DataItem \"", shortened(name), "\"; it must be FILE.h5:/DATASET");
     bool is_single = false;
     auto values = read_hdf5<Number>(beside(name.substr(0, colon)), name.substr(colon + 1), n, is_single);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 
 #include <vtkCellTypes.h>
@@ -11,6 +12,7 @@
 #include <vtkPointData.h>
 
 #include "common/array_view.hpp"
+#include "riis_vtk/read/other_files.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -199,6 +201,25 @@ void add_displaced(const std::string &path, Frames &frames, const Displacement &
   add_frame(frames, xyz);
 }
 
+// Returns the file with the faces of svMultiPhysics's frames.
+std::string face_file_of(const std::string &path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const std::string stem = std::filesystem::path(path).stem().string();
+  std::string name = stem;
+  while (!name.empty()) {
+    for (const char *more : {"", "_mesh", "_face"})
+      for (const char *ending : {".vtu", ".vtp"}) {
+        const std::filesystem::path file = folder / (name + more + ending);
+        std::error_code error;
+        if (std::filesystem::is_regular_file(file, error)) return file.string();
+      }
+    const std::size_t end = name.rfind('_');
+    name.resize(end == std::string::npos ? 0 : end);
+  }
+  fail_file(path, "has frames of nodes; no file beside it has their faces: ", stem.substr(0, stem.find('_')),
+            ".vtu is missing");
+}
+
 }  // namespace
 
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
@@ -220,6 +241,53 @@ Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double
     add_frame(frames, corners ? corners->merged(paths[i], xyz) : xyz);
   }
   return frames;
+}
+
+Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
+                      const CaughtOutput &caught) {
+  const MappedFile file(path, check_readable(path));
+  Source in(path, file.bytes());
+  const std::int64_t n_frames = in.integer(8), n_nodes = in.integer(8);
+  if (n_frames < 1 || n_frames > most_frames)
+    in.refuse("there are ", n_frames, " frames; 1 to ", most_frames, " are read");
+  constexpr int least_bytes = 5;  // of three numbers
+  in.check_count(n_nodes, least_bytes * n_frames, "nodes in each frame");
+  const std::string face_path = face_file_of(path);
+  const vtkSmartPointer<vtkPointSet> data = read_surface_data(face_path, caught);
+  if (data->GetNumberOfPoints() != n_nodes)
+    fail_file(path, "has ", n_nodes, " nodes; ", face_path, ", which has their faces, has ", data->GetNumberOfPoints());
+  Frames frames;
+  frames.faces = faces_of(face_path, data, leaflets);
+  for (std::int64_t i = 0; i < n_frames; ++i) frames.times.push_back(static_cast<double>(i) * time_step);
+  std::vector<double> xyz(static_cast<std::size_t>(3 * n_nodes));
+  for (std::int64_t i = 0; i < n_frames; ++i) {
+    for (double &x : xyz) x = in.real(8);
+    check_places(path, xyz, " of frame " + std::to_string(i));
+    if (i == 0) frames.faces.xyz = xyz;
+    add_frame(frames, xyz);
+  }
+  if (!in.word().empty()) in.refuse("the file holds more than ", n_frames, " frames of ", n_nodes, " nodes");
+  return frames;
+}
+
+void append_frames(Frames &frames, const Frames &other) {
+  const std::int64_t n = view(frames.times).size();
+  if (view(other.times).size() != n)
+    refuse_argument("the motions have ", n, " and ", view(other.times).size(), " frames; all need the same times");
+  for (std::int64_t i = 0; i < n; ++i)
+    if (view(frames.times)[i] != view(other.times)[i])
+      refuse_argument("frame ", i, " is at the time ", view(frames.times)[i], " in one motion and at ",
+                      view(other.times)[i], " in the other; all need the same times");
+  const std::vector<double> &first = frames.xyz, &second = other.xyz;
+  const auto n_first = view(first).size() / n, n_second = view(second).size() / n;
+  std::vector<double> xyz;
+  xyz.reserve(first.size() + second.size());
+  for (std::int64_t i = 0; i < n; ++i) {
+    xyz.insert(xyz.end(), first.begin() + i * n_first, first.begin() + (i + 1) * n_first);
+    xyz.insert(xyz.end(), second.begin() + i * n_second, second.begin() + (i + 1) * n_second);
+  }
+  append_faces(frames.faces, other.faces);
+  frames.xyz = std::move(xyz);
 }
 
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,

@@ -4,14 +4,9 @@
 #include <riis/riis_vtk.h>
 
 #include <algorithm>
-#include <cstring>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
-
-#include <vtkObjectFactory.h>
-#include <vtkXMLParser.h>
 
 #include "common/array_view.hpp"
 #include "riis_vtk/read/grid_files.hpp"
@@ -31,49 +26,6 @@ struct NamedDataSet {
   std::optional<std::string> file, timestep;
 };
 
-// Collects the elements /VTKFile/Collection/DataSet. It builds no tree, because a hostile file could nest so deeply that
-// destroying the tree would overflow the stack.
-class CollectionParser : public vtkXMLParser {
- public:
-  static CollectionParser *New();
-  vtkTypeMacro(CollectionParser, vtkXMLParser);
-
-  std::vector<NamedDataSet> data_sets;
-  std::exception_ptr failure;  // an exception of the functions below; it must not pass through the C code that calls
-                               // them
-
- protected:
-  void StartElement(const char *name, const char **attributes) override {
-    constexpr const char *way[] = {"VTKFile", "Collection", "DataSet"};
-    if (depth_ == n_right_ && depth_ < 3 && std::strcmp(name, way[depth_]) == 0) {
-      if (++n_right_ == 3) keep(attributes);
-    }
-    ++depth_;
-  }
-  void EndElement(const char *) override {
-    --depth_;
-    if (n_right_ > depth_) n_right_ = depth_;
-  }
-
- private:
-  void keep(const char **attributes) noexcept {
-    try {
-      NamedDataSet data_set;
-      for (; attributes[0] && attributes[1]; attributes += 2) {
-        if (std::strcmp(attributes[0], "file") == 0) data_set.file = attributes[1];
-        if (std::strcmp(attributes[0], "timestep") == 0) data_set.timestep = attributes[1];
-      }
-      data_sets.push_back(std::move(data_set));
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  }
-
-  // The number of open elements, and how many of them match the path, counted from the outermost one.
-  std::int64_t depth_ = 0, n_right_ = 0;
-};
-vtkStandardNewMacro(CollectionParser);
-
 double time_of(const std::string &path, const std::string &which, const std::string &timestep) {
   std::string_view text = timestep;
   text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
@@ -86,13 +38,12 @@ double time_of(const std::string &path, const std::string &which, const std::str
 
 std::vector<NamedDataSet> data_sets_of(const std::string &path, const CaughtOutput &caught) {
   check_xml(path, "Collection");
-  vtkNew<CollectionParser> parser;
-  parser->SetFileName(path.c_str());
-  const bool parsed = parser->Parse() != 0;
-  if (parser->failure) std::rethrow_exception(parser->failure);
-  caught.check(path);
-  if (!parsed) fail_file(path, "cannot be parsed");
-  return std::move(parser->data_sets);
+  std::vector<NamedDataSet> data_sets;
+  for_each_element(path, caught, [&](const std::vector<std::string> &way, XmlAttributes attributes) {
+    if (way == std::vector<std::string>{"VTKFile", "Collection", "DataSet"})
+      data_sets.push_back({value_of(attributes, "file"), value_of(attributes, "timestep")});
+  });
+  return data_sets;
 }
 
 // The files of a collection and their times.
@@ -192,6 +143,34 @@ RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const 
   });
 }
 
+RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_step, const char *leaflets,
+                                                 riis_vtk_motion **motion) {
+  return guarded([&](const CaughtOutput &caught) {
+    require(path, "path");
+    require(motion, "motion");
+    if (!(time_step > 0 && is_time(time_step))) refuse_argument("time_step is ", time_step, "; it must be above 0");
+    *motion = naming(path, [&] {
+      if (ending_of(path) != "dat") fail_file(path, "frames of svMultiPhysics are in a .dat file");
+      return motion_of(frames_of_text(path, time_step, LeafletArray(leaflets), caught), {path});
+    });
+  });
+}
+
+RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other) {
+  return guarded([&](const CaughtOutput &) {
+    require(motion, "motion");
+    require(other, "other");
+    std::vector<std::string> files = motion->files;
+    files.insert(files.end(), other->files.begin(), other->files.end());
+    std::vector<const char *> paths;
+    for (const std::string &file : files) paths.push_back(file.c_str());
+    append_frames(motion->frames, other->frames);
+    // The texts keep their places while the list of files moves.
+    motion->files = std::move(files);
+    motion->paths = std::move(paths);
+  });
+}
+
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths) {
   return guarded([&](const CaughtOutput &) {
@@ -208,11 +187,7 @@ RIIS_API riis_status riis_vtk_motion_number_pieces(riis_vtk_motion *motion) {
   });
 }
 
-RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion) {
-  if (!motion) return;
-  delete *motion;
-  *motion = nullptr;
-}
+RIIS_API void riis_vtk_motion_destroy(riis_vtk_motion **motion) { destroy(motion); }
 
 RIIS_API riis_status riis_vtk_motion_get_arrays(const riis_vtk_motion *motion, riis_surface_arrays *arrays,
                                                 int64_t struct_size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces of riis_vtk.h. Reads a .vtp, .vtu or .stl file into arrays for the core, and writes the core's surface to a .vtp
-// file.
+// Surfaces of riis_vtk.h. Reads a file of one of the formats of docs/formats.md into arrays for the core, and writes the core's
+// surface to a .vtp file.
 #include <riis/riis_vtk.h>
 
 #include <memory>
@@ -11,6 +11,7 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include "riis_vtk/read/grid_files.hpp"
+#include "riis_vtk/read/other_files.hpp"
 #include "riis_vtk/surface/surfaces.hpp"
 
 namespace riis::vtk {
@@ -83,8 +84,14 @@ vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const Ca
     const std::string ending = ending_of(path);
     if (ending == "vtp") return read_polydata(path, caught);
     if (ending == "vtu") return read_grid(path, caught);
+    if (ending == "vtk") return read_legacy_surface(path, caught);
     if (ending == "stl") return read_stl(path, caught);
-    fail_file(path, "a surface must be a .vtp, .vtu or .stl file");
+    if (ending == "obj" || ending == "ply") {
+      const vtkSmartPointer<vtkUnstructuredGrid> grid = ending == "obj" ? read_obj(path) : read_ply(path);
+      check_grid(path, grid);
+      return grid;
+    }
+    fail_file(path, "a surface must be a .vtp, .vtu, .vtk, .stl, .obj or .ply file");
   });
 }
 
@@ -117,11 +124,12 @@ RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface) {
   });
 }
 
-RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) {
-  if (!surface) return;
-  delete *surface;
-  *surface = nullptr;
+RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other) {
+  return guarded(
+      [&](const CaughtOutput &) { append_faces(require(surface, "surface")->faces, require(other, "other")->faces); });
 }
+
+RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface) { destroy(surface); }
 
 RIIS_API riis_status riis_vtk_surface_get_arrays(const riis_vtk_surface *surface, riis_surface_arrays *arrays,
                                                  int64_t struct_size) {

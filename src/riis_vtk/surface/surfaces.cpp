@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include <vtkCellArray.h>
@@ -79,6 +80,18 @@ void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   }
 }
 
+// The triangles of a quadratic face, by its nodes in VTK's order. Their nodes are the nodes of the face.
+const std::vector<std::array<vtkIdType, 3>> *triangles_of_quadratic(int vtk_type) {
+  using Triangles = std::vector<std::array<vtkIdType, 3>>;
+  static const std::map<int, Triangles> triangles = {
+      {VTK_QUADRATIC_TRIANGLE, {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}},
+      {VTK_BIQUADRATIC_TRIANGLE, {{0, 3, 6}, {3, 1, 6}, {1, 4, 6}, {4, 2, 6}, {2, 5, 6}, {5, 0, 6}}},
+      {VTK_QUADRATIC_QUAD, {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}}},
+      {VTK_BIQUADRATIC_QUAD, {{0, 4, 8}, {0, 8, 7}, {4, 1, 5}, {4, 5, 8}, {8, 5, 2}, {8, 2, 6}, {7, 8, 6}, {7, 6, 3}}}};
+  const auto found = triangles.find(vtk_type);
+  return found == triangles.end() ? nullptr : &found->second;
+}
+
 // Appends the triangles of one cell.
 void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtkIdList *ids,
               std::vector<std::int64_t> &triangles) {
@@ -94,6 +107,8 @@ void cut_cell(const std::string &path, vtkPointSet *data, vtkIdType cell_id, vtk
     add_triangle(triangles, ids, 0, 2, 3);
   } else if (type == VTK_POLYGON && n > 4) {
     cut_polygon(path, data, cell_id, ids, triangles);
+  } else if (const auto *const parts = triangles_of_quadratic(type)) {
+    for (const auto &[a, b, c] : *parts) add_triangle(triangles, ids, a, b, c);
   } else {
     fail_file(path, "cell ", cell_id, " is a ", vtkCellTypes::GetClassNameFromTypeId(type), " with ", n,
               " points; a surface has triangles, quads, polygons and triangle strips");
@@ -189,6 +204,21 @@ void add_triangles(const riis_triangles &of, vtkPolyData *data) {
   data->GetCellData()->AddArray(array_of<vtkTypeInt64Array>(triangle_array, triangle_id, 1, n));
 }
 
+// Cuts quads as the core does, from the first corner to the third.
+void cut_quads(Faces &faces) {
+  if (faces.corners_per_face != 4) return;
+  std::vector<std::int64_t> ids;
+  std::vector<std::int32_t> leaflets;
+  for (std::size_t face = 0; 4 * face < faces.vertex_ids.size(); ++face) {
+    const std::int64_t *const quad = &faces.vertex_ids[4 * face];
+    ids.insert(ids.end(), {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
+    if (!faces.leaflet_id.empty()) leaflets.insert(leaflets.end(), 2, faces.leaflet_id[face]);
+  }
+  faces.vertex_ids = std::move(ids);
+  faces.leaflet_id = std::move(leaflets);
+  faces.corners_per_face = 3;
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> polydata_of(const riis_surface *surface) {
@@ -226,6 +256,21 @@ Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &w
     if (!leaflets.empty()) faces.leaflet_id.resize(n_faces, leaflets[static_cast<std::size_t>(cell_id)]);
   }
   return faces;
+}
+
+void append_faces(Faces &faces, const Faces &other) {
+  Faces joined = faces, added = other;
+  if (joined.corners_per_face != added.corners_per_face) {
+    cut_quads(joined);
+    cut_quads(added);
+  }
+  const auto n_corners = static_cast<std::size_t>(joined.corners_per_face);
+  if (joined.n_joined == 1) joined.leaflet_id.assign(joined.vertex_ids.size() / n_corners, 0);
+  const auto n_vertices = static_cast<std::int64_t>(joined.xyz.size() / 3);
+  for (const std::int64_t id : added.vertex_ids) joined.vertex_ids.push_back(n_vertices + id);
+  joined.xyz.insert(joined.xyz.end(), added.xyz.begin(), added.xyz.end());
+  joined.leaflet_id.resize(joined.vertex_ids.size() / n_corners, joined.n_joined++);
+  faces = std::move(joined);
 }
 
 std::vector<std::size_t> places_of(const Faces &faces) {

@@ -14,7 +14,7 @@ class vtkPolyData;
 
 namespace riis::vtk {
 
-// Reads a .vtp, .vtu or .stl file. Checks all cells, as faces_of requires.
+// Reads a file of a surface in any of the formats of docs/formats.md. Checks all cells, as faces_of requires.
 vtkSmartPointer<vtkPointSet> read_surface_data(const std::string &path, const CaughtOutput &caught);
 
 // Returns exactly the triangles of the surface, with points in double precision and the arrays that riis_vtk.h names.
@@ -27,6 +27,7 @@ struct Faces {
   std::vector<std::int64_t> vertex_ids;
   std::vector<std::int32_t> leaflet_id;  // (n_faces); empty if the data set has no leaflet ids
   std::int32_t corners_per_face = 3;
+  std::int32_t n_joined = 1;  // the number of surfaces that append_faces has joined
 };
 
 // Returns the positions of all points, (3, n).
@@ -44,6 +45,10 @@ struct LeafletArray {
 // Converts a data set of triangles, quads, polygons and triangle strips to faces. The cells must have been checked. The path is
 // only used in messages.
 Faces faces_of(const std::string &path, vtkPointSet *data, const LeafletArray &wanted);
+
+// Appends the faces of another surface with their vertices. Each of the joined surfaces becomes a leaflet. Quads are cut if only
+// one of the two has quads.
+void append_faces(Faces &faces, const Faces &other);
 
 // Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
 // their coordinates are exactly equal.
@@ -81,5 +86,14 @@ Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double
 // number. The frames are in the order of these numbers. If `times` is NULL, the times come from the field array TimeValue.
 Frames frames_of_displacements(const std::string &path, const std::string &prefix, const std::vector<double> *times,
                                const LeafletArray &leaflets, const CaughtOutput &caught);
+
+// Reads the frames of svMultiPhysics: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu or
+// .vtp file beside it: NAME_motion_open.dat takes NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face.
+// The times are multiples of the time step, from 0.
+Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
+                      const CaughtOutput &caught);
+
+// Appends the faces of another motion, as append_faces does. Both must have the same times.
+void append_frames(Frames &frames, const Frames &other);
 
 }  // namespace riis::vtk

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Competitors in single precision, each built if its library was found.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "shared/references.hpp"
+
+namespace bench {
+
+// A competitor of every distance: FCPW's tree with eight branches and eight triangles at a time. It is built if RIIS_FCPW_DIR is
+// FCPW's source folder. FCPW's package on PyPI has four branches (peers.py).
+class FcpwQuery {
+ public:
+  explicit FcpwQuery(const Triangles &triangles);
+  ~FcpwQuery();
+  // distance: (n_nodes). xyz: (3, n_nodes).
+  void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+// A competitor of the library's marking. It makes a narrow band of voxels with distances, and interpolates them at the nodes. It
+// runs on one thread.
+class OpenVdbBand {
+ public:
+  // The band reaches one voxel beyond the limit.
+  OpenVdbBand(const Triangles &triangles, double voxel, double limit);
+  ~OpenVdbBand();
+  // Makes the band. This must be repeated if the surface moved.
+  void make();
+  // distance: (n_nodes); about the limit for nodes outside the band. xyz: (3, n_nodes).
+  void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace bench

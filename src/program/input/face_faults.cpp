@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/input/face_faults.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "common/array_view.hpp"
+#include "program/base/handles.hpp"
+#include "program/mark/warnings.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+namespace {
+
+// A side of a face, between two vertices a < b.
+struct Side {
+  std::int64_t a, b, face;
+  bool is_forward;  // whether the face goes from a to b
+  std::int32_t leaflet;
+};
+
+// Pieces of faces that are joined by sides, and whether each face faces as the piece's first face does.
+class Pieces {
+ public:
+  explicit Pieces(std::int64_t n) : parent_(static_cast<std::size_t>(n)), is_turned_(static_cast<std::size_t>(n), 0) {
+    std::iota(parent_.begin(), parent_.end(), std::int64_t{0});
+  }
+
+  struct Place {
+    std::int64_t root;
+    bool is_turned;
+  };
+  Place find(std::int64_t face) {
+    bool turned = false;
+    while (view(parent_)[face] != face) {
+      std::int64_t &parent = view(parent_)[face];
+      const bool is_turned = view(is_turned_)[face] != view(is_turned_)[parent];
+      view(is_turned_)[face] = is_turned ? 1 : 0;
+      parent = view(parent_)[parent];
+      turned = turned != is_turned;
+      face = parent;
+    }
+    return {face, turned};
+  }
+  // Joins two faces. They face the same way, or one is turned over.
+  void join(std::int64_t one, std::int64_t other, bool turned) {
+    const Place a = find(one), b = find(other);
+    if (a.root == b.root) return;
+    view(parent_)[b.root] = a.root;
+    view(is_turned_)[b.root] = (a.is_turned != b.is_turned) != turned ? 1 : 0;
+  }
+
+ private:
+  std::vector<std::int64_t> parent_;
+  std::vector<char> is_turned_;  // against the parent
+};
+
+// Returns a number for each vertex. Vertices at equal positions have equal numbers.
+std::vector<std::int64_t> places_of(const riis_triangles &triangles) {
+  const std::int64_t n = triangles.n_vertices;
+  const auto position = [xyz = triangles.xyz](std::int64_t i) {
+    return std::array<double, 3>{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+  };
+  std::vector<std::int64_t> order(static_cast<std::size_t>(n)), places(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), std::int64_t{0});
+  std::sort(order.begin(), order.end(), [&](std::int64_t i, std::int64_t k) { return position(i) < position(k); });
+  for (std::int64_t i = 1; i < n; ++i) {
+    const std::int64_t before = view(order)[i - 1], here = view(order)[i];
+    view(places)[here] = view(places)[before] + (position(here) == position(before) ? 0 : 1);
+  }
+  return places;
+}
+
+struct Faults {
+  std::int64_t n_equal = 0, n_turned = 0, n_closed = 0;
+};
+
+class FaceCheck {
+ public:
+  explicit FaceCheck(const riis_triangles &triangles) : triangles_(triangles), places_(places_of(triangles)) {}
+
+  Faults run() {
+    const std::vector<std::int64_t> faces = different_faces();
+    Faults faults;
+    faults.n_equal = triangles_.n_triangles - view(faces).size();
+    Pieces pieces(triangles_.n_triangles);
+    const std::vector<char> is_open = join_along_sides(faces, pieces);
+
+    struct Piece {
+      std::int64_t n_faces[2] = {0, 0};  // of each orientation
+      bool is_open = false;
+    };
+    std::vector<Piece> all(static_cast<std::size_t>(triangles_.n_triangles));
+    for (const std::int64_t face : faces) {
+      const auto [root, is_turned] = pieces.find(face);
+      ++view(all)[root].n_faces[is_turned ? 1 : 0];
+      view(all)[root].is_open |= view(is_open)[face] != 0;
+    }
+    constexpr std::int64_t least_faces = 4;  // of a closed piece
+    for (const auto &[n, opens] : all) {
+      faults.n_turned += std::min(n[0], n[1]);
+      faults.n_closed += !opens && n[0] + n[1] >= least_faces;
+    }
+    return faults;
+  }
+
+ private:
+  std::int64_t corner(std::int64_t face, std::int64_t k) const {
+    return view(places_)[triangles_.vertex_id[3 * face + k % 3]];
+  }
+
+  // Returns the faces without those that have the corners of an earlier face.
+  std::vector<std::int64_t> different_faces() const {
+    using Key = std::array<std::int64_t, 3>;
+    std::vector<std::pair<Key, std::int64_t>> sorted;
+    for (std::int64_t face = 0; face < triangles_.n_triangles; ++face) {
+      Key key{corner(face, 0), corner(face, 1), corner(face, 2)};
+      std::sort(key.begin(), key.end());
+      sorted.emplace_back(key, face);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<std::int64_t> faces;
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+      if (i == 0 || sorted[i].first != sorted[i - 1].first) faces.push_back(sorted[i].second);
+    return faces;
+  }
+
+  // Joins the faces of a leaflet that share a side. Returns for each face whether a side of it is open. A side of more than two
+  // faces joins none.
+  std::vector<char> join_along_sides(const std::vector<std::int64_t> &faces, Pieces &pieces) const {
+    std::vector<Side> sides;
+    for (const std::int64_t face : faces)
+      for (std::int64_t k = 0; k < 3; ++k) {
+        const std::int64_t from = corner(face, k), to = corner(face, k + 1);
+        sides.push_back({std::min(from, to), std::max(from, to), face, from < to, triangles_.leaflet_id[face]});
+      }
+    const auto edge = [](const Side &side) { return std::tie(side.a, side.b, side.leaflet); };
+    std::sort(sides.begin(), sides.end(), [&](const Side &s, const Side &t) { return edge(s) < edge(t); });
+    std::vector<char> is_open(static_cast<std::size_t>(triangles_.n_triangles), 0);
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+      while (end < sides.size() && edge(sides[end]) == edge(sides[i])) ++end;
+      if (end == i + 1) view(is_open)[sides[i].face] = 1;
+      if (end == i + 2) pieces.join(sides[i].face, sides[i + 1].face, sides[i].is_forward == sides[i + 1].is_forward);
+    }
+    return is_open;
+  }
+
+  const riis_triangles &triangles_;
+  std::vector<std::int64_t> places_;
+};
+
+}  // namespace
+
+void warn_of_faces(const std::string &name, const riis_surface *surface) {
+  const riis_triangles triangles = triangles_of(surface);
+  const Faults faults = FaceCheck(triangles).run();
+  if (faults.n_turned > 0)
+    warn(name + ": " + grouped(faults.n_turned) + " of " + counted(triangles.n_triangles, "triangle") +
+         (faults.n_turned == 1 ? " is" : " are") +
+         " turned over against the others: normals and side change there; ParaView's filter Surface Normals turns them "
+         "back");
+  if (faults.n_equal > 0)
+    warn(name + ": " + counted(faults.n_equal, "triangle") + (faults.n_equal == 1 ? " is" : " are") +
+         " in the file twice: areas count both");
+  if (faults.n_closed > 0)
+    warn(name + ": " + counted(faults.n_closed, "piece") + (faults.n_closed == 1 ? " is" : " are") +
+         " closed, as a thick leaflet is: areas count both faces");
+}
+
+}  // namespace riis::program

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Calls a Python script many times in one process (answer.py), which imports the script's modules once. */
+#ifndef RIIS_TEST_ANSWERS_H
+#define RIIS_TEST_ANSWERS_H
+
+/* Calls the script with words that a shell would read. Returns the exit status. The printed text is in scratch_path("printed").
+ * All calls of a test name the same script. */
+int answer_of(const char *script, const char *words);
+
+/* Ends the process, if there is one. */
+void end_answers(void);
+
+#endif
