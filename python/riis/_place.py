@@ -74,7 +74,7 @@ def place(
     """Finds a valve's sizes and placement from a patient's landmarks.
 
     landmarks  a mapping of names to points, such as {"nadir_left": (1, 2, 3), "annulus": [(...), ...]}, or the path of a file in
-               JSON, 3D Slicer's .mrk.json or CSV. docs/formats.md lists the names
+               JSON, CSV, or 3D Slicer's .mrk.json or .fcsv. docs/formats.md lists the names
     valve      a kind, or a Valve whose proportions the result has. The default is the kind that the file names
     unit       of the landmarks, needed for a mapping; of the result, for a file: the landmarks are converted
     axes       of the mesh: landmarks of a file in the other axes are turned by half a turn about z

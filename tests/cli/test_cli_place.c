@@ -81,6 +81,76 @@ TEST(every_format_gives_the_same) {
   expect_sizes(program_out);
   RUN_FINE("place", scratch_path("d.mrk.json"), "--valve", "trileaflet", "--output", "-");
   expect_sizes(program_out);
+  /* By 3D Slicer's schema the unit may be an array that begins with it, and its default is mm. */
+  char *unit = strstr(slicer, "\"coordinateUnits\": \"mm\", ");
+  for (const char *const *other =
+           (const char *const[]){"\"coordinateUnits\":[\"mm\"],", "\"description\": \"none.\",", NULL};
+       *other; ++other) {
+    memset(unit, ' ', strlen("\"coordinateUnits\": \"mm\", "));
+    memcpy(unit, *other, strlen(*other));
+    scratch_write_text("d.mrk.json", slicer);
+    RUN_FINE("place", scratch_path("d.mrk.json"), "--valve", "trileaflet", "--output", "-");
+    expect_sizes(program_out);
+  }
+}
+
+/* Files of earlier versions of 3D Slicer have other columns, and number the axes. */
+TEST(fcsv_gives_the_same) {
+  const struct {
+    const char *heading, *row;
+    double sign;
+  } versions[] = {{"# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n# columns = "
+                   "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n",
+                   "vtkMRMLMarkupsFiducialNode_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s,,\n", 1},
+                  {"# Markups fiducial file version = 4.6\n# CoordinateSystem = 0\n# columns = "
+                   "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label\n",
+                   "node_%d,%.17g,%.17g,%.17g,0,0,0,1,1,1,0,%s\n", -1}};
+  for (size_t version = 0; version < sizeof versions / sizeof *versions; ++version) {
+    char text[4096];
+    int n = snprintf(text, sizeof text, "%s", versions[version].heading);
+    for (int i = 0; i < 8; ++i) {
+      double p[3] = {i == 7 ? 9 : 0, i == 7 ? 1 : 0, 0};
+      if (i < 6) landmark(i, 10, p);
+      n += snprintf(text + n, sizeof text - (size_t)n, versions[version].row, i, versions[version].sign * p[0],
+                    versions[version].sign * p[1], p[2],
+                    i < 6    ? names[i]
+                    : i == 6 ? "flow_from"
+                             : "flow_to");
+    }
+    scratch_write_text("a.fcsv", text);
+    RUN_FINE("place", scratch_path("a.fcsv"), "--valve", "trileaflet", "--axes", "LPS", "--output", "-");
+    expect_sizes(program_out);
+    assert_non_null(strstr(program_out, "\"unit\": \"mm\""));
+  }
+}
+
+TEST(closed_curve_is_an_annulus) {
+  static const double annulus[8][3] = {{15, 0, 0},  {10, 12, 1},   {0, 17, 2},  {-10, 12, 1},
+                                       {-15, 0, 0}, {-10, -12, 1}, {0, -17, 2}, {10, -12, 1}};
+  static char by_name[longest_output];
+  char json[2048], curve[4096];
+  int n = snprintf(json, sizeof json, "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {\"annulus\": [");
+  int m = snprintf(curve, sizeof curve,
+                   "{\"markups\": [{\"type\": \"ClosedCurve\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [");
+  for (int i = 0; i < 8; ++i) {
+    n += snprintf(json + n, sizeof json - (size_t)n, "%s[%g, %g, %g]", i ? ", " : "", annulus[i][0], annulus[i][1],
+                  annulus[i][2]);
+    m += snprintf(curve + m, sizeof curve - (size_t)m, "%s{\"label\": \"%s%d\", \"position\": [%g, %g, %g]}",
+                  i ? ", " : "", i % 2 ? "MV-" : "trigone_", i, annulus[i][0], annulus[i][1], annulus[i][2]);
+  }
+  snprintf(json + n, sizeof json - (size_t)n,
+           "], \"anterior_horn\": [0, 17, 2], \"flow_from\": [0, 0, 9], \"flow_to\": [0, 0, 0]}}");
+  snprintf(
+      curve + m, sizeof curve - (size_t)m,
+      "]}, {\"coordinateSystem\": \"LPS\", \"controlPoints\": ["
+      "{\"label\": \"anterior_horn\", \"position\": [0, 17, 2]}, {\"label\": \"flow_from\", \"position\": [0, 0, 9]}, "
+      "{\"label\": \"flow_to\", \"position\": [0, 0, 0]}]}]}");
+  scratch_write_text("a.json", json);
+  scratch_write_text("curve.mrk.json", curve);
+  RUN_FINE("place", scratch_path("a.json"), "--valve", "mitral", "--output", "-");
+  strcpy(by_name, program_out);
+  RUN_FINE("place", scratch_path("curve.mrk.json"), "--valve", "mitral", "--output", "-");
+  assert_string_equal(program_out, by_name);
 }
 
 TEST(report_has_sizes_and_residuals) {
@@ -295,7 +365,14 @@ static void refuse_text(const char *name, const char *text, const char *words) {
 TEST(files_are_refused_by_name) {
   const char *csv = "# unit = mm\n# axes = LPS\n";
   char text[512];
-  refuse_text("a.txt", "x", "landmarks must be a .json, .mrk.json or .csv file");
+  refuse_text("a.txt", "x", "landmarks must be a .json, .mrk.json, .fcsv or .csv file");
+  refuse_text("a.fcsv", "# columns = id,x,y,z,label\n", "states no axes: a line # CoordinateSystem = LPS is missing");
+  refuse_text("a.fcsv", "# CoordinateSystem = IJK\n",
+              "CoordinateSystem is \"IJK\"; it must be LPS, RAS, 0 for RAS or 1");
+  refuse_text("a.fcsv", "# CoordinateSystem = 1\n# columns = id,x,y,z\n", "the line # columns names no column label");
+  refuse_text("a.fcsv", "# CoordinateSystem = 1\nnadir,1,2\n", "line 2 has 3 of the 4 columns");
+  refuse_text("a.fcsv", "# CoordinateSystem = 1\nnadir,1,2,x3\n", "line 2");
+  refuse_text("a.fcsv", "# CoordinateSystem = 1\n", "holds no landmarks");
   refuse_text("a.csv", "# unit = mm\nnadir,1,2,3\n", "states no axes: a line such as # axes = LPS is missing");
   refuse_text("a.csv", "# unit = mm\n# axes = LPI\nnadir,1,2,3\n",
               "the axes are \"LPI\"; they must be LPS, RAS or mesh; LPS and RAS");

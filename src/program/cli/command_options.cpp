@@ -482,7 +482,9 @@ void declare_export(Command command, ExportOptions &options) {
 }
 
 void declare_place(Command command, PlaceOptions &options) {
-  command.text("LANDMARKS", "FILE.json|.csv", "The landmarks: JSON, 3D Slicer's .mrk.json, or CSV", options.landmarks)
+  command
+      .text("LANDMARKS", "FILE.json|.csv|.fcsv", "The landmarks: JSON, CSV, or 3D Slicer's .mrk.json or .fcsv",
+            options.landmarks)
       ->required();
   command.text("--output", "OUT.json", "The placed valve, for --valve of the other commands; - is stdout",
                options.output);

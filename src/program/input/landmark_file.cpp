@@ -212,6 +212,16 @@ void read_json(const Json &root, LandmarkFile &file) {
 
 // ---- 3D Slicer ----
 
+// Returns the unit of a list of points. By 3D Slicer's schema it is a text, or an array that begins with the text, and the
+// default is mm.
+Unit slicer_unit(const std::string &path, const Json &list, const std::string &where) {
+  const auto found = list.find("coordinateUnits");
+  if (found == list.end()) return Unit::millimetre;
+  const Json &unit = found->is_array() && !found->empty() ? (*found)[0] : *found;
+  if (!unit.is_string()) refuse_file(path, where + ": coordinateUnits is " + found->dump() + "; it must be a text");
+  return stated_unit(path, unit.get<std::string>());
+}
+
 // A file of 3D Slicer has many keys, which change from version to version. Only those needed here are read.
 void read_slicer(const Json &root, LandmarkFile &file) {
   const std::string &path = file.path;
@@ -223,6 +233,7 @@ void read_slicer(const Json &root, LandmarkFile &file) {
     return found->get<std::string>();
   };
   Collector to(file);
+  std::size_t n_annulus = 0;
   for (std::size_t i = 0; i < lists.size(); ++i) {
     const std::string where = "markups " + std::to_string(i);
     const Json &list = lists[i];
@@ -231,18 +242,20 @@ void read_slicer(const Json &root, LandmarkFile &file) {
     if (system != "LPS" && system != "RAS")
       refuse_file(path, where + ": coordinateSystem is " + quoted(system) + "; it must be LPS or RAS");
     const Axes axes = stated_axes(path, system);
-    const Unit unit = stated_unit(path, text_in(list, "coordinateUnits", where));
+    const Unit unit = slicer_unit(path, list, where);
     if (i > 0 && (axes != file.axes || unit != file.unit))
       refuse_file(path, where + " has other axes or another unit than markups 0: save them alike");
     file.axes = axes;
     file.unit = unit;
+    const bool is_annulus = list.contains("type") && list["type"] == "ClosedCurve";
     const auto points = list.find("controlPoints");
     if (points == list.end() || !points->is_array()) refuse_file(path, where + " has no array \"controlPoints\"");
     for (std::size_t k = 0; k < points->size(); ++k) {
       const Json &point = (*points)[k];
       const std::string at = where + ", control point " + std::to_string(k);
       if (!point.is_object()) refuse_file(path, at + " must be an object, not of type " + point.type_name());
-      const std::string label = text_in(point, "label", at);
+      // A closed curve is an annulus, whatever its points are called.
+      const std::string label = is_annulus ? "annulus_" + std::to_string(++n_annulus) : text_in(point, "label", at);
       const auto status = point.find("positionStatus"), position = point.find("position");
       if (status != point.end() && *status != "defined")
         refuse_file(path,
@@ -250,6 +263,56 @@ void read_slicer(const Json &root, LandmarkFile &file) {
       if (position == point.end()) refuse_file(path, quoted(label) + " has no position");
       to.add(label, point_of(path, quoted(label), *position));
     }
+  }
+  to.finish();
+}
+
+Axes fcsv_axes(const std::string &path, const std::string &value) {
+  if (value.empty())
+    refuse_file(path, "states no axes: a line # CoordinateSystem = LPS is missing" + std::string(why_axes));
+  if (value == "LPS" || value == "1") return Axes::LPS;
+  if (value == "RAS" || value == "0") return Axes::RAS;
+  refuse_file(path, "CoordinateSystem is " + quoted(value) + "; it must be LPS, RAS, 0 for RAS or 1 for LPS");
+}
+
+// Reads an .fcsv file, which earlier versions of 3D Slicer wrote. Its lengths are in mm. The axes are a name or a number.
+void read_fcsv(const std::string &text, LandmarkFile &file) {
+  const std::string &path = file.path;
+  std::vector<std::string> columns = {"label", "x", "y", "z"};
+  std::string system;
+  std::vector<CsvFile::Row> rows;
+  std::size_t number = 0;
+  for (const std::string &whole : split(text, "\n")) {
+    const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
+    if (line.empty()) continue;
+    if (line[0] != '#') {
+      rows.push_back({where, csv_cells(line)});
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string name = trimmed(line.substr(1, equals - 1)), value = trimmed(line.substr(equals + 1));
+    if (name == "columns") columns = csv_cells(value);
+    if (name == "CoordinateSystem") system = value;
+  }
+  file.axes = fcsv_axes(path, system);
+  file.unit = Unit::millimetre;
+  const auto column = [&](const char *name) {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) refuse_file(path, std::string("the line # columns names no column ") + name);
+    return static_cast<std::size_t>(found - columns.begin());
+  };
+  const std::size_t label = column("label");
+  const std::array<std::size_t, 3> xyz = {column("x"), column("y"), column("z")};
+  const std::size_t last = std::max({label, xyz[0], xyz[1], xyz[2]});
+  Collector to(file);
+  for (const CsvFile::Row &row : rows) {
+    if (row.cells.size() <= last)
+      refuse_file(path, row.where + " has " + std::to_string(row.cells.size()) + " of the " +
+                            std::to_string(columns.size()) + " columns");
+    std::array<double, 3> point{};
+    for (std::size_t k = 0; k < 3; ++k) point[k] = number_in_file(path, row.cells[xyz[k]], row.where);
+    to.add(row.cells[label], point);
   }
   to.finish();
 }
@@ -322,7 +385,11 @@ LandmarkFile read_landmarks(const std::string &path, const std::string &text) {
     read_csv(text, file);
     return file;
   }
-  if (!has_ending(path, ".json")) refuse_file(path, "landmarks must be a .json, .mrk.json or .csv file");
+  if (has_ending(path, ".fcsv")) {
+    read_fcsv(text, file);
+    return file;
+  }
+  if (!has_ending(path, ".json")) refuse_file(path, "landmarks must be a .json, .mrk.json, .fcsv or .csv file");
   const Json root = parse_json(path, text, "landmarks");
   if (root.is_object() && root.contains("markups"))
     read_slicer(root, file);
