@@ -232,10 +232,10 @@ SurfaceFile read_surface(const ValveOptions &options, Seconds &seconds) {
 
 Surface make_surface(const ValveSource &source, FileVelocity velocity) {
   if (source.valve) return surface_of_valve(source.options, source.valve);
-  Surface surface = source.keyframes
-                        ? create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes,
-                                              source.keyframes, *source.options.time, 0, &source.options.surface_options)
-                        : surface_of_file(source.options, source.file.get(), velocity);
+  Surface surface =
+      source.keyframes ? create_for<Surface>(source.options.surface, riis_surface_create_from_keyframes,
+                                             source.keyframes, *source.options.time, 0, &source.options.surface_options)
+                       : surface_of_file(source.options, source.file.get(), velocity);
   warn_of_faces(source.options.surface, surface);
   return surface;
 }
