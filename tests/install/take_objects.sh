@@ -16,7 +16,7 @@ for word; do
   previous=$word
 done
 taken=$build/$object
-if [[ $object != *.o || ! -f $taken ]] || readelf -sW "$taken" | grep -q -E 'GLOBAL +DEFAULT +[0-9]+ riis_'; then
+if [[ $object != *.o || ! -f $taken ]] || grep -q -E 'GLOBAL +DEFAULT +[0-9]+ riis_' < <(readelf -sW "$taken"); then
   exec "$@"
 fi
 # Another source than the one of the build tree must be compiled. The object is younger than its source after a build.

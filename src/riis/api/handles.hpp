@@ -55,7 +55,10 @@ AnyHandle *require_handle(AnyHandle *handle, const char *argument) {
 // The body of a create function that makes an empty object.
 template <class AnyHandle>
 riis_status create_handle(AnyHandle **handle, const char *argument) noexcept {
-  return guarded([&] { *require(handle, argument) = new AnyHandle{}; });
+  return guarded([&] {
+    require(handle, argument);
+    *handle = new AnyHandle{};
+  });
 }
 
 // The body of a destroy function. A handle of another kind is not destroyed, because losing its memory is better than freeing it
