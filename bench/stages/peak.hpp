@@ -10,7 +10,7 @@
 namespace bench {
 
 // Each function repeats its operations on registers and returns a number that depends on all of them. Operations are counted as
-// in kernels/count.hpp.
+// in kernels/lanes.hpp.
 struct PeakKernel {
   int64_t operations;  // in one repetition
   double (*repeat)(int64_t n);

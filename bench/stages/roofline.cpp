@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "api/handles.hpp"
-#include "kernels/count.hpp"
+#include "kernels/lanes.hpp"
 #include "kernels/table.hpp"
 #include "marks/marks.hpp"
 #include "peak.hpp"

@@ -28,7 +28,7 @@
 #include "paper_distances/powell.hpp"
 #include "parallel/parallel_for.hpp"
 #include "scene/triangle_scene.hpp"
-#include "seal/segment_triangle.hpp"
+#include "seal/seal.hpp"
 #include "triangulate/grids.hpp"
 #include "triangulate/triangulate.hpp"
 #include "valve/patches.hpp"

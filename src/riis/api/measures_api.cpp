@@ -9,7 +9,6 @@
 #include "api/handles.hpp"
 #include "api/structs.hpp"
 #include "api/surface_options.hpp"
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
 #include "common/array_view.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/placement.hpp"
 
-#include "base/constants.hpp"
-
 namespace riis {
 
 SineCosine sine_cosine_degrees(double degrees) {

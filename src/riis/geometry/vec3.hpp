@@ -9,6 +9,8 @@
 
 namespace riis {
 
+constexpr double pi = 3.14159265358979323846;
+
 struct Vec3 {
   double x, y, z;
 };

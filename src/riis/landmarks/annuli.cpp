@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "geometry/curve.hpp"
 #include "landmarks/fit.hpp"

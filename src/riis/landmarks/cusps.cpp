@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "landmarks/fit.hpp"
 

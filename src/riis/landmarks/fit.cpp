@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 
 namespace riis {

@@ -8,7 +8,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "landmarks/fit.hpp"
 #include "valve/skirt.hpp"

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "base/integer_array.hpp"
+#include "geometry/vec3.hpp"
 
 namespace riis {
 namespace {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "obstacle/nearest_edges.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "parallel/arena_pool.hpp"
+#include "parallel/arena.hpp"
 
 #include <tbb/global_control.h>
 #include <unistd.h>

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <numeric>
 
-#include "base/constants.hpp"
 #include "common/array_view.hpp"
 #include "kernels/kernels.hpp"
 #include "valve/rims.hpp"

@@ -8,7 +8,6 @@
 
 #include "common/array_view.hpp"
 #include "parallel/parallel_for.hpp"
-#include "seal/segment_triangle.hpp"
 #include "search/search.hpp"
 
 namespace riis {

@@ -4,6 +4,7 @@
 
 #include <riis/riis.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,15 @@ struct Leaks {
   Vec3 longest_middle{0, 0, 0};
   double seconds = 0;
 };
+
+// Coordinates of a smaller magnitude count as 0, because their products would leave the range of doubles.
+inline constexpr double negligible_coordinate = 1e-90;
+
+// Returns whether the closed segment from a to b and the closed triangle have a point in common. Coordinates must be at most
+// max_coordinate in magnitude, and the triangle must have an area (has_zero_area). The answer is exact, without a tolerance or
+// rounding. A segment through the common edge of two triangles meets both. The order of the ends and of the corners does not
+// matter.
+bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners);
 
 // Finds the leaks. Fails with RIIS_INVALID_MESH for an unusable coordinate. Does not use the request's distance limit.
 Leaks find_leaks(const SearchRequest &request, const Marks &marks);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "seal/segment_triangle.hpp"
+#include "seal/seal.hpp"
 
 #include <algorithm>
 #include <cmath>

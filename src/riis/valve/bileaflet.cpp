@@ -9,7 +9,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/constants.hpp"
 #include "base/errors.hpp"
 #include "geometry/placement.hpp"
 #include "valve/patches.hpp"
