@@ -409,7 +409,9 @@ TEST(files_are_refused_by_name) {
   refuse_text("a.json", "{\"markups\": []}", "markups must be an array");
   refuse_text("a.json", "{\"markups\": [{\"coordinateSystem\": \"LPI\"}]}",
               "coordinateSystem is \"LPI\"; it must be LPS or RAS");
-  refuse_text("a.json", "{\"markups\": [{\"coordinateSystem\": \"LPS\"}]}", "has no text \"coordinateUnits\"");
+  refuse_text("a.json", "{\"markups\": [{\"coordinateSystem\": \"LPS\", \"coordinateUnits\": []}]}",
+              "markups 0: coordinateUnits is []; it must be a text");
+  refuse_text("a.json", "{\"markups\": [{\"coordinateUnits\": \"mm\"}]}", "has no text \"coordinateSystem\"");
   refuse_text("a.json",
               "{\"markups\": [{\"coordinateSystem\": \"LPS\", \"coordinateUnits\": \"mm\", \"controlPoints\": "
               "[{\"label\": \"nadir-1\", \"position\": [0, 0, 0], \"positionStatus\": \"undefined\"}]}]}",

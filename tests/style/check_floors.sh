@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$1"
 declare -A floors=(
-  [riis]="base parallel laws geometry kernels valve landmarks motion triangulate arrays paper_distances scene mesh search marks
+  [riis]="base parallel geometry laws kernels valve landmarks motion triangulate arrays paper_distances scene mesh search marks
     obstacle measures pipeline seal api"
   [riis_vtk]="base read mesh surface picture")
 failed=0 n=0
