@@ -16,9 +16,9 @@
 
 namespace riis {
 
-// An arena is kept and used again. The reason is that TBB frees an arena only after the workers that it called have come and found
-// nothing to do. On a busy machine the workers come too late for a short walk. With a new arena for each walk, the process grew
-// without end by some kilobytes for each walk (TBB 2021.8).
+// An arena is kept and used again. The reason is that TBB frees an arena only after the workers that it called have come and
+// found nothing to do. On a busy machine the workers come too late for a short walk. With a new arena for each walk, the process
+// grew without end by some kilobytes for each walk (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 
