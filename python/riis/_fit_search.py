@@ -47,7 +47,7 @@ _LEAST_GAIN = 0.1
 
 @dataclass
 class End:
-    """An end of the search from one or more starts."""
+    """A fit at which the search from one or more starts has ended."""
 
     cost: float
     pose: Pose

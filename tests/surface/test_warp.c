@@ -253,7 +253,8 @@ TEST(affine_and_planar_maps_are_reproduced) {
   }
 }
 
-/* The derivatives of |r|^3 do not jump. So the direction of a line through a landmark changes by less than a step allows. */
+/* The derivatives of |r|^3 do not jump. So a warped line through a landmark has no kink:
+ * its direction changes little over a short step. */
 TEST(a_landmark_adds_no_kink) {
   double worst = 0;
   for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {

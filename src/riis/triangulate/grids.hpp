@@ -45,7 +45,7 @@ void check_precision(const PatchSet &set, double max_error);
 // deviation is more than half of max_error.
 double error_left(const PatchSet &set, double max_error);
 
-// Checks a number of triangles. Fails with RIIS_LIMIT_EXCEEDED for more than max_triangles.
+// Fails with RIIS_LIMIT_EXCEEDED if n_triangles is more than max_triangles.
 void check_count(double n_triangles, double max_error);
 
 }  // namespace riis

@@ -138,7 +138,7 @@ extern const bool has_hdf5;
 template <class Number>
 std::vector<Number> read_hdf5(const std::string &path, const std::string &name, std::int64_t n, bool &is_single);
 
-// An HDF5 file that is complete or does not exist, as ReplacingFile.
+// Writes an HDF5 file. Like a ReplacingFile, the file gets its name when it is complete.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(const std::string &path);
