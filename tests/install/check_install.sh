@@ -115,7 +115,7 @@ check_by_cmake() { # arguments: prefix, all|few
 
   if has VTK; then
     empty_but_compilers "$work/cmake_vtk"
-    quietly configure_consumer "$source/tests/install/consumer" "$work/cmake_vtk" "$1"
+    quietly configure_consumer "$source/tests/install/consumer" "$work/cmake_vtk" "$1" -DWANTED='COMPONENTS;VTK'
     quietly "$CMAKE" --build "$work/cmake_vtk"
     quietly "$work/cmake_vtk/vtk_consumer"
   fi
