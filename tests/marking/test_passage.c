@@ -39,6 +39,10 @@ static int are_joined(const test_mesh *rows, const uint8_t *is_open, const ends 
   return 0;
 }
 
+static void open_nodes_of(const uint8_t *mask, int64_t n, uint8_t *is_open) {
+  for (int64_t i = 0; i < n; ++i) is_open[i] = mask[i];
+}
+
 /* Nodes are closed in the order of their distances. Finds, by bisection, the node whose closing separates the two ends. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
@@ -55,14 +59,14 @@ static riis_passage expected_passage(const test_mesh *rows, const riis_surface *
   /* If the nodes before `low` are closed, the ends stay joined. Closing the nodes up to `high` separates them. */
   while (low < high) {
     const int64_t middle = low + (high - low) / 2;
-    memcpy(is_open, mask, n);
+    open_nodes_of(mask, rows->n, is_open);
     for (int64_t i = 0; i <= middle; ++i) is_open[order[i].node] = 0;
     if (are_joined(rows, is_open, e, label))
       low = middle + 1;
     else
       high = middle;
   }
-  memcpy(is_open, mask, n);
+  open_nodes_of(mask, rows->n, is_open);
   for (int64_t i = 0; i < low; ++i) is_open[order[i].node] = 0;
   if (low < rows->n && are_joined(rows, is_open, e, label)) {
     made.node_id = order[low].node, made.distance = order[low].distance;
