@@ -21,7 +21,7 @@ struct ValveOptions {
   std::string placed;                      // the file of a placed valve, whose kind is then `valve`; "": none
   std::string surface;                     // a file, or "" for the valve; of several files a name for all
   std::vector<std::string> surface_files;  // the files of the surface, one for each leaflet if there are several
-  double time_step = 1;                    // the time between frames of svMultiPhysics
+  double frame_step = 1;                   // the time between frames of svMultiPhysics
   std::string leaflets;        // leaflets of that file: "connected", the name of a cell array, or "" for riis_leaflet
   std::optional<double> time;  // the time of a surface that moves
   double period = 0;           // period of the surface's motion or of the cycle; 0 if there is none

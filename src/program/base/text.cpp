@@ -220,26 +220,36 @@ double number_in_file(const std::string &path, const std::string &text, const st
   }
 }
 
-CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
-                    const std::string &form, std::size_t n_cells) {
-  CsvFile file;
+std::vector<CsvLine> csv_lines(const std::string &text) {
+  std::vector<CsvLine> lines;
   std::size_t number = 0;
   for (const std::string &whole : split(text, "\n")) {
     const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
     if (line.empty()) continue;
-    if (line[0] == '#') {
-      const std::size_t equals = line.find('=');
-      if (equals == std::string::npos) continue;
-      const std::string name = trimmed(line.substr(1, equals - 1));
+    if (line[0] != '#') {
+      lines.push_back({where, line, {}});
+    } else if (const std::size_t equals = line.find('='); equals != std::string::npos) {
+      lines.push_back({where, "", {{trimmed(line.substr(1, equals - 1)), trimmed(line.substr(equals + 1))}}});
+    }
+  }
+  return lines;
+}
+
+CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
+                    const std::string &form, std::size_t n_cells) {
+  CsvFile file;
+  for (const CsvLine &line : csv_lines(text)) {
+    if (line.fact) {
+      const std::string &name = line.fact->first;
       if (std::find(names.begin(), names.end(), name) == names.end())
-        refuse_file(path, where + ": " + quoted(name) + " is unknown; a line # NAME = VALUE states " + one_of(names));
-      if (!file.stated.emplace(name, trimmed(line.substr(equals + 1))).second)
-        refuse_file(path, where + ": the " + name + " is given twice");
+        refuse_file(path,
+                    line.where + ": " + quoted(name) + " is unknown; a line # NAME = VALUE states " + one_of(names));
+      if (!file.stated.insert(*line.fact).second) refuse_file(path, line.where + ": the " + name + " is given twice");
       continue;
     }
-    file.rows.push_back({where, csv_cells(line)});
+    file.rows.push_back({line.where, csv_cells(line.row)});
     if (file.rows.back().cells.size() != n_cells)
-      refuse_file(path, where + " must be " + form + ", not " + quoted(line));
+      refuse_file(path, line.where + " must be " + form + ", not " + quoted(line.row));
   }
   return file;
 }

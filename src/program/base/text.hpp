@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace riis::program {
@@ -65,6 +66,14 @@ std::string trimmed(const std::string &text);
 std::vector<std::string> csv_cells(const std::string &line);
 // Reads a number, whose refusal names the file.
 double number_in_file(const std::string &path, const std::string &text, const std::string &subject);
+
+struct CsvLine {
+  std::string where;                                        // such as "line 3"
+  std::string row;                                          // "" if the line states a fact
+  std::optional<std::pair<std::string, std::string>> fact;  // a name and its value
+};
+// Returns the rows and the facts. Skips empty lines and other comments.
+std::vector<CsvLine> csv_lines(const std::string &text);
 
 struct CsvFile {
   struct Row {

@@ -120,7 +120,7 @@ CLI::Option *declare_surface_files(Command &command, ValveOptions &options) {
                   [&options](const std::vector<std::string> &files) { set_surface(options, files, "--surface"); })
           ->allow_extra_args(false);
   command
-      .parsed("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.time_step,
+      .parsed("--time-step", "DT", "Time between the frames of --surface FILE.dat (default 1)", options.frame_step,
               parse_positive)
       ->needs(surface);
   return surface;

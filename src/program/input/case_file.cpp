@@ -248,7 +248,7 @@ class CaseReader {
     if (is_motion(source.options)) {
       if (!all_.is_series()) values.refuse("surface", "a surface that moves needs times, in the file or by --times");
       source.options.period = values.above_zero("period").value_or(0);
-      source.options.time_step = values.above_zero("time_step").value_or(1);
+      source.options.frame_step = values.above_zero("time_step").value_or(1);
     } else {
       for (const char *key : {"period", "time_step"})
         if (values.has(key)) values.refuse(key, "it needs a \"surface\" that moves, a .pvd or .dat file");

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "common/array_view.hpp"
+#include "common/sets.hpp"
 #include "program/base/handles.hpp"
 #include "program/mark/warnings.hpp"
 #include "program/output/report.hpp"
@@ -24,57 +24,31 @@ struct Side {
   std::int32_t leaflet;
 };
 
-// Pieces of faces that are joined by sides, and whether each face faces as the piece's first face does.
+// Pieces of faces that are joined by sides, and how each face is turned in its piece. In the sets, face i is the number i as it
+// is, and the number n + i turned over. Two numbers in one set face the same way.
 class Pieces {
  public:
-  explicit Pieces(std::int64_t n) : parent_(static_cast<std::size_t>(n)), is_turned_(static_cast<std::size_t>(n), 0) {
-    std::iota(parent_.begin(), parent_.end(), std::int64_t{0});
-  }
+  explicit Pieces(std::int64_t n) : n_(n), sets_(2 * n) {}
 
   struct Place {
-    std::int64_t root;
+    std::int64_t piece;
     bool is_turned;
   };
   Place find(std::int64_t face) {
-    bool turned = false;
-    while (view(parent_)[face] != face) {
-      std::int64_t &parent = view(parent_)[face];
-      const bool is_turned = view(is_turned_)[face] != view(is_turned_)[parent];
-      view(is_turned_)[face] = is_turned ? 1 : 0;
-      parent = view(parent_)[parent];
-      turned = turned != is_turned;
-      face = parent;
-    }
-    return {face, turned};
+    const std::int64_t as_it_is = sets_.root(face), turned = sets_.root(n_ + face);
+    return {std::min(as_it_is, turned), turned < as_it_is};
   }
-  // Joins two faces. They face the same way, or one is turned over.
+  // Joins two faces. They face the same way, or one is turned over. Two faces of one piece stay as they are.
   void join(std::int64_t one, std::int64_t other, bool turned) {
-    const Place a = find(one), b = find(other);
-    if (a.root == b.root) return;
-    view(parent_)[b.root] = a.root;
-    view(is_turned_)[b.root] = (a.is_turned != b.is_turned) != turned ? 1 : 0;
+    if (find(one).piece == find(other).piece) return;
+    sets_.unite(one, turned ? n_ + other : other);
+    sets_.unite(n_ + one, turned ? other : n_ + other);
   }
 
  private:
-  std::vector<std::int64_t> parent_;
-  std::vector<char> is_turned_;  // against the parent
+  const std::int64_t n_;
+  DisjointSets sets_;
 };
-
-// Returns a number for each vertex. Vertices at equal positions have equal numbers.
-std::vector<std::int64_t> places_of(const riis_triangles &triangles) {
-  const std::int64_t n = triangles.n_vertices;
-  const auto position = [xyz = triangles.xyz](std::int64_t i) {
-    return std::array<double, 3>{xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
-  };
-  std::vector<std::int64_t> order(static_cast<std::size_t>(n)), places(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), std::int64_t{0});
-  std::sort(order.begin(), order.end(), [&](std::int64_t i, std::int64_t k) { return position(i) < position(k); });
-  for (std::int64_t i = 1; i < n; ++i) {
-    const std::int64_t before = view(order)[i - 1], here = view(order)[i];
-    view(places)[here] = view(places)[before] + (position(here) == position(before) ? 0 : 1);
-  }
-  return places;
-}
 
 struct Faults {
   std::int64_t n_equal = 0, n_turned = 0, n_closed = 0;
@@ -82,7 +56,8 @@ struct Faults {
 
 class FaceCheck {
  public:
-  explicit FaceCheck(const riis_triangles &triangles) : triangles_(triangles), places_(places_of(triangles)) {}
+  explicit FaceCheck(const riis_triangles &triangles)
+      : triangles_(triangles), places_(equal_places(triangles.n_vertices, triangles.xyz)) {}
 
   Faults run() {
     const std::vector<std::int64_t> faces = different_faces();
@@ -97,9 +72,9 @@ class FaceCheck {
     };
     std::vector<Piece> all(static_cast<std::size_t>(triangles_.n_triangles));
     for (const std::int64_t face : faces) {
-      const auto [root, is_turned] = pieces.find(face);
-      ++view(all)[root].n_faces[is_turned ? 1 : 0];
-      view(all)[root].is_open |= view(is_open)[face] != 0;
+      const auto [piece, is_turned] = pieces.find(face);
+      ++view(all)[piece].n_faces[is_turned ? 1 : 0];
+      view(all)[piece].is_open |= view(is_open)[face] != 0;
     }
     constexpr std::int64_t least_faces = 4;  // of a closed piece
     for (const auto &[n, opens] : all) {

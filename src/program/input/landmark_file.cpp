@@ -281,19 +281,13 @@ void read_fcsv(const std::string &text, LandmarkFile &file) {
   std::vector<std::string> columns = {"label", "x", "y", "z"};
   std::string system;
   std::vector<CsvFile::Row> rows;
-  std::size_t number = 0;
-  for (const std::string &whole : split(text, "\n")) {
-    const std::string line = trimmed(whole), where = "line " + std::to_string(++number);
-    if (line.empty()) continue;
-    if (line[0] != '#') {
-      rows.push_back({where, csv_cells(line)});
-      continue;
-    }
-    const std::size_t equals = line.find('=');
-    if (equals == std::string::npos) continue;
-    const std::string name = trimmed(line.substr(1, equals - 1)), value = trimmed(line.substr(equals + 1));
-    if (name == "columns") columns = csv_cells(value);
-    if (name == "CoordinateSystem") system = value;
+  for (const CsvLine &line : csv_lines(text)) {
+    if (!line.fact)
+      rows.push_back({line.where, csv_cells(line.row)});
+    else if (line.fact->first == "columns")
+      columns = csv_cells(line.fact->second);
+    else if (line.fact->first == "CoordinateSystem")
+      system = line.fact->second;
   }
   file.axes = fcsv_axes(path, system);
   file.unit = Unit::millimetre;

@@ -264,7 +264,7 @@ Motion read_motion(const ValveOptions &options) {
   for (const std::string &path : options.surface_files) {
     const char *const leaflets = array_of_leaflets(options);
     auto next = ending_of(path) == ".dat"
-                    ? create<Motion>(riis_vtk_motion_read_frames, path.c_str(), options.time_step, leaflets)
+                    ? create<Motion>(riis_vtk_motion_read_frames, path.c_str(), options.frame_step, leaflets)
                     : create<Motion>(riis_vtk_motion_read_pvd, path.c_str(), leaflets);
     if (motion)
       check(riis_vtk_motion_append(motion, next), path);

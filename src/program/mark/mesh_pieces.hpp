@@ -10,13 +10,13 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "common/sets.hpp"
 #include "program/base/handles.hpp"
 #include "program/base/options.hpp"
 #include "program/base/units.hpp"
@@ -134,32 +134,6 @@ struct MeshCounts {
 };
 // Returns the sums over all ranks. Refuses a mesh without nodes, and global ids that only some pieces have.
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh);
-
-// Sets of numbers from 0 to n - 1. At first each number is a set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::int64_t n) : parent_(static_cast<std::size_t>(n)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  // Adds the next number as a set.
-  void add() { parent_.push_back(static_cast<std::int64_t>(parent_.size())); }
-  std::int64_t root(std::int64_t i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
-    return i;
-  }
-  // Returns whether the two were in different sets.
-  bool unite(std::int64_t a, std::int64_t b) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return false;
-    parent(std::max(a, b)) = std::min(a, b);
-    return true;
-  }
-
- private:
-  std::int64_t &parent(std::int64_t i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<std::int64_t> parent_;
-};
 
 // Sets of things that join. At first each thing is a set.
 template <class Thing>

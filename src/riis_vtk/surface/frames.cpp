@@ -71,11 +71,11 @@ class MergedCorners {
  public:
   // Merges the vertices of the faces. Vertices are numbered in the order of their first corners.
   explicit MergedCorners(Faces &faces) {
-    const std::vector<std::size_t> places = places_of(faces);
+    const std::vector<std::int64_t> places = places_of(faces);
     std::vector<std::int64_t> vertex_at(places.size(), -1);
     std::vector<double> xyz;
     for (std::size_t corner = 0; corner < places.size(); ++corner) {
-      std::int64_t &vertex = vertex_at[places[corner]];
+      std::int64_t &vertex = view(vertex_at)[places[corner]];
       if (vertex < 0) {
         vertex = view(corner_of_).size();
         corner_of_.push_back(corner);
@@ -83,7 +83,7 @@ class MergedCorners {
       }
       vertex_of_.push_back(static_cast<std::size_t>(vertex));
     }
-    for (std::int64_t &id : faces.vertex_ids) id = vertex_at[places[static_cast<std::size_t>(id)]];
+    for (std::int64_t &id : faces.vertex_ids) id = view(vertex_at)[view(places)[id]];
     faces.xyz = std::move(xyz);
   }
 

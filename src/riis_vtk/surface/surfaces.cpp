@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -22,6 +20,9 @@
 #include <vtkPolygon.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
+
+#include "common/array_view.hpp"
+#include "common/sets.hpp"
 
 namespace riis::vtk {
 namespace {
@@ -145,35 +146,6 @@ std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet
   return leaflets;
 }
 
-// Returns a vertex's position as bits. Bits have an order even for NaN, which a file may contain. 0 and -0 give the same bits.
-std::array<std::uint64_t, 3> place_of(const Faces &faces, std::size_t vertex) {
-  std::array<std::uint64_t, 3> bits;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double coordinate = faces.xyz[3 * vertex + k] + 0.0;
-    std::memcpy(&bits[k], &coordinate, sizeof coordinate);
-  }
-  return bits;
-}
-
-// Disjoint sets that can be joined. One member of each set represents the set.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-
-  std::size_t find(std::size_t member) {
-    while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
-    return member;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
 template <class Array, class Value>
 vtkSmartPointer<Array> array_of(const char *name, const Value *values, int n_components, int64_t n_tuples) {
   const auto array = named_array<Array>(name, n_tuples, n_components);
@@ -273,31 +245,23 @@ void append_faces(Faces &faces, const Faces &other) {
   faces = std::move(joined);
 }
 
-std::vector<std::size_t> places_of(const Faces &faces) {
-  const std::size_t n = faces.xyz.size() / 3;
-  std::vector<std::size_t> order(n), places(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return place_of(faces, a) < place_of(faces, b); });
-  for (std::size_t i = 1; i < n; ++i)
-    places[order[i]] = places[order[i - 1]] + (place_of(faces, order[i]) == place_of(faces, order[i - 1]) ? 0 : 1);
-  return places;
+std::vector<std::int64_t> places_of(const Faces &faces) {
+  return equal_places(view(faces.xyz).size() / 3, faces.xyz.data());
 }
 
 std::vector<std::int32_t> pieces_of(const Faces &faces) {
-  const std::vector<std::size_t> places = places_of(faces);
-  const auto n_corners = static_cast<std::size_t>(faces.corners_per_face);
-  const std::size_t n_faces = faces.vertex_ids.size() / n_corners;
-  const auto place = [&](std::size_t corner) { return places[static_cast<std::size_t>(faces.vertex_ids[corner])]; };
-  Sets sets(places.size());
-  for (std::size_t face = 0; face < n_faces; ++face)
-    for (std::size_t k = 1; k < n_corners; ++k) sets.join(place(n_corners * face), place(n_corners * face + k));
-  std::vector<std::int32_t> piece_of_set(places.size(), -1), pieces(n_faces);
+  const std::vector<std::int64_t> places = places_of(faces);
+  const std::int64_t n_corners = faces.corners_per_face, n_faces = view(faces.vertex_ids).size() / n_corners;
+  const auto place = [&](std::int64_t corner) { return view(places)[view(faces.vertex_ids)[corner]]; };
+  DisjointSets sets(view(places).size());
+  for (std::int64_t face = 0; face < n_faces; ++face)
+    for (std::int64_t k = 1; k < n_corners; ++k) sets.unite(place(n_corners * face), place(n_corners * face + k));
+  std::vector<std::int32_t> piece_of_set(places.size(), -1), pieces;
   std::int32_t n_pieces = 0;
-  for (std::size_t face = 0; face < n_faces; ++face) {
-    std::int32_t &piece = piece_of_set[sets.find(place(n_corners * face))];
+  for (std::int64_t face = 0; face < n_faces; ++face) {
+    std::int32_t &piece = view(piece_of_set)[sets.root(place(n_corners * face))];
     if (piece < 0) piece = n_pieces++;
-    pieces[face] = piece;
+    pieces.push_back(piece);
   }
   return pieces;
 }

@@ -52,7 +52,7 @@ void append_faces(Faces &faces, const Faces &other);
 
 // Returns a number for each vertex, from 0 to the number of vertices minus 1. Two vertices have the same number if and only if
 // their coordinates are exactly equal.
-std::vector<std::size_t> places_of(const Faces &faces);
+std::vector<std::int64_t> places_of(const Faces &faces);
 
 // Returns the piece that every face belongs to. Pieces are numbered in the order of their first faces. Faces are connected if
 // they share a vertex or have vertices with exactly equal coordinates.
