@@ -227,9 +227,9 @@ RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflet
  * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as in
  * an .stl file. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
-/* Adds the faces of another surface, for a valve with a file for each leaflet. Each surface is one leaflet: the
- * first one is leaflet 0, the one added first is leaflet 1, and so on. Other leaflet ids are lost. If only one of
- * the surfaces has quads, these are cut. `other` stays. Arrays that the surface gave before become invalid. */
+/* Adds the faces of another surface, for a valve with a file for each leaflet. The first surface becomes leaflet
+ * 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the surfaces has quads,
+ * these are cut. `other` stays. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other);
 /* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);

@@ -40,7 +40,7 @@ struct ValveOptions {
   bool strict = false;  // a warning changes the exit status
 };
 
-// The position of each name is the value of the RIIS_SEARCH_* or RIIS_MEASURE_* that it stands for.
+// The names of searches and of distances. A name's position is the value of its RIIS_SEARCH_* or RIIS_MEASURE_*.
 inline const std::vector<std::string> search_names = {"auto", "exhaustive", "neighbor", "paper", "clusters"};
 inline const std::vector<std::string> distance_names = {"triangles", "sampling", "minimization"};
 

@@ -339,8 +339,7 @@ std::string cells_of(const riis_leaflet &now, const riis_leaflet &closed, bool h
 }
 
 // The columns are opening, then NAME_edge, NAME_edge_ratio, NAME_area and NAME_area_ratio of each leaflet, then orifice_area,
-// orifice_perimeter and effective_area.
-// Ratios are relative to the closed state.
+// orifice_perimeter and effective_area. Ratios are relative to the closed state.
 std::string csv_of(const States &states) {
   std::string text = states.is_of_file ? "time" : "opening";
   for (const std::string &name : columns_of(states)) {

@@ -12,7 +12,6 @@
 #include "parallel/parallel_for.hpp"
 
 using riis::guarded;
-using riis::require;
 using riis::require_handle;
 
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points and vectors of R^3 in double precision, and boxes whose sides are parallel to the coordinate axes.
+// Pi, points and vectors of R^3 in double precision, and boxes whose sides are parallel to the coordinate axes.
 #pragma once
 
 #include <algorithm>
