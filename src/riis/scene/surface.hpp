@@ -31,7 +31,8 @@ struct SourceValve {
   const ValveKind *kind;
   bool is_warped;
 
-  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
+  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc. A warped valve without a
+  // disc is seen along the direction that its map makes of the z axis.
   Vec3 axis() const;
 };
 

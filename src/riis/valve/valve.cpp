@@ -10,6 +10,7 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "common/nearest_name.hpp"
+#include "valve/landmark_cuts.hpp"
 #include "valve/warp.hpp"
 
 namespace riis {
@@ -227,6 +228,10 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
   warp_ = std::move(made);
 }
 
+BlendedWarp Valve::blended_warp() const {
+  return {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()};
+}
+
 Valve::Disc Valve::disc() const {
   Disc disc{radius_ ? state_.values[*radius_][0] : 0, 0, 0};
   double n_shifts = 0, z = 0;
@@ -237,8 +242,12 @@ Valve::Disc Valve::disc() const {
     disc.y += (shift[1] - disc.y) / n_shifts;
     z += (shift[2] - z) / n_shifts;
   }
-  if (!warp_ || disc.radius == 0) return disc;
-  const BlendedWarp warp(warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening());
+  if (!warp_) return disc;
+  const BlendedWarp warp = blended_warp();
+  if (disc.radius == 0) {
+    disc.axis = warped_z_axis(kind_->make_patches(state_, open_ ? *open_ : state_, opening()), warp);
+    return disc;
+  }
   constexpr int n_corners = 96;
   constexpr double turn = 6.283185307179586 / n_corners;
   const double reach = disc.radius * std::sqrt(turn / std::sin(turn));
@@ -362,16 +371,31 @@ PatchSet Valve::make_patches(FoldCheck check) const {
     if (open_) check_open_values();
   }
   PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
-  // After a warp, the valve's own axis no longer fits. So a skirt then leads away from the axis of the attachment.
-  const SkirtAxis axis = warp_ && kind_->skirt_axis != SkirtAxis::none ? SkirtAxis::boundary : kind_->skirt_axis;
-  // Neighbours are found before the warp, so that a moving warp does not change them.
-  Vector<NeighbourEnds> neighbours;
-  if (axis == SkirtAxis::boundary) neighbours = neighbour_ends(made);
-  if (warp_) made = warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
-  made.neighbour_ends = std::move(neighbours);
+  const SkirtAxis axis = kind_->skirt_axis;
   aim_skirt(made, axis);
+  // Neighbours are found before the warp, so that a moving warp does not change them.
+  if (axis == SkirtAxis::boundary) made.neighbour_ends = neighbour_ends(made, false);
+  if (warp_) {
+    const PatchSet at_rest = std::move(made);
+    const BlendedWarp warp = blended_warp();
+    made = warped(at_rest, warp, landmark_cuts(at_rest), check);
+    made.neighbour_ends = axis == SkirtAxis::of_cusp ? neighbour_ends(at_rest, true) : at_rest.neighbour_ends;
+    if (axis == SkirtAxis::boundary) aim_skirt(made, axis);
+    if (axis == SkirtAxis::of_cusp || axis == SkirtAxis::vertical) aim_warped_skirt(made, at_rest, warp);
+  }
   if (has_skirt()) add_skirt(made, state_.values[kind_->skirt_length][0], skirt_lengths_);
   return made;
+}
+
+LandmarkCuts Valve::landmark_cuts(const PatchSet &now) const {
+  const auto add = [&](LandmarkCuts &cuts, double at, const WarpMap &map) {
+    if (at == opening()) return cuts.add(now, map);
+    cuts.add(kind_->make_patches(state_, open_ ? *open_ : state_, at), map);
+  };
+  LandmarkCuts cuts;
+  add(cuts, 0, warp_->closed);
+  if (warp_->open && can_open()) add(cuts, 1, *warp_->open);
+  return cuts;
 }
 
 PatchSet Valve::make_patches_before(const Valve &before, const PatchSet *known) const {

@@ -126,8 +126,9 @@ class Valve {
   // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. Without
   // a warp the disc does not depend on the opening.
   struct Disc {
-    double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
-    Vector<Vec3> rim = {};  // for a warped valve, the warped corners of a polygon with the disc's area
+    double radius, x, y;      // the centre is the mean translation of the valve or of its leaflets
+    Vector<Vec3> rim = {};    // for a warped valve, the warped corners of a polygon with the disc's area
+    Vec3 axis = {0, 0, 1};    // without a rim, the direction along which the orifice is seen
   };
   Disc disc() const;
 
@@ -167,6 +168,10 @@ class Valve {
   std::size_t position_of(std::string_view name) const;
   void derive();
   PatchSet make_patches(FoldCheck check) const;
+  BlendedWarp blended_warp() const;  // of a warped valve
+  // Returns where the warp's landmarks lie on the curves before the warp: those of the closed map on the closed valve, and those of
+  // the open map on the open valve. `now` has the patches at the current opening.
+  LandmarkCuts landmark_cuts(const PatchSet &now) const;
   void check_open_values() const;
   static std::uint64_t next_revision();
 
