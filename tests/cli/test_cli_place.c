@@ -89,8 +89,9 @@ TEST(lists_of_one_point_are_points) {
   static char expected[longest_output], text[4096];
   for (int with_middle = 0; with_middle < 2; ++with_middle) {
     for (int as_list = 0; as_list < 2; ++as_list) {
-      int n = snprintf(text, sizeof text, "{\"valve\": \"trileaflet\", \"unit\": \"mm\", \"axes\": \"LPS\", "
-                                          "\"landmarks\": {");
+      int n = snprintf(text, sizeof text,
+                       "{\"valve\": \"trileaflet\", \"unit\": \"mm\", \"axes\": \"LPS\", "
+                       "\"landmarks\": {");
       for (int i = 0; i < 6 + with_middle; ++i) {
         double p[3] = {10, 2, -2};
         if (i < 6) landmark(i, 10, p);
@@ -106,8 +107,8 @@ TEST(lists_of_one_point_are_points) {
   }
   for (const char *const *name = (const char *const[]){"coaptation", "nadir_left", "annulus_3", "flow_to", NULL}; *name;
        ++name) {
-    snprintf(text, sizeof text, "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {\"%s\": [[0, 0, 1], [0, 0, 2]]}}",
-             *name);
+    snprintf(text, sizeof text,
+             "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {\"%s\": [[0, 0, 1], [0, 0, 2]]}}", *name);
     scratch_write_text("a.json", text);
     snprintf(text, sizeof text, "\"%s\" is given twice", *name);
     RUN_REFUSED(1, text, "place", one, "--valve", "trileaflet");

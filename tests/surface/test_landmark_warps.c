@@ -91,7 +91,8 @@ static riis_surface_options random_placement(int32_t triangulation) {
   options.half_thickness = 0.1 * options.scale;
   options.rotation_angle = between(-180, 180);
   for (int c = 0; c < 3; ++c)
-    options.rotation_axis[c] = between(-1, 1) + (c == 2 ? 1.5 : 0), options.translation[c] = options.scale * between(-3, 3);
+    options.rotation_axis[c] = between(-1, 1) + (c == 2 ? 1.5 : 0),
+    options.translation[c] = options.scale * between(-3, 3);
   return options;
 }
 
@@ -160,7 +161,8 @@ TEST(warped_curves_pass_through_mapped_landmarks) {
   for (int trial = 0; trial < (is_long_test() ? 60 : fewer_if_sanitized(15)); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind);
-    riis_surface_options options = random_placement(trial / n_kinds % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    riis_surface_options options =
+        random_placement(trial / n_kinds % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     riis_valve_patches patches;
     const int n = 10 + (int)between(0, 60);
@@ -168,7 +170,8 @@ TEST(warped_curves_pass_through_mapped_landmarks) {
     double from[3 * most_landmarks], to[3 * most_landmarks];
     for (int i = 0; i < n;) {
       CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
-      at[i] = (on_side){(int64_t)between(0, (double)patches.n_patches), (int)between(0, kind == mitral ? 2 : 4), 0, between(0, 1)};
+      at[i] = (on_side){(int64_t)between(0, (double)patches.n_patches), (int)between(0, kind == mitral ? 2 : 4), 0,
+                        between(0, 1)};
       const int64_t *first = patches.first_piece + patches.curve_id[4 * at[i].patch + at[i].side];
       at[i].piece = (int)between(0, (double)(first[1] - first[0]));
       double p[3];
@@ -244,8 +247,9 @@ static patient random_annulus(int n, double noise) {
   return made;
 }
 
-/* Three cusps that differ, with their nadirs, their commissures and m further points of each attachment. */
-static patient random_root(int m, double noise) {
+/* Three cusps that differ, with their nadirs, their commissures and m further points of each attachment. A smooth map keeps a bend
+ * and makes none. So attachments bend at the nadirs as those of the kind do: not at all, or like a V. */
+static patient random_root(int kind, int m, double noise) {
   patient made = {0};
   double end[4], rise[4], radius[3], low[3];
   const double half_turn = acos(-1);
@@ -256,7 +260,8 @@ static patient random_root(int m, double noise) {
   end[0] = end[3] - 2 * half_turn, rise[0] = rise[3];
   for (int k = 0; k < 3; ++k) {
     for (int j = 1; j <= m + 1; ++j) {
-      const double s = j > m ? 1 : -1 + 2 * (j - 0.5 + between(-0.15, 0.15)) / m, e = pow(fabs(s), 1.7);
+      const double s = j > m ? 1 : -1 + 2 * (j - 0.5 + between(-0.15, 0.15)) / m, steep = kind == coapting ? 0 : 0.4,
+                   e = steep * fabs(s) + (1 - steep) * s * s;
       const double angle = 0.5 * ((1 - s) * end[k] + (1 + s) * end[k + 1]);
       const double r = (1 - e) * radius[k] + e * 12.5 + sin(half_turn * fabs(s));
       const double p[3] = {r * cos(angle), r * sin(angle), (1 - e) * low[k] + e * rise[k + (s > 0)]};
@@ -265,7 +270,8 @@ static patient random_root(int m, double noise) {
       else
         add_landmark(&made, p, noise, RIIS_LANDMARK_ATTACHMENT, k, -1);
     }
-    const double middle = 0.5 * (end[k] + end[k + 1]), p[3] = {radius[k] * cos(middle), radius[k] * sin(middle), low[k]};
+    const double middle = 0.5 * (end[k] + end[k + 1]),
+                 p[3] = {radius[k] * cos(middle), radius[k] * sin(middle), low[k]};
     add_landmark(&made, p, noise, RIIS_LANDMARK_NADIR, k, -1);
   }
   return made;
@@ -306,8 +312,8 @@ TEST(valves_meet_the_landmarks_of_patients) {
       const int n_trials = is_long_test() ? 40 : fewer_if_sanitized(3);
       for (int trial = 0; trial < n_trials; ++trial) {
         const int owned_before = n_owned();
-        const double noise = trial % 3 ? 0 : 0.05;
-        const patient at = kind == mitral ? random_annulus(n, noise) : random_root(n, noise);
+        const double noise = trial % 3 == 0 && n <= 12 ? 0.1 : 0; /* the noise of dense landmarks folds */
+        const patient at = kind == mitral ? random_annulus(n, noise) : random_root(kind, n, noise);
         riis_surface_options options, fine;
         riis_valve *valve = warped_to(&at, kind, &options);
         riis_surface *surface = NULL;
@@ -322,8 +328,8 @@ TEST(valves_meet_the_landmarks_of_patients) {
         }
         free_owned_after(owned_before);
       }
-      printf("%s, %d points: %d of %d valves are warped, landmarks are at most %.4f mm away\n", kinds[kind], n, n_warped,
-             n_trials, worst);
+      printf("%s, %d points: %d of %d valves are warped, landmarks are at most %.4f mm away\n", kinds[kind], n,
+             n_warped, n_trials, worst);
       CHECK_AT_MOST(worst, 0.02);
       assert_int_equal(n_warped, n_trials);
     }
@@ -386,7 +392,8 @@ TEST(a_rigid_warp_turns_orifice_and_skirt) {
   for (int trial = 0; trial < (is_long_test() ? 100 : fewer_if_sanitized(20)); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind);
-    riis_surface_options placed = random_placement(trial / n_kinds % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
+    riis_surface_options placed =
+        random_placement(trial / n_kinds % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED);
     riis_surface_options in_place = surface_options();
     in_place.triangulation = placed.triangulation;
     in_place.half_thickness = placed.half_thickness;
@@ -396,21 +403,25 @@ TEST(a_rigid_warp_turns_orifice_and_skirt) {
     if (trial / n_kinds % 4 > 1) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
       const riis_attachment held = attachment_of(new_surface(valve, NULL));
-      n = 20;
-      for (int64_t i = 0; i < n; ++i) memcpy(from + 3 * i, held.edges + 6 * (i * held.n_edges / n), 3 * sizeof *from);
+      n = 0;
+      for (int64_t i = 0; i < held.n_edges; i += 1 + held.n_edges / 30) {
+        int is_new = 1;
+        for (int64_t k = 0; k < n; ++k) is_new = is_new && distance(from + 3 * k, held.edges + 6 * i) > 0.05;
+        if (is_new) memcpy(from + 3 * n++, held.edges + 6 * i, 3 * sizeof *from);
+      }
     }
     for (int64_t i = 0; i < n; ++i) place(&placed, 0, from + 3 * i, to + 3 * i);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", between(0.2, 1)));
-    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", between(0.1, 0.4)));
+    const double skirt = between(0.1, 0.4);
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", skirt));
     const riis_surface *expected = new_surface(valve, &placed);
+    CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", skirt * placed.scale)); /* a warp does not scale its length */
     CHECK_OK(riis_valve_set_warp(valve, warp_of(n, from, to, NULL), NULL));
     const riis_surface *got = new_surface(valve, &in_place);
     const double allowed = info_of(got).error_bound + info_of(expected).error_bound + 1e-6 * placed.scale;
     const riis_triangles a = triangles_of(got), b = triangles_of(expected);
-    for (int64_t i = 0; i < a.n_vertices; i += 5)
-      if (distance_to(expected, a.xyz + 3 * i) > allowed) printf("trial %d kind %s fixed %d: vertex %d of %d uv %g %g: %g > %g\n", trial, kinds[kind], placed.triangulation, (int)i, (int)a.n_vertices, a.uv[2*i], a.uv[2*i+1], distance_to(expected, a.xyz + 3 * i), allowed);
-    for (int64_t i = 0; i < b.n_vertices; i += 5)
-      if (distance_to(got, b.xyz + 3 * i) > allowed) printf("trial %d kind %s fixed %d: plain vertex %d of %d uv %g %g: %g > %g\n", trial, kinds[kind], placed.triangulation, (int)i, (int)b.n_vertices, b.uv[2*i], b.uv[2*i+1],distance_to(got, b.xyz + 3 * i), allowed);
+    for (int64_t i = 0; i < a.n_vertices; i += 5) CHECK_AT_MOST(distance_to(expected, a.xyz + 3 * i), allowed);
+    for (int64_t i = 0; i < b.n_vertices; i += 5) CHECK_AT_MOST(distance_to(got, b.xyz + 3 * i), allowed);
     riis_orifice orifice[2];
     CHECK_OK(riis_surface_get_orifice(expected, NULL, orifice, sizeof *orifice));
     CHECK_OK(riis_surface_get_orifice(got, NULL, orifice + 1, sizeof *orifice));

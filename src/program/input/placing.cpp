@@ -424,7 +424,8 @@ std::string place_report(const Placed &placed, Reader reader) {
   std::size_t name_width = 16;
   for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
   const std::string column = "residual " + unit;
-  text += "\n" + filled("landmark", name_width) + (placed.is_warped ? filled(column, 16) + "warped " + unit : column) + "\n";
+  text += "\n" + filled("landmark", name_width) + (placed.is_warped ? filled(column, 16) + "warped " + unit : column) +
+          "\n";
   for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
     const std::string residual = digits(placed.residuals[i], 3);
     text += filled(landmarks.names[i], name_width) +

@@ -78,9 +78,9 @@ struct Placed {
   std::vector<Size> sizes;
   riis_placement placement;
   std::vector<double> residuals;
-  double noise;                        // stated, mesh units
-  std::vector<double> places;          // (3, n), of the landmarks on the valve
-  riis_surface_options where;          // the placement
+  double noise;                // stated, mesh units
+  std::vector<double> places;  // (3, n), of the landmarks on the valve
+  riis_surface_options where;  // the placement
   bool is_warped;
   double warp_noise;              // by which the warp is smoothed; 0: it meets the landmarks
   std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre

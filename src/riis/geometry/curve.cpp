@@ -35,8 +35,9 @@ class Flattening {
   // Adds a part of one span. The part goes from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
-    if (!is_bent(t0, t1) && accept(
-                                part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
+    if (!is_bent(t0, t1) &&
+        accept(
+            part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
       return;
     check(depth);
     const auto [left, right] = split(part, parameter_at_length(part, part_length, 0.5 * part_length));
@@ -217,8 +218,7 @@ VelocityBend::VelocityBend(const Curve &curve, const Vector<Bezier> &velocity) {
       const auto [d1, d2, d3] = derivatives(curve.spans()[span], t);
       const auto [r1, r2, r3] = derivatives(velocity[span], t);
       const double speed = riis::length(d1);
-      view(samples)[k] = {
-          d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, total, rate_total};
+      view(samples)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, total, rate_total};
     }
     constexpr double half_step = 0.5 / n_cells;
     for (std::size_t k = 1; k <= n_cells; ++k) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -254,8 +253,27 @@ void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks
   }
 }
 
-// Finds the places of the landmarks along the attachment. The warp of all landmarks takes each place as near to its landmark as
-// any point of the attachment. `places` has the places of the other landmarks. `local` has the landmarks in the valve's frame.
+// Moves places apart that are one place although their landmarks are not, such as beside a commissure that is off the valve's.
+void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks, const std::vector<Vec3> &local,
+                     double radius, std::vector<Vec3> &places) {
+  const double one_place = one_place_share * radius;
+  for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double apart = distance(local[i], local[k]);
+      if (k == i || distance(places[i], places[k]) > one_place || apart <= one_place) continue;
+      const std::int32_t leaflet_id = landmarks.list[i].leaflet_ids[0];
+      const auto here = nearest_on(parts, {}, places[k], leaflet_id);
+      if (!here) continue;
+      const double side = dot(local[i] - local[k], here->tangent) < 0 ? -1 : 1;
+      const auto moved =
+          nearest_on(parts, {}, places[k] + side * std::min(apart, 2 * one_place) * here->tangent, leaflet_id);
+      if (moved) places[i] = moved->point;
+    }
+}
+
+// Finds the places of the landmarks along the attachment. At first the smoothed warp of all landmarks takes each place as near to
+// its landmark as any point of the attachment. Then the places slide. `places` has the places of the other landmarks. `local` has
+// the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   const std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
@@ -277,7 +295,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
     if (moved <= 1e-6 * radius) break;
   }
-  if (!getenv("NOSLIDE")) slide_along_attachment(parts, landmarks, local, radius, places);
+  separate_places(parts, landmarks, local, radius, places);
+  slide_along_attachment(parts, landmarks, local, radius, places);
   const double one_place = one_place_share * radius;
   for (const std::size_t i : along)
     for (std::size_t k = 0; k < places.size(); ++k) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double share_on_curve = 0.01;
 // A curve is not cut nearer than this to the end of a span or to another cut, in the span's parameter. The warped curve has the
 // right point and the right direction there, so it is right beside it also.
-constexpr double least_part = 1.0 / 64;
+constexpr double least_part = 1.0 / 256;
 // The nearest point of a span is sought beside the best one of this many even steps.
 constexpr int n_search_steps = 16;
 

@@ -350,8 +350,8 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
     if (!other || nearest_to(*other) != at || distance(other->point, at->point) > most_between_ends * size) continue;
     made.push_back({at->end, other->end});
     if (wants_turns)
-      made.back().turns_at_rest = turns_between(at->axis, {at->point, at->tangent}, other->axis,
-                                                {other->point, other->tangent});
+      made.back().turns_at_rest =
+          turns_between(at->axis, {at->point, at->tangent}, other->axis, {other->point, other->tangent});
   }
   return made;
 }

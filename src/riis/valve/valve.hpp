@@ -126,9 +126,9 @@ class Valve {
   // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. Without
   // a warp the disc does not depend on the opening.
   struct Disc {
-    double radius, x, y;      // the centre is the mean translation of the valve or of its leaflets
-    Vector<Vec3> rim = {};    // for a warped valve, the warped corners of a polygon with the disc's area
-    Vec3 axis = {0, 0, 1};    // without a rim, the direction along which the orifice is seen
+    double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
+    Vector<Vec3> rim = {};  // for a warped valve, the warped corners of a polygon with the disc's area
+    Vec3 axis = {0, 0, 1};  // without a rim, the direction along which the orifice is seen
   };
   Disc disc() const;
 
