@@ -247,8 +247,8 @@ static patient random_annulus(int n, double noise) {
   return made;
 }
 
-/* Three cusps that differ, with their nadirs, their commissures and m further points of each attachment. A smooth map keeps a bend
- * and makes none. So attachments bend at the nadirs as those of the kind do: not at all, or like a V. */
+/* Three cusps that differ, with their nadirs, their commissures and m further points of each attachment. A smooth map keeps a
+ * bend and makes none. So attachments bend at the nadirs as those of the kind do: not at all, or like a V. */
 static patient random_root(int kind, int m, double noise) {
   patient made = {0};
   double end[4], rise[4], radius[3], low[3];

@@ -19,8 +19,8 @@ struct CurveCopy {
   Vector<Bezier> spans, rates;
 };
 
-// Collects the copies of curves that the images of a set need. Images that share a curve also share its copy. The set must outlive
-// this object.
+// Collects the copies of curves that the images of a set need. Images that share a curve also share its copy. The set must
+// outlive this object.
 class Unfolding {
  public:
   explicit Unfolding(const PatchSet &set);

@@ -10,7 +10,6 @@
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
 #include "common/nearest_name.hpp"
-#include "valve/landmark_cuts.hpp"
 #include "valve/warp.hpp"
 
 namespace riis {
@@ -223,7 +222,7 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
   }
   // The copies are complete before they replace the old maps, because assignment member by member could fail half way. Their
   // memory comes from maps that were dropped before.
-  Warp made{*closed, {}};
+  Warp made{*closed, {}, warp_ ? warp_->known : nullptr};
   if (open) made.open = *open;
   warp_ = std::move(made);
 }
@@ -242,12 +241,8 @@ Valve::Disc Valve::disc() const {
     disc.y += (shift[1] - disc.y) / n_shifts;
     z += (shift[2] - z) / n_shifts;
   }
-  if (!warp_) return disc;
+  if (!warp_ || disc.radius == 0) return disc;
   const BlendedWarp warp = blended_warp();
-  if (disc.radius == 0) {
-    disc.axis = warped_z_axis(kind_->make_patches(state_, open_ ? *open_ : state_, opening()), warp);
-    return disc;
-  }
   constexpr int n_corners = 96;
   constexpr double turn = 6.283185307179586 / n_corners;
   const double reach = disc.radius * std::sqrt(turn / std::sin(turn));
@@ -336,6 +331,7 @@ class Digest {
   }
   void add(const WarpMap &map) {
     add(static_cast<std::uint64_t>(map.source_x.size()));
+    for (const double x : {map.centre.x, map.centre.y, map.centre.z, map.size}) add(x);
     for (const Vector<double> *list : {&map.source_x, &map.source_y, &map.source_z})
       for (const double x : *list) add(x);
   }
@@ -378,7 +374,8 @@ PatchSet Valve::make_patches(FoldCheck check) const {
   if (warp_) {
     const PatchSet at_rest = std::move(made);
     const BlendedWarp warp = blended_warp();
-    made = warped(at_rest, warp, landmark_cuts(at_rest), check);
+    made = warped(at_rest, warp, *landmark_cuts(at_rest), check);
+    if (!radius_) made.z_axis = warped_z_axis(at_rest, warp);
     made.neighbour_ends = axis == SkirtAxis::of_cusp ? neighbour_ends(at_rest, true) : at_rest.neighbour_ends;
     if (axis == SkirtAxis::boundary) aim_skirt(made, axis);
     if (axis == SkirtAxis::of_cusp || axis == SkirtAxis::vertical) aim_warped_skirt(made, at_rest, warp);
@@ -387,15 +384,21 @@ PatchSet Valve::make_patches(FoldCheck check) const {
   return made;
 }
 
-LandmarkCuts Valve::landmark_cuts(const PatchSet &now) const {
-  const auto add = [&](LandmarkCuts &cuts, double at, const WarpMap &map) {
-    if (at == opening()) return cuts.add(now, map);
-    cuts.add(kind_->make_patches(state_, open_ ? *open_ : state_, at), map);
-  };
-  LandmarkCuts cuts;
-  add(cuts, 0, warp_->closed);
-  if (warp_->open && can_open()) add(cuts, 1, *warp_->open);
-  return cuts;
+std::shared_ptr<const LandmarkCuts> Valve::landmark_cuts(const PatchSet &now) const {
+  const std::uint64_t digest = shape_digest();
+  std::shared_ptr<const KnownCuts> known = std::atomic_load(&warp_->known);
+  if (!known || known->shape_digest != digest) {
+    const auto add = [&](LandmarkCuts &cuts, double at, const WarpMap &map) {
+      if (at == opening()) return cuts.add(now, map);
+      cuts.add(kind_->make_patches(state_, open_ ? *open_ : state_, at), map);
+    };
+    KnownCuts made{digest, {}};
+    add(made.cuts, 0, warp_->closed);
+    if (warp_->open && can_open()) add(made.cuts, 1, *warp_->open);
+    known = std::make_shared<const KnownCuts>(std::move(made));
+    std::atomic_store(&warp_->known, known);
+  }
+  return {known, &known->cuts};
 }
 
 PatchSet Valve::make_patches_before(const Valve &before, const PatchSet *known) const {

@@ -86,8 +86,8 @@ class WarpLandmarks {
   // across the plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
-  // Returns the matrix, (n, n), by which displacements give the weights of a map that meets its targets. Displacements count in the
-  // unit of the map's `size`. Displacements times weights are the map's bending.
+  // Returns the matrix, (n, n), by which displacements give the weights of a map that meets its targets. Displacements count in
+  // the unit of the map's `size`. Displacements times weights are the map's bending.
   Vector<double> bending_matrix();
 
   // Writes the map to these targets, and its quality. The same targets give the same bits. Accepts a map of any quality.
@@ -132,8 +132,8 @@ PatchSet without_images(const PatchSet &set);
 
 // Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
 // directions of the warped end tangents. The lengths of these tangents make it the nearest to the warped points of the part, by
-// least squares. Arcs are bent anew between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp folds at a patch or turns a part of
-// it over. The message names the place and the value.
+// least squares. Arcs are bent anew between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp
+// folds at a patch or turns a part of it over. The message names the place and the value.
 enum class FoldCheck { no, yes };
 PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
                 FoldCheck check = FoldCheck::yes);
