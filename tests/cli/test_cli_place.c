@@ -454,8 +454,8 @@ TEST(folds_are_refused) {
     const double out = i ? -10 : 10, aside = i ? -2 : 2;
     points[6 + i][0] = 1 + 2, points[6 + i][1] = aside + 1, points[6 + i][2] = -(10 * R + out) - 3;
   }
-  RUN_REFUSED(1, "points.json: the warp folds near \"", "place", json_of_points(8, labels, points),
-              "--valve", "coapting", "--warp", "exact", "--quiet");
+  RUN_REFUSED(1, "points.json: the warp folds near \"", "place", json_of_points(8, labels, points), "--valve",
+              "coapting", "--warp", "exact", "--quiet");
   assert_non_null(strstr(program_err, "its determinant is -"));
   for (int i = 0; i < 2; ++i) {
     const double angle = (i ? 24 : 20) * acos(-1.0) / 180, radius = 10 * R - (i ? 6 : 0);
