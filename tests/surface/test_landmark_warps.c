@@ -8,7 +8,6 @@
 
 #include "handles.h"
 #include "moving_surfaces.h"
-#include "sanitized.h"
 #include "searches.h"
 
 #include "shapes.h"
@@ -158,7 +157,7 @@ static void point_on(riis_valve *valve, const on_side *at, double *point) {
 TEST(warped_curves_pass_through_mapped_landmarks) {
   double worst = 0;
   int n_warps = 0;
-  for (int trial = 0; trial < (is_long_test() ? 60 : fewer_if_sanitized(15)); ++trial) {
+  for (int trial = 0; trial < (is_long_test() ? 60 : 10); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind);
     riis_surface_options options =
@@ -190,7 +189,7 @@ TEST(warped_curves_pass_through_mapped_landmarks) {
     CHECK_OK(riis_valve_copy(valve, &warped));
     own(warped);
     CHECK_OK(riis_valve_set_warp(warped, warp, NULL));
-    options.tolerance = 0.004;
+    options.tolerance = 0.01;
     for (int step = 0; step < 3; ++step) {
       const double opening = step == 0 ? 0 : between(0, 1);
       CHECK_OK(riis_valve_set_scalar(valve, "opening", opening));
@@ -355,7 +354,7 @@ static riis_attachment attachment_of(const riis_surface *surface) {
 
 TEST(an_identity_moves_no_skirt) {
   double worst = 0, worst_near = 0;
-  for (int trial = 0; trial < (is_long_test() ? 60 : fewer_if_sanitized(15)); ++trial) {
+  for (int trial = 0; trial < (is_long_test() ? 60 : 10); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind), *warped = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", between(0, 1)));
@@ -389,7 +388,7 @@ TEST(an_identity_moves_no_skirt) {
 /* A rigid warp, or one that also scales, does the same as a placement. Landmarks lie on the attachment in every other trial. */
 TEST(a_rigid_warp_turns_orifice_and_skirt) {
   double worst_area = 0, worst_axis = 0;
-  for (int trial = 0; trial < (is_long_test() ? 60 : fewer_if_sanitized(15)); ++trial) {
+  for (int trial = 0; trial < (is_long_test() ? 60 : 10); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_kinds;
     riis_valve *valve = random_valve(kind);
     riis_surface_options placed =
@@ -397,10 +396,10 @@ TEST(a_rigid_warp_turns_orifice_and_skirt) {
     riis_surface_options in_place = surface_options();
     in_place.triangulation = placed.triangulation;
     in_place.half_thickness = placed.half_thickness;
-    placed.tolerance = in_place.tolerance = 0.01;
+    placed.tolerance = in_place.tolerance = 0.02;
     double from[3 * most_landmarks], to[3 * most_landmarks];
     int64_t n = landmarks_around(from);
-    if (trial / n_kinds % 4 > 1) {
+    if (trial % 2) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
       const riis_attachment held = attachment_of(new_surface(valve, NULL));
       n = 0;
