@@ -662,7 +662,8 @@ module riis_c
   !> A warp's quality, in the units of its landmarks.
   type, bind(c) :: riis_warp_info
     integer(c_int64_t) :: n_landmarks         !< the number of landmarks
-    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets
+    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets. A
+                                              !! target's distance from a warped valve is that of riis_closest_point
     real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine

@@ -16,13 +16,13 @@ namespace {
 class AlongAxis {
  public:
   // The axis of a placed valve. The projection undoes the rotation and the translation, keeps the scale, and drops z. A warped
-  // disc is seen along its normal.
+  // valve is seen along its warped axis.
   explicit AlongAxis(const SourceValve &source)
       : x_axis_(source.placement.rotation * Vec3{1, 0, 0}),
         y_axis_(source.placement.rotation * Vec3{0, 1, 0}),
         axis_(source.axis()),
         origin_(source.placement.translation) {
-    if (source.disc.rim.empty()) return;
+    if (!source.is_warped) return;
     // Of the x and y axes, takes the one that is nearer to a right angle with the axis of view. It gives the better direction
     // across.
     const Vec3 across = cross(axis_, std::abs(dot(x_axis_, axis_)) < std::abs(dot(y_axis_, axis_)) ? x_axis_ : y_axis_);

@@ -47,7 +47,7 @@ void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
 }  // namespace
 
 Vec3 SourceValve::axis() const {
-  if (disc.rim.empty()) return placement.rotation * Vec3{0, 0, 1};
+  if (disc.rim.empty()) return placement.rotation * z_axis;
   Vec3 area{0, 0, 0};
   for (std::size_t i = 0; i < disc.rim.size(); ++i)
     area = area + cross(disc.rim[i] - disc.rim[0], disc.rim[(i + 1) % disc.rim.size()] - disc.rim[0]);

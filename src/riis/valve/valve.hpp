@@ -6,11 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/recycled.hpp"
+#include "valve/landmark_cuts.hpp"
 #include "valve/patches.hpp"
 #include "valve/skirt.hpp"
 #include "valve/warp.hpp"
@@ -168,12 +170,23 @@ class Valve {
   std::size_t position_of(std::string_view name) const;
   void derive();
   PatchSet make_patches(FoldCheck check) const;
+  BlendedWarp blended_warp() const;  // of a warped valve
+  // Returns where the warp's landmarks lie on the curves before the warp: landmarks of the closed map on the closed valve, and
+  // landmarks of the open map on the open valve. `now` has the patches at the current opening.
+  std::shared_ptr<const LandmarkCuts> landmark_cuts(const PatchSet &now) const;
   void check_open_values() const;
   static std::uint64_t next_revision();
 
+  // The cuts of a shape with its landmarks. They stay the same while the valve opens and the targets move, so they are kept.
+  struct KnownCuts {
+    std::uint64_t shape_digest;
+    LandmarkCuts cuts;
+  };
   struct Warp {
     WarpMap closed;
     std::optional<WarpMap> open;
+    mutable std::shared_ptr<const KnownCuts> known =
+        {};  // changes atomically, because several threads may read a valve
   };
 
   const ValveKind *kind_;
