@@ -40,7 +40,7 @@ struct States {
   std::vector<std::int32_t> ids;  // ids of the leaflets, ascending
   std::vector<std::string> names;
   std::string why_no_edges;   // "": the leaflets have free edges
-  std::string disc;           // such as "the disc of root_radius 1.29"; "": the valve has no orifice
+  std::string disc;           // such as "the disc of radius 1.1"; "": the valve has no orifice
   double disc_area;           // outline_area of the closed state
   std::string reach;          // the distance that the band's rim reaches into the orifice, as text
   std::vector<State> states;  // ascending by opening; the first is closed

@@ -83,19 +83,6 @@ class Measured {
     return made;
   }
 
-  // Returns the name of the parameter that is the disc's radius, or "".
-  std::string radius_parameter() const {
-    int64_t n = 0;
-    check(riis_valve_get_n_parameters(valve_.get(), &n));
-    for (int64_t i = 0; i < n; ++i) {
-      riis_parameter parameter;
-      check(riis_valve_get_parameter(valve_.get(), i, &parameter, sizeof parameter));
-      const std::string name = parameter.name;
-      if (name == "root_radius" || name == "radius") return name;
-    }
-    return "";
-  }
-
   std::vector<riis_leaflet> leaflets() const {
     int64_t n = 0;
     check(riis_surface_get_n_leaflets(surface_.get(), &n));
@@ -174,10 +161,9 @@ States frame_of(const StatesOptions &options, Measured &valve) {
   }
   if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC)
-    states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
+    states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
-  if (orifice.outline == RIIS_OUTLINE_BOUNDARY)
-    states.disc = "the longest open boundary, which is taken as the outline,";
+  if (orifice.outline == RIIS_OUTLINE_BOUNDARY) states.disc = "the outline of the open edges";
   states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
   return states;
 }
@@ -287,9 +273,7 @@ void add_leaflets(const States &states, Summary &summary) {
 }
 
 std::string text_of_orifice(const States &states) {
-  if (states.disc.empty() && states.is_of_file) return "not measured: no closed line of open edges encloses an area";
-  if (states.disc.empty())
-    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
+  if (states.disc.empty()) return "not measured: no open edges surround an area";
   const StateValue value = [](const State &state) { return state.orifice->area; };
   std::string text = rounded(value(states.states.front())) + at_first(states);
   if (states.states.size() > 1) {

@@ -228,22 +228,14 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
 }
 
 Valve::Disc Valve::disc() const {
-  Disc disc{radius_ ? state_.values[*radius_][0] : 0, 0, 0};
-  double n_shifts = 0, z = 0;
+  Disc disc{kind_->is_rigid && radius_ ? state_.values[*radius_][0] : 0, 0, 0};
+  double n_shifts = 0;
   for (const std::size_t i : translations_) {
     const std::array<double, 3> &shift = state_.values[i];
     ++n_shifts;
     disc.x += (shift[0] - disc.x) / n_shifts;
     disc.y += (shift[1] - disc.y) / n_shifts;
-    z += (shift[2] - z) / n_shifts;
   }
-  if (!warp_ || disc.radius == 0) return disc;
-  const BlendedWarp warp(warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening());
-  constexpr int n_corners = 96;
-  constexpr double turn = 6.283185307179586 / n_corners;
-  const double reach = disc.radius * std::sqrt(turn / std::sin(turn));
-  for (int i = 0; i < n_corners; ++i)
-    disc.rim.push_back(warp.value({disc.x + reach * std::cos(i * turn), disc.y + reach * std::sin(i * turn), z}));
   return disc;
 }
 
