@@ -101,10 +101,12 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt)
   }
   measure_pieces(set, piece, n_pieces, boundary);
   if (set.is_of_patches()) {
-    for (const SideLine &side : boundary_sides(set, skirt))
+    for (const SideLine &side : boundary_sides(set, skirt)) {
+      const auto found = piece_of_leaflet.find(side.leaflet_id);
+      if (found == piece_of_leaflet.end()) continue;  // the leaflet has no area
       for (std::size_t k = 1; k < side.vertex_id.size(); ++k)
-        boundary.edges.push_back({set.vertex(side.vertex_id[k - 1]), set.vertex(side.vertex_id[k]),
-                                  piece_of_leaflet.at(side.leaflet_id)});
+        boundary.edges.push_back({set.vertex(side.vertex_id[k - 1]), set.vertex(side.vertex_id[k]), found->second});
+    }
     return boundary;
   }
   for (const OpenEdge &edge : open_edges(set, false))
@@ -367,7 +369,7 @@ double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   for (const FarPart &part : from.parts) {
     const PlaneSegment ends = ends_of(from, part);
     const PlanePoint along = difference(ends[1], ends[0]), middle = between(ends[0], ends[1], 0.5);
-    if (cross_of(middle, along) >= std::abs(dot_of(middle, along)))
+    if (cross_of(middle, along) > std::abs(dot_of(middle, along)))
       held.push_back({view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece, ends});
   }
   constexpr double most = 0.05;
