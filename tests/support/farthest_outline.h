@@ -13,8 +13,8 @@ typedef struct frame {
 
 static inline frame frame_of(const double *axis) {
   frame made;
-  const int least = fabs(axis[0]) < fabs(axis[1]) ? (fabs(axis[0]) < fabs(axis[2]) ? 0 : 2)
-                                                  : (fabs(axis[1]) < fabs(axis[2]) ? 1 : 2);
+  const int least =
+      fabs(axis[0]) < fabs(axis[1]) ? (fabs(axis[0]) < fabs(axis[2]) ? 0 : 2) : (fabs(axis[1]) < fabs(axis[2]) ? 1 : 2);
   double size = 0;
   for (int k = 0; k < 3; ++k) made.x[k] = (k == least) - axis[least] * axis[k];
   for (int k = 0; k < 3; ++k) size += made.x[k] * made.x[k];

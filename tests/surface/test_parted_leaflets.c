@@ -53,8 +53,8 @@ static void shrink(soup *of, double share) {
                    *c = of->xyz + 3 * of->ids[3 * i + 2];
       double ab[3], ac[3];
       for (int k = 0; k < 3; ++k) ab[k] = b[k] - a[k], ac[k] = c[k] - a[k];
-      const double area = hypot(hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2]),
-                                ab[0] * ac[1] - ab[1] * ac[0]);
+      const double area =
+          hypot(hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2]), ab[0] * ac[1] - ab[1] * ac[0]);
       whole += area;
       for (int k = 0; k < 3; ++k) centroid[k] += area * (a[k] + b[k] + c[k]) / 3;
     }
@@ -69,7 +69,8 @@ static void shrink(soup *of, double share) {
 enum { n_turnings = 4 };
 static void turn_over(soup *of, int turning) {
   for (int64_t i = 0; i < of->n_triangles; ++i) {
-    const int is_turned = turning == 1 || (turning == 2 && of->leaflet[i] == 1) || (turning == 3 && between(0, 1) < 0.5);
+    const int is_turned =
+        turning == 1 || (turning == 2 && of->leaflet[i] == 1) || (turning == 3 && between(0, 1) < 0.5);
     if (!is_turned) continue;
     const int32_t second = of->ids[3 * i + 1];
     of->ids[3 * i + 1] = of->ids[3 * i + 2], of->ids[3 * i + 2] = second;

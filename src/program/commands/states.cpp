@@ -118,12 +118,10 @@ class Measured {
     for (const riis_surface *part : {surface_.get(), wall_.get()}) {
       const riis_triangles triangles = triangles_of(part);
       const int64_t first = view(xyz).size() / 3;
-      const int32_t first_leaflet =
-          leaflets.empty() ? 0 : *std::max_element(leaflets.begin(), leaflets.end()) + 1;
+      const int32_t first_leaflet = leaflets.empty() ? 0 : *std::max_element(leaflets.begin(), leaflets.end()) + 1;
       xyz.insert(xyz.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
       for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(first + triangles.vertex_id[i]);
-      for (int64_t i = 0; i < triangles.n_triangles; ++i)
-        leaflets.push_back(first_leaflet + triangles.leaflet_id[i]);
+      for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first_leaflet + triangles.leaflet_id[i]);
     }
     riis_surface_arrays arrays = arrays_of(xyz, corners);
     arrays.leaflet_id = leaflets.data();
@@ -190,8 +188,7 @@ States frame_of(const StatesOptions &options, Measured &valve) {
                                              : "a leaflet has no open edge besides the outline";
   }
   if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
-  if (orifice.outline == RIIS_OUTLINE_DISC)
-    states.disc = "the disc of radius " + shown(orifice.radius);
+  if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
   if (orifice.outline == RIIS_OUTLINE_BOUNDARY)
     states.disc = options.wall.empty() ? "the outline of the open edges" : "the outline of the wall";

@@ -71,8 +71,7 @@ void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &pie
     view(area)[at] += size;
     // A running mean keeps the rounding small if the surface is far from the origin.
     if (size > 0)
-      view(boundary.centroids)[at] =
-          mix(view(boundary.centroids)[at], (1.0 / 3) * (a + b + c), size / view(area)[at]);
+      view(boundary.centroids)[at] = mix(view(boundary.centroids)[at], (1.0 / 3) * (a + b + c), size / view(area)[at]);
   }
 }
 
@@ -395,8 +394,8 @@ std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
                                                const std::optional<ValveDirections> &valve) {
   if (boundary.edges.empty()) return std::nullopt;
   const Spread spread = spread_of(boundary);
-  const std::optional<FoundView> found = valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre)
-                                               : view_of_arrays(boundary, spread);
+  const std::optional<FoundView> found =
+      valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre) : view_of_arrays(boundary, spread);
   if (!found) return std::nullopt;
   const SeenParts &parts = found->parts;
   const double growth = growth_of(boundary, parts);

@@ -14,7 +14,8 @@ namespace {
 SeenOutline disc_of(const SourceValve &source) {
   const Placement &placed = source.placement;
   const AlongAxis seen(placed.rotation * Vec3{0, 0, 1}, placed.translation, placed.rotation * Vec3{1, 0, 0});
-  return {seen, circle(placed.scale * source.disc.radius, {placed.scale * source.disc.x, placed.scale * source.disc.y})};
+  return {seen,
+          circle(placed.scale * source.disc.radius, {placed.scale * source.disc.x, placed.scale * source.disc.y})};
 }
 
 // Returns the vertices of all triangles outside one leaflet.
