@@ -46,12 +46,14 @@ static inline void add_edge(outline *to, const double *from, const double *until
     add_edge(to, until, from);
     return;
   }
+  const double size = hypot(a[0], a[1]), other = hypot(b[0], b[1]), most = fmax(size, other);
+  if (turning <= 1e-10 * size * other) return; /* the edge is seen from its end */
   const double low = atan2(a[1], a[0]), wide = atan2(turning, a[0] * b[0] + a[1] * b[1]);
   for (int i = (int)ceil(low / turn_of_direction); i * turn_of_direction <= low + wide; ++i) {
     const double c = cos(i * turn_of_direction), s = sin(i * turn_of_direction);
     const double across = c * (b[1] - a[1]) - s * (b[0] - a[0]), distance = turning / across;
     double *far = to->distance + (i % n_directions + n_directions) % n_directions;
-    if (across > 0 && distance > *far) *far = distance;
+    if (across > 0 && distance > *far) *far = fmin(distance, most);
   }
 }
 

@@ -313,7 +313,7 @@ std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, 
   }
 }
 
-// The centroid of the edges, and the directions in which they spread, each of length 1.
+// The centroid of the edges, and the directions in which they spread, the least spread first. Each has the length 1.
 struct Spread {
   Vec3 centre;
   std::vector<Vec3> directions;
@@ -341,17 +341,15 @@ Spread spread_of(const LeafletBoundary &boundary) {
   return made;
 }
 
-// Returns the view of triangles from arrays. Their normals give a first axis, if they agree. Other first axes count only if they
-// lead to a rounder outline, since triangles may be turned over.
+// Returns the view of triangles from arrays. The direction in which the boundary spreads least is the first axis. Another
+// direction counts only if it leads to a rounder outline. Triangles may be turned over, so their normals give only the side.
 std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const Spread &spread) {
-  constexpr double favour = 1.3;
+  constexpr double favour = 1.15;
   std::optional<FoundView> best;
-  const double size = length(boundary.normal);
-  if (size > 0) best = view_from(boundary, (1 / size) * boundary.normal, {0, 0, 0}, spread.centre);
-  if (best) best->roundness *= favour;
   for (const Vec3 direction : spread.directions) {
     const Vec3 about = dot(direction, boundary.normal) < 0 ? -direction : direction;
     std::optional<FoundView> other = view_from(boundary, about, {0, 0, 0}, spread.centre);
+    if (other && direction == spread.directions[0]) other->roundness *= favour;
     if (other && (!best || other->roundness > best->roundness)) best = std::move(other);
   }
   return best;
