@@ -76,7 +76,10 @@ TEST(areas_are_counts_of_points) {
     const int kind = trial % n_kinds;
     riis_surface_options options = surface_options();
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-    const riis_surface *surface = new_surface(valve_at(kind, between(0.3, 1)), &options);
+    riis_valve *valve = valve_at(kind, between(0.3, 1));
+    /* Rays in gaps between cusps would see nothing. */
+    if (kind == 0) CHECK_OK(riis_valve_unset(valve, "leaflet_angle"));
+    const riis_surface *surface = new_surface(valve, &options);
     const riis_resistance how = resistance(between(0.03, 0.2), trial % 2 ? RIIS_RIM_CUT : RIIS_RIM_ROUND);
     const riis_orifice found = orifice_of(surface, &how);
     const riis_triangles all = triangles_of(surface);

@@ -419,9 +419,8 @@ void declare_states(Command command, StatesOptions &options) {
   CLI::Option *const surface = command.text(
       "--surface", "FILE", "A file in place of a valve: .vtp, .vtu, .stl, or .pvd, its motion", options.surface);
   for (const char *name :
-       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--tolerance", "--count"})
+       {"--valve", "--params", "--params-open", "--set", "--warp", "--skirt", "--wall", "--tolerance", "--count"})
     surface->excludes(command.option(name));
-  command.option("--wall")->remove_needs(command.option("--skirt"));
   command
       .text("--leaflets", "connected|ARRAY", "Leaflets of --surface: connected pieces, or a cell array",
             options.leaflets)

@@ -47,7 +47,6 @@ class Measured {
       surface_.reset(surface);
       return;
     }
-    if (!options.wall.empty()) wall_ = surface_of_wall(options);
     Seconds seconds;
     MarkOptions as_file;
     static_cast<ValveOptions &>(as_file) = options;
@@ -95,9 +94,6 @@ class Measured {
   riis_orifice orifice() const {
     riis_orifice made;
     check(riis_surface_get_orifice(surface_.get(), nullptr, &made, sizeof made));
-    if (!wall_) return made;
-    const Surface both = with_wall(made.half_thickness);
-    check(riis_surface_get_orifice(both.get(), nullptr, &made, sizeof made));
     return made;
   }
 
@@ -109,29 +105,6 @@ class Measured {
 
  private:
   std::string subject() const { return is_valve_file(options_.valve) ? options_.valve : ""; }
-
-  // Returns the surface of a file together with the wall around it, whose edges then are the outline of the orifice.
-  Surface with_wall(double half_thickness) const {
-    std::vector<double> xyz;
-    std::vector<int64_t> corners;
-    std::vector<int32_t> leaflets;
-    for (const riis_surface *part : {surface_.get(), wall_.get()}) {
-      const riis_triangles triangles = triangles_of(part);
-      const int64_t first = view(xyz).size() / 3;
-      const int32_t first_leaflet = leaflets.empty() ? 0 : *std::max_element(leaflets.begin(), leaflets.end()) + 1;
-      xyz.insert(xyz.end(), triangles.xyz, triangles.xyz + 3 * triangles.n_vertices);
-      for (int64_t i = 0; i < 3 * triangles.n_triangles; ++i) corners.push_back(first + triangles.vertex_id[i]);
-      for (int64_t i = 0; i < triangles.n_triangles; ++i) leaflets.push_back(first_leaflet + triangles.leaflet_id[i]);
-    }
-    riis_surface_arrays arrays = arrays_of(xyz, corners);
-    arrays.leaflet_id = leaflets.data();
-    riis_surface_options as_it_is;
-    check(riis_surface_options_init(&as_it_is, sizeof as_it_is));
-    as_it_is.half_thickness = half_thickness;
-    riis_surface *surface = nullptr;
-    check(riis_surface_create_from_arrays(&arrays, &as_it_is, &surface), options_.wall);
-    return Surface(surface);
-  }
   void set_opening(double opening) { check(riis_valve_set_scalar(valve_.get(), "opening", opening)); }
 
   const StatesOptions &options_;
@@ -139,7 +112,6 @@ class Measured {
   Keyframes keyframes_;
   std::vector<double> times_;
   Surface surface_;
-  Surface wall_;  // of --wall around a surface from a file, or null
 };
 
 // Tells whether a leaflet is the valve's skirt, which has the largest id.
@@ -190,8 +162,7 @@ States frame_of(const StatesOptions &options, Measured &valve) {
   if (valve.is_valve() && is_rigid(options.valve)) states.why_no_edges = "the leaflets are rigid";
   if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
-  if (orifice.outline == RIIS_OUTLINE_BOUNDARY)
-    states.disc = options.wall.empty() ? "the outline of the open edges" : "the outline of the wall";
+  if (orifice.outline == RIIS_OUTLINE_BOUNDARY) states.disc = "the outline of the open edges";
   states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
   return states;
 }
@@ -199,8 +170,6 @@ States frame_of(const StatesOptions &options, Measured &valve) {
 }  // namespace
 
 States measure_states(const StatesOptions &options) {
-  if (!options.wall.empty() && !options.skirt && options.surface.empty())
-    refuse_usage("--wall requires --skirt or --surface");
   Measured valve(options);
   const std::string why_closed = valve.why_closed();
   States states = frame_of(options, valve);

@@ -142,10 +142,8 @@ void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string
   check(status, subject);
 }
 
-Surface surface_of_wall(const ValveOptions &options) { return make_wall(options, read_wall(options)); }
-
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface) {
-  const Surface wall = surface_of_wall(options);
+  const Surface wall = make_wall(options, read_wall(options));
   riis_gap gap;
   check(riis_surface_get_gap(surface, wall.get(), nullptr, &gap, sizeof gap), options.wall);
   return gap;

@@ -38,8 +38,6 @@ double opening_of(const riis_valve *valve);
 // Gives the valve the skirt of --skirt and --wall. Does nothing without --skirt. `subject` begins refusals that are not about the
 // wall.
 void set_skirt(const ValveOptions &options, riis_valve *valve, const std::string &subject);
-// Makes the surface of the wall of --wall, which is in the mesh's frame.
-Surface surface_of_wall(const ValveOptions &options);
 // Measures the gap between a valve's surface and the wall of --wall.
 riis_gap gap_to_wall(const ValveOptions &options, const riis_surface *surface);
 Valve copy_of(const riis_valve *valve);

@@ -355,8 +355,9 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const S
   return best;
 }
 
-// Returns the factor by which the pieces grow about their centroids until the first two neighbours meet, at most 1.05. A part of
-// the outline that is nearer to a ray from the centre than to a right angle with it is the end of a piece, and not held.
+// Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. Beyond 1.05 the pieces
+// stand apart on purpose, so the factor falls back to 1, which it reaches at 1.1. A part of the outline that is nearer to a ray
+// from the centre than to a right angle with it is the end of a piece, and not held.
 double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
   struct Held {
     std::int64_t piece;
@@ -370,20 +371,19 @@ double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
       held.push_back({view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece, ends});
   }
   constexpr double most = 0.05;
-  double least = most;
-  bool has_neighbours = false;
+  double least = 2 * most;
   for (std::size_t i = 0; i < held.size(); ++i) {
     const Held &one = held[i], &other = held[(i + 1) % held.size()];
     if (one.piece == other.piece) continue;
-    has_neighbours = true;
     const PlanePoint p = one.ends[1], q = other.ends[0], middle = between(p, q, 0.5);
     const auto along = [&](const PlanePoint &a, const PlanePoint &b) { return cross_of(middle, difference(a, b)); };
     const double gap = along(q, p);
     const double reach = along(p, from.seen(view(boundary.centroids)[one.piece])) -
                          along(q, from.seen(view(boundary.centroids)[other.piece]));
-    least = std::min(least, !(gap > 0) ? 0 : reach > 0 ? gap / reach : most);
+    if (!(gap > 0)) return 1;
+    if (reach > 0) least = std::min(least, gap / reach);
   }
-  return has_neighbours ? 1 + least : 1;
+  return 1 + (least > most ? 2 * most - least : least);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const
   const std::int32_t skirt = source ? source->skirt : -1;
   if (source && source->disc.radius > 0) return measured(set, disc_of(*source), RIIS_OUTLINE_DISC, skirt, limits);
   std::optional<ValveDirections> valve;
-  if (source) valve = {source->placement.rotation * Vec3{0, 0, 1}, source->placement.rotation * Vec3{1, 0, 0}};
+  if (source) valve = {source->placement.rotation * source->disc.axis, source->placement.rotation * Vec3{1, 0, 0}};
   const std::optional<SeenOutline> seen = outline_of_leaflets(boundary_of_leaflets(set, skirt), valve);
   if (!seen) return {0, 0, 0, 0, valve ? valve->axis : Vec3{0, 0, 0}, RIIS_OUTLINE_NONE};
   return measured(set, *seen, source ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_BOUNDARY, skirt, limits);

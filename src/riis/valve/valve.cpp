@@ -228,14 +228,22 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
 }
 
 Valve::Disc Valve::disc() const {
-  Disc disc{kind_->is_rigid && radius_ ? state_.values[*radius_][0] : 0, 0, 0};
-  double n_shifts = 0;
+  Disc disc{kind_->is_rigid && radius_ ? state_.values[*radius_][0] : 0, 0, 0, {0, 0, 1}};
+  double n_shifts = 0, z = 0;
   for (const std::size_t i : translations_) {
     const std::array<double, 3> &shift = state_.values[i];
     ++n_shifts;
     disc.x += (shift[0] - disc.x) / n_shifts;
     disc.y += (shift[1] - disc.y) / n_shifts;
+    z += (shift[2] - z) / n_shifts;
   }
+  if (!warp_) return disc;
+  const BlendedWarp warp(warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening());
+  constexpr double step = 1e-3;
+  const Vec3 along_x = warp.value({disc.x + step, disc.y, z}) - warp.value({disc.x - step, disc.y, z});
+  const Vec3 along_y = warp.value({disc.x, disc.y + step, z}) - warp.value({disc.x, disc.y - step, z});
+  const Vec3 normal = cross(along_x, along_y);
+  if (length(normal) > 0) disc.axis = (1 / length(normal)) * normal;
   return disc;
 }
 

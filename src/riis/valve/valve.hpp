@@ -125,7 +125,8 @@ class Valve {
 
   // Returns the disc of a mechanical valve's housing about the z axis, or a radius of 0 for other valves.
   struct Disc {
-    double radius, x, y;  // the centre is the translation of the valve
+    double radius, x, y;  // the centre is the mean translation of the valve or of its leaflets
+    Vec3 axis;            // the z axis; for a warped valve, the normal of the warped plane z = 0 at the centre
   };
   Disc disc() const;
 
