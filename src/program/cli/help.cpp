@@ -270,7 +270,8 @@ from the closed length. Free edges are the sides v = 1 of the patches on a leafl
 that the leaflets leave uncovered, seen along the outline's axis. effective_area is the part that the band around the leaflets
 leaves to the flow, by the half thickness and a round rim. The outline is the leaflets' farthest edges in all directions, such
 as the annulus. Straight lines join leaflets that do not touch. A bileaflet valve has the disc of the housing's radius. The
-table has no columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at opening 0.
+table has no columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one
+line, at opening 0.
 )"},
     {"export", "what riis export writes",
      R"(

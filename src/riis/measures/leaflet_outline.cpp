@@ -292,8 +292,8 @@ struct FoundView {
   double roundness;
 };
 
-// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline. `about` is a first
-// axis of length 1. The number of turns is small: where a free edge reaches as far out as the attachment, the farthest edge may
+// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline. `about` is a
+// first axis of length 1. The number of turns is small: where a free edge reaches as far out as the attachment, the farthest edge may
 // change with each turn.
 std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre) {
   constexpr int n_turns = 4;
