@@ -292,11 +292,14 @@ struct FoundView {
   double roundness;
 };
 
-// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline. `about` is a
-// first axis of length 1. The number of turns is small: where a free edge reaches as far out as the attachment, the farthest edge may
-// change with each turn.
-std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre) {
-  constexpr int n_turns = 4;
+// From a good first axis few turns suffice. More would do harm where a free edge reaches as far out as the attachment, because the
+// farthest edge may then change with each turn. Other first axes need many turns.
+constexpr int few_turns = 4, many_turns = 40;
+
+// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
+// times. `about` is a first axis of length 1.
+std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre,
+                                   int n_turns) {
   constexpr double least_roundness = 0.01, still = 1e-10;
   for (int i = 0;; ++i) {
     SeenParts seen = parts_of(boundary, AlongAxis(about, centre, sideways));
@@ -348,8 +351,10 @@ std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const S
   std::optional<FoundView> best;
   for (const Vec3 direction : spread.directions) {
     const Vec3 about = dot(direction, boundary.normal) < 0 ? -direction : direction;
-    std::optional<FoundView> other = view_from(boundary, about, {0, 0, 0}, spread.centre);
-    if (other && direction == spread.directions[0]) other->roundness *= favour;
+    const bool is_first = direction == spread.directions[0];
+    std::optional<FoundView> other =
+        view_from(boundary, about, {0, 0, 0}, spread.centre, is_first ? few_turns : many_turns);
+    if (other && is_first) other->roundness *= favour;
     if (other && (!best || other->roundness > best->roundness)) best = std::move(other);
   }
   return best;
@@ -393,7 +398,8 @@ std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
   if (boundary.edges.empty()) return std::nullopt;
   const Spread spread = spread_of(boundary);
   const std::optional<FoundView> found =
-      valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre) : view_of_arrays(boundary, spread);
+      valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre, few_turns)
+            : view_of_arrays(boundary, spread);
   if (!found) return std::nullopt;
   const SeenParts &parts = found->parts;
   const double growth = growth_of(boundary, parts);
