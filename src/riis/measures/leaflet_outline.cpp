@@ -292,8 +292,8 @@ struct FoundView {
   double roundness;
 };
 
-// From a good first axis few turns suffice. More would do harm where a free edge reaches as far out as the attachment, because the
-// farthest edge may then change with each turn. Other first axes need many turns.
+// From a good first axis few turns suffice. More would do harm where a free edge reaches as far out as the attachment, because
+// the farthest edge may then change with each turn. Other first axes need many turns.
 constexpr int few_turns = 4, many_turns = 40;
 
 // Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
