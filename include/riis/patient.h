@@ -168,9 +168,8 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  *   open    the map at opening 1; NULL: `closed` serves for all openings
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
  * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
- * RIIS_TRIANGULATION_FIXED the warp may move. A disc that is the outline of the orifice is also warped. Curves are cut where
- * landmarks of `closed` lie on the closed valve, and landmarks of `open` on the open valve. So the warped valve passes through
- * the mapped landmarks on its curves.
+ * RIIS_TRIANGULATION_FIXED the warp may move. Curves are cut where landmarks of `closed` lie on the closed valve, and landmarks
+ * of `open` on the open valve. So the warped valve passes through the mapped landmarks on its curves.
  * An annulus that moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them,
  * and pass both to riis_surface_update_moving. Both must be warped, or neither. A call that makes or updates a surface
  * refuses a warp that folds at the valve or turns a part of it over. It returns RIIS_INVALID_PARAMETER, and names the

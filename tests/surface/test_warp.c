@@ -363,11 +363,10 @@ TEST(a_rigid_warp_equals_a_placement) {
     CHECK_OK(riis_surface_get_orifice(expected, NULL, orifice, sizeof *orifice));
     CHECK_OK(riis_surface_get_orifice(got, NULL, orifice + 1, sizeof *orifice));
     assert_int_equal(orifice[0].outline, orifice[1].outline);
-    /* The outline of a mitral valve consists of the edges of triangles. */
-    const double exact = strcmp(kind, "mitral") == 0 ? 0.01 : 1e-3;
-    CHECK_NEAR(orifice[0].outline_area, orifice[1].outline_area, exact * orifice[0].outline_area);
+    /* The axis follows from the triangles, which differ. */
+    CHECK_NEAR(orifice[0].outline_area, orifice[1].outline_area, 2e-3 * orifice[0].outline_area);
     CHECK_NEAR(orifice[0].area, orifice[1].area, 0.02 * orifice[0].outline_area);
-    for (int c = 0; c < 3; ++c) CHECK_NEAR(orifice[0].axis[c], orifice[1].axis[c], 1e-9);
+    for (int c = 0; c < 3; ++c) CHECK_NEAR(orifice[0].axis[c], orifice[1].axis[c], 2e-3);
     free_owned_after(owned_before);
   }
 }

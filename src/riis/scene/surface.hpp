@@ -30,11 +30,6 @@ struct SourceValve {
   std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
   const ValveKind *kind;
   bool is_warped;
-  Vec3 z_axis;  // before placement, the z axis or what a warp makes of it
-
-  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc. A warped valve without a
-  // disc is seen along the direction that its map makes of the z axis.
-  Vec3 axis() const;
 };
 
 class Surface {

@@ -157,8 +157,6 @@ struct PatchSet {
   Vector<std::optional<MaterialPoints>> material = {};
   // Only warped patches have this list. It says for each patch where the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};
-  // The direction that a warp makes of the valve's z axis. Valves with a disc have their own axis (Valve::Disc).
-  Vec3 z_axis = {0, 0, 1};
   // Only valves whose skirts lead away from the axis of the attachment have this list. Their patches have one image each.
   Vector<NeighbourEnds> neighbour_ends = {};
 

@@ -516,12 +516,6 @@ void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp 
     }
 }
 
-Vec3 warped_z_axis(const PatchSet &at_rest, const BlendedWarp &warp) {
-  const Vector<HeldSide> sides = held_sides(at_rest);
-  const AxisLine axis = axis_of_attachment(at_rest, sides, SkirtAxis::vertical);
-  return warped_axis(axis, steps_of_attachment(at_rest, sides), warp).direction;
-}
-
 std::int32_t skirt_leaflet(const PatchSet &set) {
   std::int32_t id = RIIS_LEAFLET_SKIRT;
   for (const Patch &patch : set.patches)

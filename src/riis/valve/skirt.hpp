@@ -27,8 +27,6 @@ void aim_skirt(PatchSet &set, SkirtAxis axis);
 // Gives every attached patch of a warped valve the line that the map makes of its axis before the warp. `at_rest` has the patches
 // before the warp, with their axes. The identity keeps all axes, and a map without scale turns them as a placement does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
-// Returns the unit vector that the map makes of the z axis at the attachment of patches before a warp.
-Vec3 warped_z_axis(const PatchSet &at_rest, const BlendedWarp &warp);
 
 // A side at which a patch is attached. It is a side of no other patch.
 struct HeldSide {

@@ -232,7 +232,7 @@ BlendedWarp Valve::blended_warp() const {
 }
 
 Valve::Disc Valve::disc() const {
-  Disc disc{radius_ ? state_.values[*radius_][0] : 0, 0, 0};
+  Disc disc{kind_->is_rigid && radius_ ? state_.values[*radius_][0] : 0, 0, 0, {0, 0, 1}};
   double n_shifts = 0, z = 0;
   for (const std::size_t i : translations_) {
     const std::array<double, 3> &shift = state_.values[i];
@@ -241,13 +241,13 @@ Valve::Disc Valve::disc() const {
     disc.y += (shift[1] - disc.y) / n_shifts;
     z += (shift[2] - z) / n_shifts;
   }
-  if (!warp_ || disc.radius == 0) return disc;
+  if (!warp_) return disc;
   const BlendedWarp warp = blended_warp();
-  constexpr int n_corners = 96;
-  constexpr double turn = 6.283185307179586 / n_corners;
-  const double reach = disc.radius * std::sqrt(turn / std::sin(turn));
-  for (int i = 0; i < n_corners; ++i)
-    disc.rim.push_back(warp.value({disc.x + reach * std::cos(i * turn), disc.y + reach * std::sin(i * turn), z}));
+  constexpr double step = 1e-3;
+  const Vec3 along_x = warp.value({disc.x + step, disc.y, z}) - warp.value({disc.x - step, disc.y, z});
+  const Vec3 along_y = warp.value({disc.x, disc.y + step, z}) - warp.value({disc.x, disc.y - step, z});
+  const Vec3 normal = cross(along_x, along_y);
+  if (length(normal) > 0) disc.axis = (1 / length(normal)) * normal;
   return disc;
 }
 
@@ -375,7 +375,6 @@ PatchSet Valve::make_patches(FoldCheck check) const {
     const PatchSet at_rest = std::move(made);
     const BlendedWarp warp = blended_warp();
     made = warped(at_rest, warp, *landmark_cuts(at_rest), check);
-    if (!radius_) made.z_axis = warped_z_axis(at_rest, warp);
     made.neighbour_ends = axis == SkirtAxis::of_cusp ? neighbour_ends(at_rest, true) : at_rest.neighbour_ends;
     if (axis == SkirtAxis::boundary) aim_skirt(made, axis);
     if (axis == SkirtAxis::of_cusp || axis == SkirtAxis::vertical) aim_warped_skirt(made, at_rest, warp);

@@ -126,11 +126,10 @@ class Valve {
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. Without
-  // a warp the disc does not depend on the opening.
+  // Returns the disc of a mechanical valve's housing about the z axis, or a radius of 0 for other valves.
   struct Disc {
-    double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
-    Vector<Vec3> rim = {};  // for a warped valve, the warped corners of a polygon with the disc's area
+    double radius, x, y;  // the centre is the mean translation of the valve or of its leaflets
+    Vec3 axis;            // the z axis; for a warped valve, the normal of the warped plane z = 0 at the centre
   };
   Disc disc() const;
 
