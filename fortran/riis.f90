@@ -68,7 +68,7 @@ module riis
     RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
-    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, &
+    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, RIIS_OUTLINE_WALL, &
     RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
     RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS, &
     RIIS_LANDMARK_COMMISSURE, RIIS_LANDMARK_NADIR, RIIS_LANDMARK_COAPTATION, RIIS_LANDMARK_ANNULUS, &
@@ -87,7 +87,8 @@ module riis
   use riis_leaking, only: riis_leaks, riis_leak_list, riis_find_leaks
   use riis_crossing, only: riis_crossings, riis_crossing_list, riis_find_crossings
   use riis_passages, only: riis_label_open_regions, riis_find_passage
-  use riis_measures, only: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
+  use riis_measures, only: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
+    riis_get_coaptation, riis_get_gap, &
     riis_set_skirt_to_wall, &
     riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
@@ -101,7 +102,8 @@ module riis
     riis_keyframes, riis_label_open_regions, riis_find_passage, riis_passage, riis_find_crossings, riis_crossings, &
     riis_crossing_list, riis_attachment, riis_triangles, riis_leaflet, riis_orifice, riis_coaptation, riis_gap, &
     riis_first_passage, riis_cells_across, riis_warp, riis_warp_info, riis_valve_patches
-  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
+  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
+    riis_get_coaptation, riis_get_gap, &
     riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, &
     riis_get_swept_volume, riis_find_first_passage
   public :: riis_place, riis_placement, &
@@ -128,7 +130,7 @@ module riis
     RIIS_RIM_ROUND, RIIS_RIM_CUT, &
     RIIS_INTERPOLATION_LINEAR, RIIS_INTERPOLATION_CUBIC, RIIS_PHASE_CLOSING, RIIS_PHASE_OPENING, &
     RIIS_TRIANGULATION_ADAPTED, RIIS_TRIANGULATION_FIXED, RIIS_PASSAGE_CLOSED, RIIS_PASSAGE_OPEN, RIIS_PASSAGE_NONE, &
-    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, &
+    RIIS_OUTLINE_NONE, RIIS_OUTLINE_DISC, RIIS_OUTLINE_ATTACHMENT, RIIS_OUTLINE_BOUNDARY, RIIS_OUTLINE_WALL, &
     RIIS_FIRST_PASSAGE_FOUND, RIIS_FIRST_PASSAGE_ALWAYS, &
     RIIS_FIRST_PASSAGE_NEVER, RIIS_FIRST_PASSAGE_NONE, RIIS_ALL_LEAFLETS
 

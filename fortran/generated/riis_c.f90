@@ -116,6 +116,7 @@ module riis_c
   integer(c_int32_t), parameter :: RIIS_OUTLINE_DISC = 1
   integer(c_int32_t), parameter :: RIIS_OUTLINE_ATTACHMENT = 2
   integer(c_int32_t), parameter :: RIIS_OUTLINE_BOUNDARY = 3
+  integer(c_int32_t), parameter :: RIIS_OUTLINE_WALL = 4
 
   integer(c_int32_t), parameter :: RIIS_ALL_LEAFLETS = -1
 
@@ -1629,6 +1630,19 @@ module riis_c
       integer(c_int64_t), value :: struct_size
       integer(riis_status) :: status
     end function riis_surface_get_orifice
+
+    !>   resistance   if left out: all defaults
+    !!   struct_size  c_sizeof(orifice)
+    function riis_surface_get_orifice_in_wall(surface, wall, resistance, orifice, struct_size) result(status) &
+        bind(c, name='riis_surface_get_orifice_in_wall')
+      import :: c_int64_t, c_ptr, riis_orifice, riis_resistance, riis_status
+      implicit none
+      type(c_ptr), value :: surface, wall
+      type(riis_resistance), intent(in), optional :: resistance
+      type(riis_orifice), intent(inout) :: orifice
+      integer(c_int64_t), value :: struct_size
+      integer(riis_status) :: status
+    end function riis_surface_get_orifice_in_wall
 
     !>   struct_size  c_sizeof(coaptation)
     function riis_surface_get_coaptation(surface, reach, leaflet_id, coaptation, struct_size) result(status) &

@@ -3856,6 +3856,49 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   outline = orifice%outline
 end subroutine riisf_surface_orifice
 
+!> Measures the orifice of a surface inside a wall. Errors: RIIS_INVALID_ARGUMENT for an argument out of range, and for a wall
+!! whose open edges do not surround a centre.
+subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, area, outline_area, perimeter, &
+    effective_area, outline, status)
+  use, intrinsic :: iso_c_binding, only: c_double, c_sizeof
+  use, intrinsic :: iso_fortran_env, only: int32, int64
+  use riis_support, only: c_handle_of
+  use riis_c, only: RIIS_OK, riis_orifice, riis_resistance, riis_resistance_init, riis_status, &
+      riis_surface_get_orifice_in_wall
+  implicit none
+  integer(int64), intent(in) :: surface                   !< Must be created.
+  integer(int64), intent(in) :: wall                      !< A ring or a tube in the same frame.
+  real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
+  integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline only axis and
+                                                          !! rim_reach differ from 0.
+  real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
+                                                          !! first moved inwards by a tenth of the half thickness, so that
+                                                          !! narrower slits do not count. Parts of the edge on the outline are
+                                                          !! walls and do not count.
+  real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
+                                                          !! edge along the triangles is moved inwards by rim_reach *
+                                                          !! half_thickness. To first order the result is area - rim_reach *
+                                                          !! half_thickness * perimeter. It is never below 0.
+  integer(int32), intent(inout) :: outline                !< RIIS_OUTLINE_*.
+  integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
+  type(riis_resistance) :: resistance
+  type(riis_orifice) :: orifice
+  status = riis_resistance_init(resistance, c_sizeof(resistance))
+  if (status /= RIIS_OK) return
+  resistance%half_thickness = half_thickness
+  resistance%rim = rim
+  status = riis_surface_get_orifice_in_wall(c_handle_of(surface), c_handle_of(wall), resistance, orifice, &
+      c_sizeof(orifice))
+  if (status /= RIIS_OK) return
+  area = orifice%area
+  outline_area = orifice%outline_area
+  perimeter = orifice%perimeter
+  effective_area = orifice%effective_area
+  outline = orifice%outline
+end subroutine riisf_surface_orifice_in_wall
+
 !> Measures the coaptation of leaflets: the area and the length of free edge that lie within reach of another leaflet. Errors:
 !! RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range.
 subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)

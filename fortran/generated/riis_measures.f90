@@ -14,7 +14,8 @@ module riis_measures
   use riis_marking, only: riis_marks
   implicit none
   private
-  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_coaptation, riis_get_gap, &
+  public :: riis_get_n_leaflets, riis_get_leaflet, riis_get_orifice, riis_get_orifice_in_wall, &
+    riis_get_coaptation, riis_get_gap, &
     riis_set_skirt_to_wall, riis_get_leak, riis_get_cells_across, riis_get_swept_volume, riis_find_first_passage
 
   !> Finds the opening at which a valve first leaves a passage through a mesh.
@@ -76,6 +77,25 @@ contains
     if (code == RIIS_OK) code = riis_surface_get_orifice(surface%c_handle(), made, orifice, c_sizeof(orifice))
     call finish(code, status)
   end subroutine riis_get_orifice
+
+  !> Measures the orifice inside a wall: a ring or a tube around leaflets that do not reach it. Errors: RIIS_INVALID_ARGUMENT for
+  !! an argument out of range, and for a wall whose open edges do not surround a centre.
+  subroutine riis_get_orifice_in_wall(surface, wall, orifice, half_thickness, rim, status)
+    class(riis_surface), intent(in) :: surface              !< Must be created.
+    class(riis_surface), intent(in) :: wall                 !< Must be created, in the same frame.
+    type(riis_orifice), intent(inout) :: orifice            !< Unchanged on an error.
+    real(c_double), intent(in), optional :: half_thickness  !< eps of the resistance. Default RIIS_AUTO: the surface's.
+    class(*), intent(in), optional :: rim                   !< integer, RIIS_RIM_*. Default RIIS_RIM_ROUND.
+    integer(riis_status), intent(out), optional :: status   !< RIIS_OK or the error. Without it an error stops the program.
+    type(riis_resistance) :: made
+    integer(riis_status) :: code
+    code = check_created(surface%c_handle(), 'the surface')
+    if (code == RIIS_OK) code = check_created(wall%c_handle(), 'the wall')
+    call get_resistance(half_thickness=half_thickness, rim=rim, made=made, code=code)
+    if (code == RIIS_OK) &
+      code = riis_surface_get_orifice_in_wall(surface%c_handle(), wall%c_handle(), made, orifice, c_sizeof(orifice))
+    call finish(code, status)
+  end subroutine riis_get_orifice_in_wall
 
   !> Measures the coaptation of leaflets: the area and the length of free edge that lie within reach of another leaflet. Errors:
   !! RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range.

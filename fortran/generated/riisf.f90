@@ -121,6 +121,7 @@ module riisf
   public :: riisf_surface_n_leaflets
   public :: riisf_surface_leaflet
   public :: riisf_surface_orifice
+  public :: riisf_surface_orifice_in_wall
   public :: riisf_surface_coaptation
   public :: riisf_surface_gap
   public :: riisf_valve_skirt_to_wall
@@ -1748,6 +1749,24 @@ module riisf
       integer(int32), intent(inout) :: outline
       integer(riis_status), intent(out) :: status
     end subroutine riisf_surface_orifice
+
+    subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, area, outline_area, perimeter, &
+        effective_area, outline, status)
+      use, intrinsic :: iso_c_binding, only: c_double
+      use, intrinsic :: iso_fortran_env, only: int32, int64
+      use riis_c, only: riis_status
+      implicit none
+      integer(int64), intent(in) :: surface
+      integer(int64), intent(in) :: wall
+      real(c_double), intent(in) :: half_thickness
+      integer(int32), intent(in) :: rim
+      real(c_double), intent(inout) :: area
+      real(c_double), intent(inout) :: outline_area
+      real(c_double), intent(inout) :: perimeter
+      real(c_double), intent(inout) :: effective_area
+      integer(int32), intent(inout) :: outline
+      integer(riis_status), intent(out) :: status
+    end subroutine riisf_surface_orifice_in_wall
 
     subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, status)
       use, intrinsic :: iso_c_binding, only: c_double

@@ -37,7 +37,8 @@ enum {
   RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
   RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: the farthest edges of the leaflets in all directions from the centre. These
                                  are the attachment, except where a free edge reaches farther */
-  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the farthest edges that only one triangle has */
+  RIIS_OUTLINE_BOUNDARY = 3,  /* a surface from arrays or keyframes: the farthest edges that only one triangle has */
+  RIIS_OUTLINE_WALL = 4       /* riis_surface_get_orifice_in_wall: the longest line of open edges of the wall */
 };
 /* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the vector
  * area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the normals of arrays and
@@ -65,6 +66,13 @@ typedef struct riis_orifice {
  *               stands for the defaults */
 RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                               riis_orifice *orifice, int64_t struct_size);
+/* Measures the orifice inside a wall: a ring or a tube around leaflets that do not reach it, such as those of a mechanical valve
+ * from arrays. The longest connected line of open edges of the wall gives the outline and the axis. The other arguments are as
+ * in riis_surface_get_orifice.
+ *   wall  in the frame of the surface. RIIS_INVALID_ARGUMENT if this line does not surround a centre */
+RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
+                                                      const riis_resistance *resistance, riis_orifice *orifice,
+                                                      int64_t struct_size);
 
 /* A value for an argument leaflet_id. */
 enum {

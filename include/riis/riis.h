@@ -147,6 +147,7 @@
  *   riis_surface_get_n_leaflets          the number of leaflets
  *   riis_surface_get_leaflet             area and free edge of a leaflet
  *   riis_surface_get_orifice             the open area
+ *   riis_surface_get_orifice_in_wall     the open area inside a ring or a tube
  *   riis_surface_get_coaptation          the area in which leaflets touch
  *   riis_surface_get_leak                the ideal leak of a closed surface
  *   riis_first_passage_options_init

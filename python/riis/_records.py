@@ -210,7 +210,7 @@ class Orifice(NamedTuple):
     half_thickness: float  #: eps
     radius: float  #: of the disc; 0 for other outlines
     axis: Reals  #: (3,)
-    outline: Literal["none", "disc", "attachment", "boundary"]
+    outline: Literal["none", "disc", "attachment", "boundary", "wall"]
 
 
 class Coaptation(NamedTuple):

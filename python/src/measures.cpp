@@ -23,12 +23,16 @@ nb::object leaflets(Surface &self) {
   return made;
 }
 
-nb::object orifice(Surface &self, nb::handle half_thickness, nb::handle rim) {
-  const Reading reading(self.usage, "surface");
+nb::object orifice(Surface &self, nb::handle half_thickness, nb::handle rim, nb::handle wall_) {
+  Surface &wall = wall_.is_none() ? self : object<Surface>(wall_, "wall");
+  const Reading reading(self.usage, "surface"), reading_wall(wall.usage, "wall");
   const riis_resistance model = resistance_of(nb::float_(0.0), half_thickness, rim);
   riis_orifice made;
-  call_library([&] { return riis_surface_get_orifice(self.handle, &model, &made, sizeof made); });
-  static const char *const outlines[] = {"none", "disc", "attachment", "boundary"};
+  call_library([&] {
+    if (&wall == &self) return riis_surface_get_orifice(self.handle, &model, &made, sizeof made);
+    return riis_surface_get_orifice_in_wall(self.handle, wall.handle, &model, &made, sizeof made);
+  });
+  static const char *const outlines[] = {"none", "disc", "attachment", "boundary", "wall"};
   return record("Orifice")(made.area, made.outline_area, made.perimeter, made.effective_area, made.rim_reach,
                            made.half_thickness, made.radius, array_of(made.axis, "float64"), outlines[made.outline]);
 }
@@ -155,14 +159,15 @@ void add_measures(nb::module_ &module) {
              nb::sig("def leaflets(self) -> list[riis._records.LeafletSizes]"),
              "Returns the sizes of each leaflet, ascending by leaflet_id.");
   add_method(module, "Surface", "orifice", &orifice, nb::kw_only(), nb::arg("half_thickness").none() = nb::none(),
-             nb::arg("rim").none() = "round",
-             nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
+             nb::arg("rim").none() = "round", nb::arg("wall").none() = nb::none(),
+             nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ", wall: Surface | None = None) -> riis._records.Orifice"),
              R"(Measures the orifice of a surface, the area that its triangles leave uncovered, seen along its axis.
 
 The outline of a surface from arrays or keyframes is that of its open edges.
 
 half_thickness  eps of the resistance; None: the surface's half thickness
-rim             'round' or 'cut', as in add_resistance)");
+rim             'round' or 'cut', as in add_resistance
+wall            a ring or a tube around leaflets that do not reach it; None: the leaflets' own edges are the outline)");
   add_method(module, "Surface", "coaptation", &coaptation, nb::arg("leaflet_id").none() = nb::none(), nb::kw_only(),
              nb::arg("reach").none() = nb::none(),
              nb::sig("def coaptation(self, leaflet_id: int | None = None, *, reach: float | None = None) -> "

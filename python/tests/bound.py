@@ -85,6 +85,7 @@ BOUND = {
     "riis_surface_get_n_leaflets": "Surface.leaflets",
     "riis_surface_get_leaflet": "Surface.leaflets",
     "riis_surface_get_orifice": "Surface.orifice",
+    "riis_surface_get_orifice_in_wall": "Surface.orifice",
     "riis_surface_get_coaptation": "Surface.coaptation",
     "riis_surface_get_gap": "Surface.gap",
     "riis_valve_set_skirt_to_wall": "Valve.skirt_to_wall",

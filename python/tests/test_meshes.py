@@ -129,6 +129,11 @@ def test_outlines_and_contacts_of_arrays():
     assert abs(contact.area - 2 * 0.08) < 1e-4 and contact.reach == 0.1
     assert abs(surface.coaptation(0, reach=0.1).area - 0.08) < 1e-4
     assert surface.coaptation(reach=0.01).area == 0
+    tall = numpy.array([[-1.0, -1, z] for z in (-1, 1)] + [[3.0, -1, z] for z in (-1, 1)])
+    wide = numpy.concatenate([tall, tall[2:] + [0, 3, 0], tall[:2] + [0, 3, 0]])
+    sides = numpy.array([[2 * i, 2 * i + 1, (2 * i + 3) % 8, (2 * i + 2) % 8] for i in range(4)])
+    inside = surface.orifice(wall=riis.Surface.from_arrays(wide, sides))
+    assert inside.outline == "wall" and abs(inside.outline_area - 12) < 1e-9 and abs(inside.area - 10) < 1e-2
 
 
 def test_what_a_valve_means_for_the_flow():

@@ -623,6 +623,7 @@ TEST(test_constants) {
   assert_int_equal(RIIS_OUTLINE_DISC, 1);
   assert_int_equal(RIIS_OUTLINE_ATTACHMENT, 2);
   assert_int_equal(RIIS_OUTLINE_BOUNDARY, 3);
+  assert_int_equal(RIIS_OUTLINE_WALL, 4);
   assert_int_equal(RIIS_FIRST_PASSAGE_FOUND, 0);
   assert_int_equal(RIIS_FIRST_PASSAGE_ALWAYS, 1);
   assert_int_equal(RIIS_FIRST_PASSAGE_NEVER, 2);
@@ -768,6 +769,8 @@ TEST(test_signatures) {
   SIGNATURE(riis_surface_get_leaflet, int32_t, (const riis_surface *, int64_t, riis_leaflet *, int64_t));
   SIGNATURE(riis_surface_get_orifice, int32_t,
             (const riis_surface *, const riis_resistance *, riis_orifice *, int64_t));
+  SIGNATURE(riis_surface_get_orifice_in_wall, int32_t,
+            (const riis_surface *, const riis_surface *, const riis_resistance *, riis_orifice *, int64_t));
   SIGNATURE(riis_surface_get_leak, int32_t, (const riis_surface *, const riis_resistance *, double, double *));
   SIGNATURE(riis_first_passage_options_init, int32_t, (riis_first_passage_options *, int64_t));
   SIGNATURE(riis_find_first_passage, int32_t,

@@ -562,7 +562,7 @@ C     valve, so flow passes even if the valve is closed.
       SUBROUTINE MEANS(MESH, RES)
       INTEGER NN
       PARAMETER (NN = 9261)
-      INTEGER*8 MESH, RES, VALVE, SURF
+      INTEGER*8 MESH, RES, VALVE, SURF, NONE
       INTEGER STAT, STATE, OUTL, FROM(1), TO(1)
       DOUBLE PRECISION AXIS(3), ZERO(3), A, DISC, P, EFF, FLOW, VOL
       DOUBLE PRECISION LEAST, MEAN, MOST, EDGE, AT, BEFORE
@@ -570,6 +570,7 @@ C     valve, so flow passes even if the valve is closed.
       INCLUDE 'riisf.h'
       VALVE = 0
       SURF = 0
+      NONE = 0
       CALL RIISF_CELLS_ACROSS(RES, MESH, LEAST, MEAN, MOST, EDGE, STAT)
       CALL OK(STAT)
       IF (LEAST .LE. 0D0 .OR. MEAN .LT. LEAST .OR. MOST .LT. MEAN .OR.
@@ -594,6 +595,9 @@ C     valve, so flow passes even if the valve is closed.
       CALL RIISF_SURFACE_ORIFICE(SURF, 0D0, RIIS_RIM_CUT, A, DISC, P,
      &  EFF, OUTL, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'half_thickness is 0')
+      CALL RIISF_SURFACE_ORIFICE_IN_WALL(SURF, NONE, RIIS_AUTO,
+     &  RIIS_RIM_CUT, A, DISC, P, EFF, OUTL, STAT)
+      CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'wall')
       CALL RIISF_SURFACE_COAPTATION(SURF, RIIS_AUTO, 5, A, P, STAT)
       CALL WANT(STAT, RIIS_INVALID_ARGUMENT, 'leaflet_id is 5')
       CALL RIISF_SURFACE_COAPTATION(SURF, RIIS_AUTO, 0, A, P, STAT)

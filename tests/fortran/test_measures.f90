@@ -83,6 +83,7 @@ contains
     type(riis_leaflet) :: leaflet
     type(riis_coaptation) :: contact
     type(riis_gap) :: gap
+    type(riis_orifice) :: orifice
     real(c_double) :: xyz(3, 8), length
     real(c_double), allocatable :: distance(:, :)
     integer :: ids(3, 8), i
@@ -106,6 +107,11 @@ contains
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the first extent of distance is 1')
     call riis_get_gap(wall, wall, gap, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'a gap needs a valve')
+    call riis_get_orifice_in_wall(surface, wall, orifice, rim=RIIS_RIM_CUT)
+    call check(orifice%outline == RIIS_OUTLINE_WALL .and. abs(orifice%outline_area - 18) < 1d-9 .and. &
+      orifice%area > 11 .and. orifice%area < 14, 'an orifice in a wall')
+    call riis_get_orifice_in_wall(surface, empty, orifice, status=status)
+    call check_refused(status, RIIS_INVALID_ARGUMENT, 'the wall was not created')
     call riis_get_gap(surface, empty, gap, status=status)
     call check_refused(status, RIIS_INVALID_ARGUMENT, 'the wall was not created')
     call riis_set_skirt_to_wall(valve, wall, 2d0, scale=1d0, rotation_axis=[0d0, 0d0, 1d0], rotation_angle=0d0, &

@@ -52,7 +52,11 @@ void read_orifice(Input &in, const riis_surface *surface, bool is_right) {
   const riis_resistance resistance = resistance_of(in);
   auto orifice = filled<riis_orifice>();
   const std::int64_t size = in.mostly<std::int64_t>(sizeof orifice);
+  const bool has_wall = in.one_in(3);
   const riis_status status = call(in, [&] {
+    if (has_wall)
+      return riis_surface_get_orifice_in_wall(surface, surface, in.one_in(2) ? &resistance : nullptr,
+                                              mostly(in, &orifice), size);
     return riis_surface_get_orifice(surface, in.one_in(2) ? &resistance : nullptr, mostly(in, &orifice), size);
   });
   if (status != RIIS_OK) {

@@ -184,6 +184,77 @@ TEST(rigid_leaflets_lack_their_disc) {
   assert_int_equal(orifice_of(surface_of_soup(&leaflets, 1, NULL)).outline, RIIS_OUTLINE_BOUNDARY);
 }
 
+/* Makes a tube around the z axis, from -length / 2 to length / 2. Its triangles run round as random numbers say. */
+static riis_surface *tube_of(double radius, double length, const riis_surface_options *placed) {
+  enum { n_round = 512 };
+  const double pi = 3.14159265358979323846;
+  double *xyz = own(malloc(6 * n_round * sizeof *xyz));
+  int32_t *ids = own(malloc(6 * n_round * sizeof *ids));
+  for (int i = 0; i < 2 * n_round; ++i) {
+    xyz[3 * i] = radius * cos(2 * pi * (i / 2) / n_round), xyz[3 * i + 1] = radius * sin(2 * pi * (i / 2) / n_round);
+    xyz[3 * i + 2] = (i % 2 - 0.5) * length;
+    const int32_t corner[3] = {i, (i + 1) % (2 * n_round), (i + 2) % (2 * n_round)};
+    const int is_turned = between(0, 1) < 0.5;
+    for (int k = 0; k < 3; ++k) ids[3 * i + k] = corner[is_turned && k ? 3 - k : k];
+  }
+  const riis_surface_arrays arrays = triangle_arrays(2 * n_round, xyz, 2 * n_round, ids);
+  return surface_from(&arrays, placed);
+}
+
+/* A ring or a tube with the radius of the housing stands for the disc that a file of rigid leaflets lacks. */
+TEST(a_wall_bounds_the_orifice_of_rigid_leaflets) {
+  riis_valve *valve = new_valve("bileaflet");
+  CHECK_OK(riis_valve_set_scalar(valve, "opening", 1));
+  const double most = orifice_of(new_surface(valve, NULL)).area;
+  for (int opening = 0; opening < n_openings; ++opening) {
+    const int owned_before = n_owned();
+    CHECK_OK(riis_valve_set_scalar(valve, "opening", (double)opening / (n_openings - 1)));
+    const riis_surface *of_valve = new_surface(valve, NULL);
+    const riis_orifice expected = orifice_of(of_valve);
+    const soup leaflets = copy_of(of_valve);
+    riis_surface_options placed = surface_options();
+    const double s = placed.scale = pow(10, between(-2, 2));
+    for (int c = 0; c < 3; ++c)
+      placed.rotation_axis[c] = between(-1, 1) + (c == 0 ? 2 : 0), placed.translation[c] = s * between(-3, 3);
+    placed.rotation_angle = between(-180, 180);
+    const riis_surface *file = surface_of_soup(&leaflets, 1, &placed);
+    const double length = expected.radius * pow(10, between(-1, 1));
+    const riis_surface *wall = tube_of(expected.radius, length, &placed);
+    riis_orifice found, of_closed;
+    CHECK_OK(riis_surface_get_orifice_in_wall(file, wall, NULL, &found, sizeof found));
+    printf("bileaflet at %d/8 in a tube of length %.3f: %.4f, the valve's %.4f\n", opening, length,
+           found.area / (s * s), expected.area);
+    assert_int_equal(found.outline, RIIS_OUTLINE_WALL);
+    CHECK_NEAR(found.area / (s * s), expected.area, 0.005 * most);
+    CHECK_NEAR(found.outline_area / (s * s), expected.outline_area, 1e-3 * expected.outline_area);
+    /* The axis of a valve has the side of its z axis. */
+    placed.half_thickness = 0.1 * s;
+    CHECK_OK(riis_surface_get_orifice_in_wall(new_surface(valve, &placed), wall, NULL, &of_closed, sizeof of_closed));
+    CHECK_NEAR(of_closed.area, found.area, 0.005 * most * s * s);
+    const riis_orifice of_placed = orifice_of(new_surface(valve, &placed));
+    for (int c = 0; c < 3; ++c) CHECK_NEAR(of_closed.axis[c], of_placed.axis[c], 1e-6);
+    free_owned_after(owned_before);
+  }
+}
+
+TEST(a_wall_without_an_outline_is_refused) {
+  riis_valve *valve = new_valve("bileaflet");
+  CHECK_OK(riis_valve_set_scalar(valve, "ring_height", 0.4));
+  const riis_surface *surface = new_surface(valve, NULL);
+  const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const int32_t ids[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+  const riis_surface_arrays closed = triangle_arrays(4, xyz, 4, ids);
+  riis_orifice orifice;
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall has no outline: its open edges do not surround a centre",
+                riis_surface_get_orifice_in_wall(surface, surface_from(&closed, NULL), NULL, &orifice, sizeof orifice));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "wall is NULL",
+                riis_surface_get_orifice_in_wall(surface, NULL, NULL, &orifice, sizeof orifice));
+  CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "surface is NULL",
+                riis_surface_get_orifice_in_wall(NULL, surface, NULL, &orifice, sizeof orifice));
+  CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "orifice is 8",
+                riis_surface_get_orifice_in_wall(surface, surface, NULL, &orifice, 8));
+}
+
 int main(void) {
   rng = random_start("test_parted_leaflets");
   return run_cases(NULL, NULL);

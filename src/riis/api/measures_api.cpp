@@ -37,11 +37,17 @@ riis_resistance resistance_for(const riis_resistance *resistance, const riis::Su
   return whole;
 }
 
-riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &resistance) {
+// `wall` is null, or bounds the orifice.
+riis_orifice orifice_of(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance &resistance) {
   const double c = resistance.rim == RIIS_RIM_CUT ? riis::rim_reach_cut : riis::rim_reach_round;
   const double eps = resistance.half_thickness;
+  const riis::OrificeLimits limits{c * eps, 0.1 * eps};
   const riis::SourceValve *source = surface.source() ? &*surface.source() : nullptr;
-  const riis::Orifice found = riis::measure_orifice(surface.triangles(), source, {c * eps, 0.1 * eps});
+  const riis::TriangleSet &set = surface.triangles();
+  const riis::Orifice found = wall ? riis::measure_orifice_in_wall(set, source, wall->triangles(), limits)
+                                   : riis::measure_orifice(set, source, limits);
+  if (wall && found.outline == RIIS_OUTLINE_NONE)
+    riis::fail(RIIS_INVALID_ARGUMENT, "wall has no outline: its open edges do not surround a centre");
   const double radius = found.outline == RIIS_OUTLINE_DISC ? source->placement.scale * source->disc.radius : 0;
   return {found.area,
           found.outline_area,
@@ -167,14 +173,30 @@ riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leafle
   });
 }
 
+namespace {
+
+void write_orifice(const riis::Surface &surface, const riis::Surface *wall, const riis_resistance *resistance,
+                   riis_orifice *orifice, int64_t struct_size) {
+  const riis_resistance whole = resistance_for(resistance, surface);
+  riis::check_struct_size<riis_orifice>(struct_size, "orifice");
+  require(orifice, "orifice");
+  riis::write_struct(orifice, struct_size, "orifice", orifice_of(surface, wall, whole));
+}
+
+}  // namespace
+
 riis_status riis_surface_get_orifice(const riis_surface *surface, const riis_resistance *resistance,
                                      riis_orifice *orifice, int64_t struct_size) {
+  return guarded([&] { write_orifice(riis::content_of(surface), nullptr, resistance, orifice, struct_size); });
+}
+
+riis_status riis_surface_get_orifice_in_wall(const riis_surface *surface, const riis_surface *wall,
+                                             const riis_resistance *resistance, riis_orifice *orifice,
+                                             int64_t struct_size) {
   return guarded([&] {
     const riis::Surface &content = riis::content_of(surface);
-    const riis_resistance whole = resistance_for(resistance, content);
-    riis::check_struct_size<riis_orifice>(struct_size, "orifice");
-    require(orifice, "orifice");
-    riis::write_struct(orifice, struct_size, "orifice", orifice_of(content, whole));
+    const riis::Surface &of_wall = require_handle(wall, "wall")->updatable.surface();
+    write_orifice(content, &of_wall, resistance, orifice, struct_size);
   });
 }
 

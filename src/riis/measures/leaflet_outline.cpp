@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/array_view.hpp"
+#include "common/sets.hpp"
 #include "landmarks/fit.hpp"
 #include "scene/edges.hpp"
 #include "scene/pseudonormals.hpp"
@@ -109,6 +110,22 @@ LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt)
   }
   for (const OpenEdge &edge : open_edges(set, false))
     boundary.edges.push_back({set.vertex(edge.from), set.vertex(edge.to), view(piece)[edge.triangle]});
+  return boundary;
+}
+
+LeafletBoundary boundary_of_wall(const TriangleSet &wall) {
+  const std::vector<OpenEdge> edges = open_edges(wall, false);
+  DisjointSets lines(wall.n_vertices());
+  for (const OpenEdge &edge : edges) lines.unite(edge.from, edge.to);
+  const auto length_of = [&](const OpenEdge &edge) { return distance(wall.vertex(edge.from), wall.vertex(edge.to)); };
+  std::map<std::int64_t, double> length;
+  for (const OpenEdge &edge : edges) length[lines.root(edge.from)] += length_of(edge);
+  const auto longest =
+      std::max_element(length.begin(), length.end(), [](const auto &a, const auto &b) { return a.second < b.second; });
+  LeafletBoundary boundary{{}, {{0, 0, 0}}, {0, 0, 0}};
+  for (const OpenEdge &edge : edges)
+    if (lines.root(edge.from) == longest->first)
+      boundary.edges.push_back({wall.vertex(edge.from), wall.vertex(edge.to), 0});
   return boundary;
 }
 

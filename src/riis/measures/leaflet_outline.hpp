@@ -52,6 +52,9 @@ struct LeafletBoundary {
 // Returns the sides of the patches that bound leaflets, without the leaflet `skirt`, or the open edges of triangles from arrays.
 LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt);
 
+// Returns the longest connected line of open edges of a wall, as a boundary without centroids and normal.
+LeafletBoundary boundary_of_wall(const TriangleSet &wall);
+
 // An outline with the axis along which it is seen.
 struct SeenOutline {
   AlongAxis seen;

@@ -47,6 +47,9 @@ struct OrificeLimits {
 
 // Measures the orifice. `source` is null for triangles from arrays, whose longest boundary is the outline.
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
+// Measures the orifice inside the outline of a wall. The wall's own triangles cover nothing.
+Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
+                                const OrificeLimits &limits);
 
 // The coaptation of leaflets: the parts of them that lie within a distance of another leaflet.
 // In: triangles, free edges, a distance. Out: areas and lengths.

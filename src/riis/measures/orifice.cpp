@@ -57,4 +57,15 @@ Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const
   return measured(set, *seen, source ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_BOUNDARY, skirt, limits);
 }
 
+Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
+                                const OrificeLimits &limits) {
+  const std::int32_t skirt = source ? source->skirt : -1;
+  LeafletBoundary boundary = boundary_of_wall(wall);
+  // The wall's normals say nothing about the side of the valve.
+  boundary.normal = source ? source->placement.rotation * source->disc.axis : boundary_of_leaflets(set, skirt).normal;
+  const std::optional<SeenOutline> seen = outline_of_leaflets(boundary, std::nullopt);
+  if (!seen) return {0, 0, 0, 0, {0, 0, 0}, RIIS_OUTLINE_NONE};
+  return measured(set, *seen, RIIS_OUTLINE_WALL, skirt, limits);
+}
+
 }  // namespace riis
