@@ -16,10 +16,10 @@ extern "C" {
 
 /* A leaflet of a surface. Lengths are in mesh units. */
 typedef struct riis_leaflet {
-  int64_t n_triangles; /* the number of its triangles that answer queries */
+  int64_t n_triangles; /* the number of its triangles, without those of zero area */
   double area;         /* the area of its triangles */
-  double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. For a surface
-                          from arrays: the edges that only one of its triangles has, without the outline of
+  double free_edge;    /* the length of its free edge, which consists of the sides v = 1 of only one of its patches.
+                          For a surface from arrays: the edges of only one of its triangles, without the outline of
                           riis_orifice. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
@@ -33,29 +33,29 @@ RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64
 
 /* The outline of an orifice. */
 enum {
-  RIIS_OUTLINE_NONE = 0,      /* there is no disc, and the outline encloses no area. The outline of a valve is the sides
-                                 v = 0 of only one patch. The outline of arrays or keyframes is their open edges */
+  RIIS_OUTLINE_NONE = 0,      /* there is no outline, so it encloses no area. The outline of a valve consists of the sides v = 0
+                                 of only one patch. The outline of arrays or keyframes consists of their open edges */
   RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (three cusps) or radius (bileaflet) about the axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
-  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges that only one
-                                 triangle has */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* the sides v = 0 of only one patch: the annulus of the mitral valve */
+  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges of only one
+                                 triangle */
 };
-/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a valve
- * is its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the outline, towards
+/* The orifice of a surface: the part of the outline's area that no triangle covers, seen along an axis. The axis of a valve is
+ * its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the outline, towards
  * the side to which normals point. Lengths are in mesh units (docs/theory/measures.md). */
 typedef struct riis_orifice {
-  double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
+  double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
   double outline_area;   /* the area inside the outline */
-  double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by
-                            a tenth of the half thickness, so that narrower slits do not count. Parts of the edge
-                            on the outline are walls and do not count */
+  double perimeter;      /* the length of the orifice's edge along the triangles. Before that, the edge moves
+                            inwards by a tenth of the half thickness, so narrower slits do not count. Parts of the
+                            edge on the outline are walls and do not count */
   double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
   double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
                             to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
   double half_thickness; /* eps of the resistance */
-  double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
+  double radius;         /* the radius of the disc, or of a circle with the area of a warped disc; 0 for other outlines */
   double axis[3];        /* unit vector; for a warped disc its normal; 0 for arrays and keyframes without an outline */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
@@ -70,9 +70,9 @@ RIIS_API riis_status riis_surface_get_orifice(const riis_surface *surface, const
 enum {
   RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
 };
-/* The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units. */
+/* The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units. */
 typedef struct riis_coaptation {
-  double area;  /* the area of the points of the leaflet's triangles that lie within reach of another leaflet */
+  double area;  /* the area of the leaflet's triangles within reach of another leaflet */
   double edge;  /* the length of the part of its free edge (riis_leaflet) within reach of another leaflet */
   double reach; /* the distance within which leaflets touch */
 } riis_coaptation;
@@ -81,8 +81,8 @@ typedef struct riis_coaptation {
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
  * The error of an area is at most 1e-3 times the contact's outline times reach (docs/theory/measures.md). The extent of
- * a surface is the diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent
- * are lost.
+ * a surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the
+ * extent.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);
@@ -128,8 +128,8 @@ typedef struct riis_first_passage {
  *   mesh   must have an adjacency, and need not have been marked
  *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
  * The call tries 0, 1/8, 2/8, ... until a passage is open. It then halves the last step until opening and closed_opening
- * differ by at most the tolerance. A passage may close again as the valve opens further. So the call may miss a passage that
- * ends before the next multiple of 1/8.
+ * differ by at most the tolerance. A valve may close a passage again as it opens further. So the call may miss a passage
+ * that ends before the next multiple of 1/8.
  * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
  * valve with only one state. */
 RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,
