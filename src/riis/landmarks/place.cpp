@@ -119,8 +119,8 @@ Vector<AttachmentPart> attachment_of(Valve valve) {
   return parts;
 }
 
-// Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing if the
-// cusp has no attachment, or if no distance is finite.
+// Returns the point of the attachment whose image by the map is nearest to `wanted`. If the landmark names a cusp, only this
+// cusp counts. Returns nothing if the cusp has no attachment, or if no distance is finite.
 std::optional<Vec3> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
                                std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
@@ -146,7 +146,8 @@ std::optional<Vec3> nearest_on(const Vector<AttachmentPart> &parts, const WarpMa
 }
 
 // Finds the places of the landmarks along the attachment. The warp of all landmarks takes each place as near to its landmark as
-// any point of the attachment. `places` has the places of the other landmarks. `local` has the landmarks in the valve's frame.
+// it takes any point of the attachment. `places` has the places of the other landmarks. `local` has the landmarks in the valve's
+// frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   const std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
@@ -186,7 +187,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that the landmarks gave, because the others follow.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the others
+// follow from them.
 void check_sizes(const Valve &valve, const std::vector<FittedSize> &sizes) {
   try {
     valve.make_patches();
@@ -226,7 +228,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
-  // Lengths that follow from others by a rule of the valve grow with these.
+  // Lengths that follow from others by a rule of the valve grow with those lengths.
   for (const ParameterSpec &spec : specs) {
     if (!grows(spec) || (spec.rule.value && !valve.is_set(spec.name))) continue;
     double values[3] = {0, 0, 0};
