@@ -20,8 +20,8 @@ struct PatchSides {
 // A line of the grid. If the parameters of two vertices on opposite sides nearly agree, they share a line, so no sliver quads
 // arise. Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
 struct GridLine {
-  double t0, t1;  // the line's parameters on the first and the second of its two sides
-  double middle;  // the mean of both, which is the line's u (or v) in the grid
+  double t0, t1;                                // the line's parameters on the first and the second of its two sides
+  double middle;                                // the mean of both, which is the line's u (or v) in the grid
   bool is_vertex0 = false, is_vertex1 = false;  // whether the line ends on a vertex of that side
 };
 
@@ -51,8 +51,7 @@ struct QuadGrid {
 // Vectors on the four sides of a patch, one for each end of a grid line.
 struct SideVectors {
   Vector<Vec3> v0, v1;  // vectors at the ends of the lines u
-  Vector<Vec3> u0, u1;  // vectors at the ends of the lines v; the first and the last line are not read, because they end at
-                        // corners
+  Vector<Vec3> u0, u1;  // vectors at the ends of the lines v; the first and the last, at corners, are not read
 };
 
 // Returns the Coons combination of vectors on the sides, which may be points or displacements. The order is that of

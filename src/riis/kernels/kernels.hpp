@@ -125,8 +125,7 @@ struct ClusterTask {
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
   float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
-  float limit[nodes_per_cluster];        // the square of the distance within which a group concerns the node, or -1 if no group
-                                         // is within reach
+  float limit[nodes_per_cluster];        // the square of the distance up to which groups are near, or -1 if none is
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 

@@ -91,8 +91,7 @@ struct Pose {
 struct LandmarkFit {
   Pose pose;
   std::vector<double> residuals;  // the length of each landmark's longest offset, in centimetres
-  std::vector<Vec3> places;       // places of the landmarks on the valve, in its frame; the mean if a landmark has several
-                                  // offsets
+  std::vector<Vec3> places;       // places of the landmarks on the valve, in its frame; the mean for several offsets
   double noise;                   // the noise from which the standard errors follow, in centimetres
   double rotation_error;          // degrees
   double position_error;          // standard error of the landmarks' mean, in centimetres

@@ -133,7 +133,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
         }
         if (is_level || moved <= negligible_step * size) return {true, cost};
       }
-      if (damping > 1e12) return {true, cost};  // not even a tiny step downhill lowers the cost, so only rounding is left
+      if (damping > 1e12) return {true, cost};  // no tiny step downhill lowers the cost, so only rounding is left
     }
   }
   return {false, cost};

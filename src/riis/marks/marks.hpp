@@ -154,7 +154,7 @@ struct OrderScratch {
   };
   std::vector<List> lists;
   std::int64_t n_lists = 0;      // the number of lists with nodes, which come first
-  std::vector<Counts> first;     // the first position of each bin in each result, and at the end the sizes of both results
+  std::vector<Counts> first;     // each bin's first position in each result, then the sizes of both results
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 
@@ -193,7 +193,7 @@ struct ListedNodes {
 
 struct Marks {
   ListedNodes within;       // nodes within the distance limit
-  ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` contains these nodes
+  ListedNodes marked;       // used only if the limit is wider than the half thickness; otherwise `within` has them
   bool was_marked = false;  // false until the first marking
   WantedData data;          // the data of the last marking
   bool limit_is_wider = false;

@@ -173,7 +173,7 @@ struct CellsOfOneShape {
 // The lists of cells of any shapes. An entry is a cell.
 template <class Id>
 struct CellsOfAnyShape {
-  static constexpr std::int64_t most_neighbors = 7;  // a node that a cell lists twice may be joined to all its other nodes
+  static constexpr std::int64_t most_neighbors = 7;  // a node listed twice in a cell may be joined to all other nodes
 
   explicit CellsOfAnyShape(const Cells<Id> &cells)
       : nodes(cells.nodes()), n_nodes(cells.n_nodes()), n_items(cells.n_cells()) {}

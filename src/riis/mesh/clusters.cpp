@@ -47,7 +47,7 @@ void ask_for_large_pages(void *memory, std::size_t n_bytes) {
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t begin = (address + size - 1) / size * size, end = (address + n_bytes) / size * size;
   if (begin < end)
-    madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);  // a system without large pages refuses the request
+    madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);  // a system without large pages refuses
 #else
   static_cast<void>(memory), static_cast<void>(n_bytes);
 #endif

@@ -249,7 +249,7 @@ class NodeSorter {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
     std::sort(side, side + 3);
-    const float middle = side[1] / side[2], least = side[0] / side[2];  // these are not numbers if all nodes are in one place
+    const float middle = side[1] / side[2], least = side[0] / side[2];  // not numbers if all nodes are in one place
     float edge = 1 / n_leaves;                                          // as a share of the longest side
     if (middle > edge) edge = std::sqrt(middle / n_leaves);
     if (least > edge) edge = std::cbrt(middle * least / n_leaves);

@@ -47,7 +47,7 @@ struct ValveAccuracy {
   double triangle_error;
   std::int32_t measure;   // RIIS_MEASURE_*
   double distance_error;  // unused if triangles measure distances
-  bool is_fixed;          // true for RIIS_TRIANGULATION_FIXED; otherwise the triangles are as large as the present opening allows
+  bool is_fixed;          // RIIS_TRIANGULATION_FIXED; otherwise triangles are as large as the present opening allows
 };
 
 // An earlier state of a valve, from which the surface gets its velocity.

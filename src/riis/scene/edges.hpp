@@ -48,7 +48,7 @@ std::vector<SideLine> attached_sides(const TriangleSet &set);
 // Edges of length 0 are left out.
 struct Attachment {
   std::vector<double> edges;     // (3, 2, n_edges)
-  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt at both ends, of length 1, or 0 without one
+  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt at both ends, of length 1, or 0 for none
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)
   std::vector<std::int32_t> leaflet_id;  // (n_edges)
   std::vector<std::int32_t> patch_id;    // (n_edges)
