@@ -601,11 +601,11 @@ def plot_peers(data, path):
 
 
 PLOTS = (
-    ("searches", plot_searches, "Seconds of a marking by nodes, the paper's and those here, on one thread"),
+    ("searches", plot_searches, "Seconds of a marking by number of nodes on one thread: the paper's times and these"),
     (
         "threads",
         plot_threads,
-        "How many times faster than one thread, the paper's searches and those here; shaded: more threads than processors",
+        "Speedup over one thread: the paper's searches and these; shaded: more threads than processors",
     ),
     ("peers", plot_peers, "Milliseconds of each peer for the same nodes"),
 )

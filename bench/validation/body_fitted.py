@@ -293,8 +293,8 @@ def compare(valve, opening, runs, solids, folder):
         rows.append({"id": f"bodyfit_{valve}_{opening:g}_{rim}_line",
                      "quantity": f"{what}: effective area on a line through all ε, at ε = 0, cm²", **common,
                      "deviation": round(float(at_zero / body - 1), 4), "bar": LINE_BAR if opening == 1 else None,
-                     "note": f"A − c ε P with P = {perimeter:.2f} cm: c {c_line:.2f} of the line, {min(c_each):.2f} to"
-                             f" {max(c_each):.2f} of single ε; over the discharge coefficient"
+                     "note": f"A − c ε P with P = {perimeter:.2f} cm: c is {c_line:.2f} on the line and {min(c_each):.2f} to"
+                             f" {max(c_each):.2f} at single ε; divided by the discharge coefficient"
                              f" {c_line * geometric / body:.2f}{others}"})
         rows += solid_row(what, [one for one in three if one.eps in solids], solids)
     shown = [one for one in chosen(obstacles) if one.rim == "round"]
@@ -376,7 +376,7 @@ def blood(folder, runs):
         "solver": SOLVER.replace("simpleFoam", "pimpleFoam"),
         "grids": [place(run, area) for run, area in sorted(rows, key=lambda one: -one[0].eps)],
         "order": None, "extrapolated": round(float(at_zero), 4), "deviation": round(float(at_zero / walls - 1), 4), "bar": None,
-        "note": "means over 0.06 s; planes of symmetry hold a quarter, so fluctuations across them are missing"}]
+        "note": "means over 0.06 s in a quarter of the valve; fluctuations across its planes of symmetry are missing"}]
 
 
 def main(folder):
