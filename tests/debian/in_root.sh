@@ -64,8 +64,7 @@ find_mirror() {
   [[ $mirror ]] || return 0
 
   file=${entry%:*} line=${entry##*:}
-  [[ $file == *.sources ]] && line='1,$' # in these files, stanzas are numbered instead of lines, and all stanzas share the file's
-  key
+  [[ $file == *.sources ]] && line='1,$' # in these files the number counts stanzas, which share the file's key
   local signed_by
   signed_by=$(sed -n "${line}p" -- "$file" | grep -v '^ *#' | grep -ioPm1 'signed-by\s*[:=]\s*\K/[^], ]+' || true)
   keyring=${signed_by:-$keyring}
