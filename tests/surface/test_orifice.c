@@ -68,12 +68,12 @@ static double squared_distance_to(const double *p, const double corner[3][2]) {
 }
 
 /* The area of the orifice in a disc is compared with the share of points that no triangle covers. The effective area is compared
- * with the share of points that are also not near a triangle. */
+ * with the share of points that, in addition, are not near a triangle. */
 TEST(areas_are_counts_of_points) {
   enum { n_side = 121 };
   for (int trial = 0; trial < n_trials(); ++trial) {
     const int kind = trial % n_kinds;
-    if (kind == 1) continue; /* the outline is no disc */
+    if (kind == 1) continue; /* the outline is not a disc */
     riis_surface_options options = surface_options();
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
     const riis_surface *surface = new_surface(valve_at(kind, between(0.3, 1)), &options);
@@ -85,7 +85,7 @@ TEST(areas_are_counts_of_points) {
     int n_uncovered = 0, n_far = 0;
     for (int i = 0; i < n_side * n_side; ++i) {
       const double x = (2 * (i % n_side) + 1.0) / n_side - 1, y = (2 * (i / n_side) + 1.0) / n_side - 1;
-      /* The points are turned, so that no straight edge is parallel to their rows. */
+      /* The points are turned, so no straight edge is parallel to their rows. */
       const double p[2] = {found.radius * (0.8 * x - 0.6 * y), found.radius * (0.6 * x + 0.8 * y)};
       if (hypot(x, y) > 1) continue;
       double nearest = INFINITY;
@@ -119,8 +119,8 @@ static double meets(double ax, double ay, double bx, double by) {
   return (ay >= 0) == (by >= 0) ? NAN : ax + (bx - ax) * ay / (ay - by);
 }
 
-/* Returns the area of the orifice by lines at an angle to the axes. The lengths count that lie inside the outline and under no
- * triangle. A radius of 0 stands for the attachment as the outline. */
+/* Returns the area of the orifice by lines at an angle to the axes. Only lengths inside the outline and under no triangle
+ * count. A radius of 0 means that the attachment is the outline. */
 static double area_by_turned_lines(const riis_surface *surface, double radius) {
   enum { n_lines = 1500 };
   const double c = cos(0.37), s = sin(0.37), reach = radius > 0 ? radius : 3, spacing = 2 * reach / n_lines;
@@ -180,8 +180,8 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
   return area;
 }
 
-/* Orifices are compared with the results of turned lines. They must also stay within 0.1 % of the numbers that the program
- * measured before the library did. */
+/* Orifices are compared with the results of turned lines. They must also stay within 0.1 % of earlier results of the
+ * program. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
   static const double before[n_kinds][5] = {{0.885854, 1.550407, 2.278302, 3.061292, 3.887267},
@@ -205,7 +205,7 @@ TEST(orifices_are_those_of_turned_lines) {
   }
 }
 
-/* If the edge moves inwards, the area shrinks by the distance times the perimeter. */
+/* If the edge moves inwards, the area decreases by the distance times the perimeter. */
 TEST(perimeters_are_derivatives_of_areas) {
   for (int trial = 0; trial < n_trials(); ++trial) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);
