@@ -40,7 +40,7 @@ def outline(valve, opening, n=200001):
         x, y_arc = edge + q * radius * numpy.cos(angle), radius * numpy.sin(angle)
         covered = numpy.trapz(arc - edge, y)
         length = top + _length_inside(x, y_arc, radius)
-    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside it
+    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside this parabola
         y_end = 1.1 * 1.25 * numpy.sin(numpy.pi / 3)
         y = numpy.linspace(0, y_end, n)
         x = 1.0 + (1.1 * 1.25 * numpy.cos(numpy.pi / 3) - 1.0) * (y / y_end) ** 2
@@ -82,7 +82,7 @@ class Run:
         self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
         self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
         out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
-        # The mesh has polygons in place of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
+        # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
         if abs(out / self.flow - 1) > 0.03:
             raise SystemExit(f"{folder}: {out} ml/s leave the tube, and {self.flow} enter it")
         self.flow = out
@@ -128,7 +128,8 @@ def line(eps, area):
 
 
 def far_from(points, triangles):
-    """Returns the largest distance of a point from the triangles. Points are few, so each is compared with each triangle."""
+    """Returns the largest distance of a point from the triangles. There are few points, so each is compared with each
+    triangle."""
     a, b, c = (triangles[:, k] for k in range(3))
     largest = 0.0
     for point in points:
@@ -254,7 +255,7 @@ def compare(valve, opening, runs, solids, folder):
               f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %  {c_of(run):>5.3f}")
     rows = []
     for rim in ("round", "cut"):
-        # Only the largest half thickness was also run with other edges and other resistances.
+        # Other edges and other resistances were only run with the largest half thickness.
         first = [one for one in obstacles if one.rim == rim and one.eps == max(other.eps for other in obstacles)]
         others = ""
         for words, some in (("edges", [one for one in first if one.resistance == 1e3]),

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the rows of ./run validate. A row compares a computed value with a reference.
 
-A row is one JSON object with the fields below. bench/validation/all.json also has rows, of solvers that take hours. They stand
-under "rows", and "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
-  id            unique word, which the page's prose may name
+A row is one JSON object with the fields below. bench/validation/all.json also has rows, from solvers that take hours. They
+are under "rows". "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
+  id            unique word, which the page's prose may use
   group         stokes, closed, jets, bodyfit or clinical: the page's section
   quantity      text
   reference     number, or null for a row that only shows a trend
@@ -101,7 +101,7 @@ def stokes_tasks(variant):
     return tasks
 
 
-FACTORS = (1.0, 1e-2, 1e-4)  # R over the resistance of the examples
+FACTORS = (1.0, 1e-2, 1e-4)  # R divided by the resistance of the examples
 
 
 def resistance_tasks(variant):
@@ -306,7 +306,7 @@ def jet_rows(variant, results):
 
 
 def picture(result):
-    """Returns the fields near the slit that the plot of a jet shows: the speed, and the stream function over the flow."""
+    """Returns the fields near the slit that the plot of a jet shows: the speed, and the stream function divided by the flow."""
     x, y = result["x"], result["y"]
     near = np.abs(x - jets.B) < 3 * jets.B
     low = y < 3 * jets.B
