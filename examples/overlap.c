@@ -124,7 +124,7 @@ typedef struct {
   int64_t *node_id, n_listed;        /* the nodes of the last upload */
 } solver;
 
-/* Uploads a list: 40 bytes for each marked node, and the ids of the last list become 0 first. A GPU does both in one kernel. */
+/* First sets the nodes of the last list to 0, then uploads a list, 40 bytes for each node. A GPU does both in one kernel. */
 static void upload(solver *flow, const riis_mark_list *list) {
   for (int64_t i = 0; i < flow->n_listed; ++i) flow->K[flow->node_id[i]] = flow->K_u_surface[flow->node_id[i]] = 0;
   for (int64_t i = 0; i < list->n_nodes; ++i) {

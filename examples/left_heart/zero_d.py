@@ -100,8 +100,8 @@ class Valve:
     def pushed(self):
         """Returns the flow that the leaflets displace in the step.
 
-        OpenFOAM takes the leaflets' flow as a mean over the step, and their place from the end of the step. So the openings
-        lag by half a time step in space (write_tables).
+        OpenFOAM takes the leaflets' flow as a mean over the step, and their place from the end of the step. So in
+        space, the openings lag by half a time step (write_tables).
         """
         now = self.opening()
         self.lagged.append(now)

@@ -85,7 +85,7 @@ RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, i
  *   types       (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted
  *   n_node_ids  the last offset; 0 if node_ids is NULL
  *   node_ids    (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once
- * Errors: RIIS_INVALID_ARGUMENT for numbers that are not the mesh's, and for a mesh of centres. */
+ * Errors: RIIS_INVALID_ARGUMENT for n_cells or n_node_ids of another mesh, and for a mesh of centres. */
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 

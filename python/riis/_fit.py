@@ -320,8 +320,8 @@ def fit(
                surface, or 1 for other points
     True: the points cover the whole valve about evenly, so a surface that extends beyond them is penalized. False: the
                points cover a part of it, and nothing pulls back an edge that extends beyond them
-    n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
-               random values within the bounds and, if start has no rotation, any rotation. The starts end when two of them have
+    n_starts   the largest number of starts; None: 20. The first start has the given values. The others, by seed, have
+               random values within the bounds, and a random rotation if start has none. The starts end when two of them have
                reached the best fit. There are at least four starts, or eight for a part of a valve. If this fit has doubts that
                a wrong result would explain, the other starts follow
     seed       the seed of the random starts

@@ -404,7 +404,7 @@ class Problem:
 
     def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None,
                   random: numpy.random.Generator | None) -> tuple[float, Pose] | None:
-        """Turns the base by each rotation, and returns the pose that is closest to the points, and their mean loss there.
+        """Turns the base by each rotation, and returns the mean loss and the pose that is closest to the points.
         Returns None if the values do not fit together.
 
         middle  a position for the middle of the surface; None keeps the translation

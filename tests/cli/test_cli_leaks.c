@@ -82,7 +82,7 @@ static void expect_advice(const char *name, const char *kind) {
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
   /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about this comes first, and
-   * only it contains advice. */
+   * no other warning contains advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");

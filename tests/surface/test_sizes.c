@@ -354,7 +354,7 @@ TEST(all_values_are_set_when_read_back) {
   CHECK_SAME(value_of(back, "bending_height"), value_of(valve, "bending_height"));
 }
 
-/* An open state keeps the values that followed a rule when it was given, as if all were set. */
+/* An open state keeps the values that its rules gave at the call, as if all values were set. */
 TEST(open_states_follow_their_own_rules) {
   riis_valve *valves[2], *open = new_valve("trileaflet"), *all_set = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.6));

@@ -215,7 +215,7 @@ class Scene:
         self.plotter.remove_actor(name, reset_camera=False)
 
     def show(self, shown: Any, quick: bool = False) -> None:
-        """Draws the leaflets, and the cells around them, of Model.update(). In a quick show, very many cells wait for rest()."""
+        """Draws what Model.update() returned: leaflets and cells near them. In a quick show, very many cells wait for rest()."""
         self._shown = shown
         add_scale_bar(self.plotter, self.model.unit, lift=0.03)  # above the page's legend
         self._waiting = quick and len(shown.cells_marked) + len(shown.cells_partly) > MANY_MARKED

@@ -126,7 +126,7 @@ struct MaterialArcs {
   std::array<Vec3, n_material> mapped_base, mapped_edge, mapped_middle;
 };
 
-using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0 and u1
+using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
 // Vectors at the even shares of a patch's warped sides. They lie on the polynomials that pass through the vectors at the shares
 // `nodes`.

@@ -113,7 +113,7 @@ class Team {
     const State closed{state_.load(std::memory_order_relaxed)};
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
-    // A worker that is awake comes by itself, if the system lets it.
+    // Only workers that sleep are woken, because the others find the loop by themselves.
     const int n_awake = n_workers_ - n_asleep_.load();
     for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);
