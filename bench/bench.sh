@@ -27,9 +27,10 @@ peers_packages=(python3-venv libusb-1.0-0 libgl1)
 #   the memory of 10,000 time steps, and of 5,000 small markings by each search on a busy machine.
 # ./run bench baseline FILE, ./run bench --compare FILE [--factor F]
 #   baseline keeps the guarded times with the machine's description in the file, such as bench/baselines/epyc-2.json. --compare
-#   measures them again, and fails if one is longer by more than the factor 1.3, or F. Times are divided by a calibration's.
+#   measures them again, and fails if one is longer by more than the factor 1.3, or F. Times are divided by the time of a
+#   calibration.
 # ./run bench --benchmark_...
-#   Runs Google Benchmark itself with these words, such as --benchmark_filter=mark.
+#   Passes these words to Google Benchmark itself, such as --benchmark_filter=mark.
 run_bench() {
   local what=${1:-short} python
   python=$(python_of_packages)

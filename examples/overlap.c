@@ -2,10 +2,10 @@
  * Marks the next time step on a second thread while the solver is busy with this one. This is the way for a solver on a GPU. The
  * main thread only waits for the GPU meanwhile. Afterwards it uploads a short list of nodes, K and K u_surface.
  *
- * The opening of the next step must be known before this step is solved. Laws in time know it: tables and times of opening. Laws
- * that need the pressures of the last step, riis_opening_switch_advance and riis_opening_angle_advance, know it only after the
- * solve. There are two ways: mark after the solve, without overlap, or give them the pressures of the step before. The valve then
- * answers one step later.
+ * The opening of the next step must be known before the present step is solved. Laws in time know it: tables and times of
+ * opening. riis_opening_switch_advance and riis_opening_angle_advance need the pressures of the last step, so they know it only
+ * after the solve. There are two ways: mark after the solve, without overlap, or give them the pressures of the step before. The
+ * valve then answers one step later.
  *
  * Usage: overlap [nodes on a side] [sweeps of the solver in a step] [steps]. With arguments it prints times. */
 #define _POSIX_C_SOURCE 200809L
@@ -39,7 +39,7 @@ static void *memory(size_t n_bytes) {
 
 /* ---- The valve ---- */
 
-/* There are two of these. While the solver reads the list of one, the other thread makes the list of the other. */
+/* There are two of these. While the solver reads the list of one of them, the other thread makes the other's list. */
 typedef struct {
   riis_surface *surface;
   riis_marks *marks;
@@ -124,7 +124,7 @@ typedef struct {
   int64_t *node_id, n_listed;        /* the nodes of the last upload */
 } solver;
 
-/* Uploads a list: 40 bytes for each marked node, and the ids of the last list become 0 first. A GPU does both in one kernel. */
+/* First sets the nodes of the last list to 0, then uploads a list, 40 bytes for each node. A GPU does both in one kernel. */
 static void upload(solver *flow, const riis_mark_list *list) {
   for (int64_t i = 0; i < flow->n_listed; ++i) flow->K[flow->node_id[i]] = flow->K_u_surface[flow->node_id[i]] = 0;
   for (int64_t i = 0; i < list->n_nodes; ++i) {

@@ -68,7 +68,7 @@ int main(void) {
     printf("%.2f s: %d nodes upstream, %d downstream, %7.3f Pa, opening %.4f\n", state.time, (int)sums.n_nodes[0],
            (int)sums.n_nodes[1], upstream - downstream, state.opening);
     /* A solver now sets the valve's "opening", updates the surface and marks the mesh, as in opening_valve.c. While the valve is
-     * open, both sides have no meaning, and the law closes the valve by the flow. */
+     * open, the two sides are not defined, and the law closes the valve by the flow. */
   }
 
   riis_marks_destroy(&marks);

@@ -39,7 +39,7 @@ program pressure_opens
     print '(f4.2, a, i0, a, i0, a, f7.3, a, f6.4)', state%time, ' s: ', sums%n_nodes(1), ' nodes upstream, ', sums%n_nodes(2), &
       ' downstream, ', mean(1) - mean(2), ' Pa, opening ', state%opening
     ! A solver now sets the valve's opening, updates the surface and marks the mesh, as in opening_valve.f90. While the valve is
-    ! open, both sides have no meaning, and the law closes the valve by the flow.
+    ! open, the two sides are not defined, and the law closes the valve by the flow.
   end do
 
   call marks%destroy()

@@ -77,7 +77,8 @@ int main(void) {
   check(riis_surface_options_init(&options, sizeof options));
   options.scale = 0.01; /* the valve is given in centimetres */
   options.half_thickness = eps;
-  /* One time step ago the valve was elsewhere. If it also opened, the call would get a second valve with the earlier opening. */
+  /* One time step ago the valve was elsewhere. If the valve also opened, the call would need a second valve with the earlier
+   * opening. */
   before = options;
   for (int c = 0; c < 3; ++c) before.translation[c] = -speed[c] * dt;
   check(riis_surface_create(valve, &options, &surface));

@@ -31,7 +31,8 @@ program quadrature_points
   call valve%create('mitral')
   call valve%set('opening', 0.5d0)
   call surface%create(valve, half_thickness=eps, scale=0.01d0) ! the valve is given in centimetres
-  ! One time step ago the valve was elsewhere. If it also opened, the call would get a second valve with the earlier opening.
+  ! One time step ago the valve was elsewhere. If the valve also opened, the call would need a second valve with the earlier
+  ! opening.
   call surface%update_moving(valve, valve, dt, translation=[0d0, 0d0, 0d0], translation_before=-speed * dt)
   call mesh%create(point)
 

@@ -227,7 +227,7 @@ contains
     call finish(code, status)
   end subroutine valve_set_scalar
 
-  !> Sets a parameter with as many values as it has, 1 or 3, which are copied. Errors: RIIS_INVALID_PARAMETER naming the
+  !> Sets a parameter to a copy of the values: as many as it has, 1 or 3. Errors: RIIS_INVALID_PARAMETER naming the
   !! parameter and the value; the valve is then unchanged.
   subroutine valve_set_vector(this, name, value, status)
     class(riis_valve), intent(inout) :: this                !< Must be created.

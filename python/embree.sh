@@ -5,7 +5,8 @@
 # embree.sh build SOURCE PREFIX     builds from SOURCE a static Embree for the wheel, and installs it to PREFIX
 # embree.sh cost PREFIX BUILD       compares the costs of queries and updates with the system's Embree and with that in PREFIX.
 #                                   The folder BUILD has a shared libriis, whose objects are linked again
-# embree.sh cost isa=sse2 BUILD     the same, with the system's Embree restricted to these instructions in place of that in PREFIX
+# embree.sh cost isa=sse2 BUILD the same, with the system's Embree restricted to these instructions instead of the Embree in
+# PREFIX
 #
 # riis calls Embree for one thing: the groups of triangles near a point, whose bounds riis computes itself. In Embree's terms
 # these are user geometry and point queries. The wheel's Embree therefore has no triangles, quads, grids, curves, points and
@@ -45,7 +46,7 @@ fetch_source() {
   source_lists "$folder.part"
   options=(-o "Dir::Etc::SourceList=/dev/null" -o "Dir::Etc::SourceParts=$folder.part/parts"
     -o "Dir::State::Lists=$folder.part/lists" -o "Dir::Cache=$folder.part" -o APT::Sandbox::User=root)
-  # Other sources than the distribution's may have no source packages. The next commands tell whether one has Embree's.
+  # Sources other than the distribution's may have no source packages. The next commands find out whether a source has Embree's.
   apt-get "${options[@]}" -q update || true
   package=$(dpkg-query -W -f='${source:Package}=${source:Version}' libembree-dev)
   (cd "$folder.part" && apt-get "${options[@]}" -q --download-only --tar-only source "$package")
@@ -75,7 +76,7 @@ build() {
   : >"$source/common/cmake/installTBB.cmake"
   # Debian's sources lack the manual, which the installation copies.
   [[ -e $source/readme.pdf ]] || : >"$source/readme.pdf"
-  # Without curves nothing refers to these files, which would take most of the time.
+  # Without curves, nothing refers to these files, which would take most of the time.
   sed -i '/curve_intersector_virtual\|bvh_builder_hair/d' "$source/kernels/CMakeLists.txt"
   cmake -S "$source" -B "$prefix.build" -G Ninja "${options[@]}" \
     -D CMAKE_CXX_FLAGS='-fvisibility=hidden -ffunction-sections -fdata-sections'

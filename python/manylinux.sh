@@ -3,7 +3,7 @@
 # What cibuildwheel calls in its container, whose system is not Debian (pyproject.toml, ./run python manylinux):
 #   manylinux.sh prepare               installs TBB from PyPI, builds Embree from build-python/embree-source, and takes
 #                                      build-python/json, in /opt
-#   manylinux.sh repair WHEEL FOLDER   puts TBB, libgomp and all licences into the wheel, and the wheel into FOLDER
+#   manylinux.sh repair WHEEL FOLDER puts TBB, libgomp and all licences into the wheel, and leaves the wheel in FOLDER
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")/.."
 # The version of nanobind must be the version in pyproject.toml, because licences.py reads its licence.

@@ -43,8 +43,8 @@ python_json() {
     cp /usr/share/doc/nlohmann-json3-dev/copyright "$python_folder/json/nlohmann-json.copyright"
 }
 
-# python_embree_settings: prints the options that make pip use this Embree. CMake first looks for another version, which makes it
-# forget embree_DIR, so it also needs the prefix.
+# python_embree_settings: prints the options that make pip use this Embree. CMake first looks for another version and then
+# forgets embree_DIR, so the prefix is also needed.
 python_embree_settings() {
   local prefix=$PWD/$python_folder/embree config
   config=$(echo "$prefix"/lib/cmake/embree-*/embree-config.cmake)
@@ -213,8 +213,8 @@ python_make() {
   step "install it into a fresh environment" python_environment "$(python_of_packages)" repaired
 }
 
-# python_make_here: makes the environment with a wheel that uses the distribution's Embree. This takes minutes less, and the wheel
-# only works on this system.
+# python_make_here: makes the environment with a wheel that uses the distribution's Embree. This saves minutes, but the wheel only
+# works on this system.
 python_make_here() {
   python_start
   step "build the wheel with the distribution's Embree" python_wheel

@@ -33,7 +33,7 @@ using Clock = std::chrono::steady_clock;
 // The tolerance of the triangles that check true distances. It gives about two million triangles per leaflet.
 constexpr double fine_tolerance = 5e-5;
 constexpr std::uint64_t seed = 1;
-// For this fraction of the points, the error of sampling may exceed its tolerance.
+// For this fraction of the points, the error of sampling may exceed the tolerance.
 constexpr double sampling_share = 1e-3;
 
 // Returns the value below which a given fraction of the ascending values lies.
@@ -67,7 +67,7 @@ json summary_of(std::vector<double> values) {
   return {{"median", quantile(values, 0.5)}, {"p95", quantile(values, 0.95)}, {"max", values.back()}};
 }
 
-// Returns microseconds per point, from the fastest of three passes, because other work on the machine only adds time.
+// Returns microseconds per point, from the fastest of three passes, because other work on the machine makes times longer.
 double mean_microseconds(const MeasuredSurface &surface, const TruePoints &points) {
   double least = std::numeric_limits<double>::infinity(), sum = 0;
   for (int pass = 0; pass < 3; ++pass) {

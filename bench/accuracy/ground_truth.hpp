@@ -39,7 +39,7 @@ struct GroundTruth {
   std::int64_t n_nearer;  // points to which another part of the surface is nearer than the foot
   std::int64_t n_fine_triangles;
   // fine_error and most_from_fine are in half thicknesses. Every true distance was compared with the distance to triangles
-  // within fine_error of the smooth surface. So all true distances are right within twice fine_error. (Near the point's foot
+  // within fine_error of the smooth surface. So all true distances are right within twice fine_error. (Near a point's foot
   // on the surface they are right up to rounding, because the foot is the only minimum there.)
   double fine_error;
   double most_from_fine;  // the largest difference between a true distance and the distance to the fine triangles

@@ -36,7 +36,7 @@ PatchSet patches_of(const Leaflet &leaflet) {
     patch.images.erase(std::remove_if(patch.images.begin(), patch.images.end(),
                                       [&](const PatchImage &image) { return image.leaflet_id != leaflet.leaflet_id; }),
                        patch.images.end());
-  // The curves of removed patches may stay, because nothing uses them.
+  // The curves of removed patches may remain, because nothing uses them.
   set.patches.erase(
       std::remove_if(set.patches.begin(), set.patches.end(), [](const Patch &patch) { return patch.images.empty(); }),
       set.patches.end());

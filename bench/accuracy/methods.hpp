@@ -29,7 +29,7 @@ PatchSet patches_of(const Leaflet &leaflet);
 
 struct Setting {
   std::int32_t method;  // RIIS_MEASURE_*
-  double tolerance;     // fraction of the half thickness
+  double tolerance;     // a fraction of the half thickness
   const char *name;
 };
 const char *name_of(std::int32_t method);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluates the smooth surface to which tolerances refer (docs/theory/triangles.md). The surface consists of Coons patches and
-// patches of arcs, made from the Bézier curves themselves with the fraction of their exact length as parameter. It has no
-// polylines, no grid and no tolerance.
-// Input: curves and patches of a valve. Output: points, normals and curvatures anywhere.
+// patches of arcs. They are made from the Bézier curves themselves, with the fraction of their exact length as parameter. It
+// has no polylines, no grid and no tolerance. Input: curves and patches of a valve. Output: points, normals and curvatures
+// anywhere.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ class SmoothSurface {
   std::int32_t patch_id(std::size_t image) const { return images_[image].image.patch_id; }
   std::size_t image_of(std::int32_t patch_id) const;
 
-  // Returns a point. Its relative error is 1e-13, from the rounding of the curves' lengths.
+  // Returns a point. Its relative error is 1e-13, because the lengths of the curves are rounded.
   Vec3 at(std::size_t image, double u, double v) const;
   // Computes derivatives by differences over `step`. u and v must be at least `step` away from 0 and 1.
   static constexpr double step = 1e-4;

@@ -28,7 +28,7 @@ OF_PAPER = (
 
 def draw(path, given):
     try:
-        with open(path, "w", encoding="utf-8"):  # a bad path and faults of given files are refused before anything is drawn
+        with open(path, "w", encoding="utf-8"):  # a wrong path and faults of given files are refused before anything is drawn
             pass
     except OSError:
         raise Refused(f"{path}: cannot be written") from None

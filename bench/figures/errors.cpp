@@ -39,14 +39,14 @@ std::vector<double> ends_of_steps(std::size_t n, const Part &part) {
   return ends;
 }
 
-// Paints cells of about the given size. A cell's error is that of the distance at its middle, where the true distance is 0.
+// Paints cells of about the given size. The error in a cell is the computed distance at its middle, where the true distance is 0.
 struct Painter {
   const SmoothSurface &smooth;
   const MeasuredSurface &surface;
   double cell;
   Numbers &numbers;
 
-  // Several lines run along one parameter of a patch. Returns the number of cells that the longest line needs.
+  // Several lines run along one parameter of a patch. Returns the number of cells that the longest of these lines needs.
   std::size_t n_cells(std::size_t image, const Part &u, const Part &v, bool along_u) const {
     constexpr std::size_t n = 16;
     const std::vector<Vec3> net = smooth.at_lines(image, ends_of_steps(n, u), ends_of_steps(n, v));
@@ -73,9 +73,9 @@ struct Painter {
   }
 };
 
-// Returns the paintings of a leaflet or, if is_part, of a part of one of its patches.
+// Returns the painted cells of a leaflet. If is_part is true, returns those of a part of one of its patches.
 json paintings(const accuracy::Leaflet &leaflet, bool is_part, Numbers &numbers) {
-  // Sampling has the tolerance 10 %, because its samples are then far enough apart to be visible.
+  // Sampling has the tolerance 10 %, so its samples are far enough apart to be visible.
   constexpr std::array<Setting, 3> painted{{{RIIS_MEASURE_MINIMIZATION, 0.01, "0.01"},
                                             {RIIS_MEASURE_SAMPLING, 0.1, "10 %"},
                                             {RIIS_MEASURE_TRIANGLES, 0.1, "10 %"}}};

@@ -346,8 +346,8 @@ def name_annulus_points(picture, annulus, from_top):
         of_paper = i if is_in_order else (n - i) % n
         if from_top:
             picture.add_label_away(joint, np.mean(joints, axis=0), f"A{of_paper}", 34)
-        elif joint[0] >= -1e-9:  # points with x < 0 are hidden by those with x > 0
-            # A2 and A3 nearly coincide in this view, so their labels are apart.
+        elif joint[0] >= -1e-9:  # points with x > 0 hide the points with x <
+            # 0
             picture.add_label(joint, f"A{of_paper}", *{2: (30, 10), 3: (-14, 30)}.get(of_paper, (0, 30)))
 
 

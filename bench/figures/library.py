@@ -22,11 +22,11 @@ programs = {}  # paths of the programs riis and riis-figures
 
 
 class Refused(Exception):
-    """Raised with a message for the user."""
+    """The exception for a message to the user."""
 
 
 def run(program, *words):
-    """Returns what a program prints. Raises Refused with its message if it fails."""
+    """Returns the text that a program prints. If the program fails, raises Refused with its message."""
     done = subprocess.run([programs[program], *words], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise Refused(done.stderr.strip() or f"{program} failed")
@@ -34,7 +34,7 @@ def run(program, *words):
 
 
 def written(*words):
-    """Returns what riis-figures writes, with arrays in place of the references to long lists."""
+    """Returns the output of riis-figures, with arrays instead of the references to long lists."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "out.json")
         run("riis-figures", words[0], path, *words[1:])
@@ -48,7 +48,7 @@ def written(*words):
 
 
 def control_points(pieces):
-    """Returns every control point once: an end that two pieces share counts once, and so does the end of a closed curve."""
+    """Returns every control point once. An end that two pieces share counts once, and so does the end of a closed curve."""
     points = [p for i, piece in enumerate(pieces) for p in piece[min(i, 1) :]]
     return np.array(points[:-1] if np.allclose(points[0], points[-1], atol=1e-9) else points)
 
@@ -58,7 +58,7 @@ def samples(pieces):
 
 
 def add_controlled(to, pieces, colour, width, diameter, white):
-    """Adds a curve to a picture, with its control points and, dashed, its control polygons."""
+    """Adds a curve to a picture, with its control points and its control polygons, which are dashed."""
     for piece in pieces:
         to.add_dashed(piece, picture.paler(colour, white), 2.5)
     to.add_curve(samples(pieces), colour, width)
@@ -88,7 +88,7 @@ class Grid:
 
 
 def joined_faces(parts):
-    """Returns the faces of all parts, each (points, corners, colours)."""
+    """Returns the faces of all parts, each as (points, corners, colours)."""
     firsts = np.cumsum([0] + [len(points) for points, _, _ in parts])
     return Faces(
         np.concatenate([points for points, _, _ in parts]),
@@ -139,6 +139,6 @@ class Model:
 
 @functools.cache
 def model(kind, tolerance, patch_id=None, **settings):
-    """Returns a valve with these settings, or only the image of a patch with this number."""
+    """Returns a valve with these settings, or only the image of the patch with this number."""
     patch = [] if patch_id is None else [str(patch_id)]
     return Model(written("--model", kind, str(tolerance), json.dumps(settings), *patch))

@@ -30,7 +30,7 @@ void write(const std::string &path, const char *bytes, std::size_t n) {
   if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
-// Returns a null value if the words are no command.
+// Returns a null value if the words are not a command.
 json made_by(const std::vector<std::string> &words, Numbers &numbers) {
   if (words.size() == 2 && words[0] == "--curves") return valves();
   if (words.size() == 2 && words[0] == "--polylines") return polylines();

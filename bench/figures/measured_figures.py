@@ -36,7 +36,7 @@ def mesh_cylinder(middle, radius, height):
     n_across, n_up = math.ceil(2 * radius / EDGE), math.ceil(height / EDGE)
     across, up = 2 * np.arange(n_across + 1) / n_across - 1, 2 * np.arange(n_up + 1) / n_up - 1
     z, y, x = np.meshgrid(up, across, across, indexing="ij")
-    # Maps a square to a disc: its grid lines become parts of ellipses.
+    # Maps a square to a disc. Its grid lines become parts of ellipses.
     on_disc = radius * x * np.sqrt(1 - 0.5 * y * y), radius * y * np.sqrt(1 - 0.5 * x * x), 0.5 * height * z
     nodes = middle + np.stack(on_disc, axis=-1).reshape(-1, 3)
     number_of = np.arange(len(nodes)).reshape(x.shape)
@@ -47,7 +47,8 @@ def mesh_cylinder(middle, radius, height):
 
 
 class Marked:
-    """A mesh of tetrahedra that the program has marked. `leaflet` is that of a tetrahedron's closest marked node, or -1."""
+    """A mesh of tetrahedra that the program has marked. `leaflet` is the leaflet of a tetrahedron's closest marked node, or
+    -1."""
 
     def __init__(self, kind, opening, cylinder):
         self.middle, self.radius, self.height = np.array(cylinder[0]), *cylinder[1:]
@@ -64,7 +65,7 @@ class Marked:
         self.n_marked = np.count_nonzero(is_marked)
 
     def marks(self, kind, opening):
-        """Marks the nodes by the program, as users do."""
+        """Marks the nodes with the program, as users do."""
         with tempfile.TemporaryDirectory() as folder:
             mesh, marked = os.path.join(folder, "mesh.vtu"), os.path.join(folder, "marked.vtu")
             writer, reader = vtkXMLUnstructuredGridWriter(), vtkXMLUnstructuredGridReader()
@@ -86,7 +87,7 @@ class Marked:
         return [rim - up, rim + up, *([rim[i] - up, rim[i] + up] for i in (0, 60))]
 
     def outer_faces(self):
-        """Returns the outer faces of the tetrahedra with all nodes marked."""
+        """Returns the outer faces of the tetrahedra whose nodes are all marked."""
         wholes = self.tetrahedra[self.is_whole]
         faces = np.sort(np.concatenate([np.delete(wholes, k, axis=1) for k in range(4)]), axis=1)
         # A face that belongs to two tetrahedra is not on the outside.
@@ -95,8 +96,8 @@ class Marked:
         return Faces(self.nodes, unique[n == 1], np.array(LEAFLETS)[leaflets[n == 1]])
 
     def slice(self, normal):
-        """Cuts the mesh by the plane through the origin with this normal. Returns faces, in the colour of their tetrahedron's
-        leaflet, paler if only some of its nodes are marked, and the edges of the cut tetrahedra."""
+        """Cuts the mesh by the plane through the origin with this normal. Returns faces in the colour of their tetrahedron's
+        leaflet, which is paler if only some nodes are marked, and the edges of the cut tetrahedra."""
         colours = np.array([[paler(colour, 0.6) for colour in LEAFLETS] + [UNMARKED], [*LEAFLETS, UNMARKED]])
         shown = numpy_to_vtk(colours[self.is_whole.astype(int), self.leaflet].astype(np.uint8), deep=True)
         self.grid.GetCellData().SetScalars(shown)
@@ -256,7 +257,7 @@ def violin_plot(title, settings, where):
         ascending = np.sort(np.clip(setting[where], 10.0**LEAST_POWER, 10.0**MOST_POWER))
         powers = np.log10(ascending)
         widths = np.convolve(np.histogram(powers, ends)[0], smoothing, "same")
-        # The smoothed outline must not reach beyond the least and the greatest value.
+        # The smoothed outline must not extend beyond the least and the greatest value.
         inside = (middles > powers[0] - 0.05) & (middles < powers[-1] + 0.05)
         half = 0.42 * widths[inside] / max(widths)
         colour = css(METHOD_COLOURS[setting["method"]])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the parts of riis-figures' output. Long lists of numbers stand in a file of their own, as doubles. The JSON names such
-// a list by its first number and its length: {"at", "n"}.
+// Declares the parts of riis-figures' output. Long lists of numbers stand in a separate file, as doubles. The JSON refers to
+// such a list by its first number and its length: {"at", "n"}.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes one HTML file that contains everything: pictures as base64 and inline styles. It has no scripts and loads nothing."""
+"""Writes one HTML file that contains everything, with pictures as base64 and inline styles. It has no scripts and loads
+nothing."""
 
 import base64
 import json
@@ -84,8 +85,8 @@ def given_figure(path, given):
 
 def read_figures(path):
     """Reads figures that another program drew for the same page: {"figures": [{"title", "columns", "panels": [{"png",
-    "caption"}, ...], "caption", "paper"}, ...], "left_out": [...]}. "left_out" names the missing figures and the commands that
-    make them. Returns the figures and these texts."""
+    "caption"}, ...], "caption", "paper"}, ...], "left_out": [...]}. "left_out" names the missing figures, and the commands
+    that make them. Returns the figures and the texts of "left_out"."""
     text = read_file(path)
     try:
         given = json.loads(text)
@@ -179,7 +180,7 @@ def parameter_tables(valves):
 
 
 def page_of(version, figures, left_out, valves):
-    """Returns the page. left_out has a text for each figure that the page lacks, with the command that makes it."""
+    """Returns the page. For each figure that the page lacks, left_out has a text with the command that makes the figure."""
     contents = [f'<li><a href="#figure-{n}">{figure.title}</a></li>\n' for n, figure in enumerate(figures, 1)]
     missing = "".join(f"<li>{text}</li>\n" for text in left_out)
     if missing:

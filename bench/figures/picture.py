@@ -17,7 +17,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor, vtkWindowToImageFilter,
 )  # fmt: skip
 
-for module in ("vtkRenderingFreeType", "vtkRenderingOpenGL2"):  # these draw once they are imported
+for module in ("vtkRenderingFreeType", "vtkRenderingOpenGL2"):  # importing these modules makes them draw
     importlib.import_module("vtkmodules." + module)
 
 # Most readers with defective colour vision can distinguish these colours (Okabe, Ito 2008).
@@ -76,8 +76,8 @@ def poly_data(points, polygons=None, lines=None):
 
 
 def held_display():
-    """Returns a small window that holds a connection to the display. A virtual display starts anew when its last client leaves,
-    and a picture that comes at this moment finds no display."""
+    """Returns a small window that holds a connection to the display. A virtual display starts anew after its last client has
+    left, and a picture that comes at this moment finds no display."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetSize(8, 8)
@@ -86,7 +86,7 @@ def held_display():
 
 
 class Picture:
-    """The picture contains all points of `to_fit`, at least the margin away from the edges and from the title."""
+    """The picture contains all points of `to_fit`, with at least the margin to the edges and to the title."""
 
     def __init__(self, size, view, to_fit, margin=60):
         self.width, self.height = size
@@ -116,15 +116,15 @@ class Picture:
         camera.SetViewUp(self.up)
         camera.SetParallelScale(0.5 * self.height * self.pixel)
 
-    # Objects that lie in faces are drawn above them, in this order: faces, segments, curves, points. Among objects of one kind, a
+    # Objects in faces are drawn above the faces, in this order: faces, segments, curves, points. Among objects of one kind, a
     # higher rank is drawn above a lower one.
 
     def raised(self, points, layer):
-        """Moves points towards the eye. The picture has no perspective, so they stay at their place in the picture."""
+        """Moves points towards the eye. The picture has no perspective, so the points keep their position in it."""
         return np.asarray(points, dtype=float) - 0.004 * layer * self.depth * self.direction
 
     def add(self, data, colour, ambient, diffuse):
-        """Adds an object. Without a colour, its cells have colours."""
+        """Adds an object. If no colour is given, the cells have colours."""
         mapper, actor = vtkPolyDataMapper(), vtkActor()
         mapper.SetInputData(data)
         actor.SetMapper(mapper)
@@ -145,7 +145,7 @@ class Picture:
         data = poly_data(faces.points, faces.corners)
         data.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(faces.colours, dtype=np.uint8), deep=True))
         if shading in ("smooth", "ghost"):
-            # Where patches meet, they have separate points. One common normal hides the seam.
+            # Where patches meet, they have separate points. One common normal hides the seam between them.
             clean, normals = vtkCleanPolyData(), vtkPolyDataNormals()
             clean.SetInputData(data)
             clean.ToleranceIsAbsoluteOn()
@@ -223,7 +223,7 @@ class Picture:
         return np.array((np.dot(vector, self.right), np.dot(vector, self.up)))
 
     def add_label(self, at, text, right, above, colour=DARK, size=26):
-        """Adds a text whose middle is `right` pixels to the right of a point and `above` pixels above it."""
+        """Adds a text whose middle is `right` pixels to the right of a point, and `above` pixels above it."""
         x, y = self.in_picture(np.asarray(at) - self.focus) / self.pixel
         self.add_text(0.5 * self.width + x + right, 0.5 * self.height + y + above, text, colour, size, True)
 
@@ -249,7 +249,7 @@ class Picture:
         x, y = self.width - 85, 62
         for axis, name in zip(np.eye(3), "xyz"):
             way = 38 * self.in_picture(axis)
-            if np.hypot(*way) >= 38 * 0.15:  # otherwise the axis points at the eye
+            if np.hypot(*way) >= 38 * 0.15:  # otherwise the axis points towards the eye
                 end = at_pixel(x + way[0], y + way[1])
                 self.add_tubes([at_pixel(x, y), end], [(0, 1)], DARK, 3)
                 self.add_label_away(end, at_pixel(x, y), name, 17, DARK, 24)

@@ -14,7 +14,7 @@ from page import Figure, Panel, html_table, number, percent, read_file
 from picture import DARK, GREY, LEAFLETS, TOP_VIEW, Faces, Picture, looking
 
 SIZE, MARGIN, TOLERANCE = (480, 400), 26, 0.01
-MOST_OPENINGS = 6  # at most this many pictures stand side by side
+MOST_OPENINGS = 6  # at most this many pictures stand in a row
 ORIFICE = (247, 196, 190)
 # The housing is higher than the closed leaflets, so that they lie inside it.
 HOUSING_HEIGHT, HOUSING = 1.1, 2

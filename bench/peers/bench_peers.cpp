@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ./run bench peers: gives the same nodes and triangles to other programs (CGAL, VTK, OpenVDB), on one thread. First it compares
 // their marks with the marks of a loop over all triangles. Then it times the programs in turns. The bars compare every distance
-// with queries node by node, FCPW and CGAL. Fails if the library or CGAL does not mark the same nodes as the loop. Also fails if
-// queries by leaves give other bits than queries node by node.
+// with queries node by node, with FCPW and with CGAL. Fails if the library or CGAL does not mark the same nodes as the loop.
+// Also fails if queries by leaves give other bits than queries node by node.
 //   argv[1]  a file for the results as JSON
 //   argv[2]  thousands of nodes; default 100
 //   argv[3]  a folder for nodes, triangles and distances as raw binary numbers, for peers.py
@@ -48,7 +48,7 @@ constexpr double wide = 40;
 constexpr std::pair<const char *, double> voxels[] = {{"0.025", 0.025}, {"0.0125", 0.0125}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Each row named "node by node" has an Embree query for each point, as the library had before it compared leaves with groups.
+// In each row named "node by node", Embree gets a query for each point, as in the library before it compared leaves with groups.
 constexpr RatioBar distance_bars[] = {
     {"every distance of a prepared mesh: node by node / leaves", "riis, every distance, node by node",
      "riis, every distance of a prepared mesh", Wanted::at_least, 8},
@@ -106,7 +106,7 @@ void find_closest(const riis_surface *surface, const std::vector<double> &xyz, s
   }
 }
 
-// Adds every field of the given points, over leaves and node by node. Returns whether both give the same bits.
+// Adds every field of the given points, once over leaves and once node by node. Returns whether both give the same bits.
 bool add_closest(Contest &contest, const std::string &name, const riis_surface *surface,
                  const std::vector<double> &xyz) {
   const std::size_t n = xyz.size() / 3;
@@ -126,12 +126,12 @@ struct Truth {
   std::vector<bool> nearest_is_thin;  // whether the nearest triangle's height is below 1e-6 of its longest edge
 };
 
-// Whether a peer measures distances to the triangles or to an approximation of them.
+// Whether a peer measures distances to the triangles, or to an approximation of them.
 enum class Measures { triangles, approximately };
 
-// Compares one peer's distances with the truth. Counts nodes that are marked differently, by reason.
+// Compares one peer's distances with the truth. Counts the nodes that are marked differently, by reason.
 json compared(const Truth &truth, const std::vector<double> &distance, Measures measures = Measures::triangles) {
-  // The errors, in cm, of coordinates of some centimetres in double and single precision.
+  // The errors in cm of coordinates of some centimetres, in double and single precision.
   constexpr double rounding = 1e-12, single = 2e-6;
   std::map<std::string, std::int64_t> reasons;
   std::int64_t n_marked = 0, n_different = 0;
@@ -229,7 +229,7 @@ std::vector<double> marked_distances(const riis_marks *result, std::int64_t n_no
   return distance;
 }
 
-// A tolerance of 0 stands for the default.
+// A tolerance of 0 means the default.
 Surface made_surface(const char *kind, double tolerance) {
   const Valve valve = make_valve(kind);
   if (kind[0] == 'm') check(riis_valve_set_scalar(valve.get(), "opening", 0.5));
@@ -291,7 +291,7 @@ bool compare(const char *kind, const Cylinder &cylinder, std::int64_t about_n_no
     is_right = is_right && is_equal(marks[name]) && marks[name]["largest_anywhere"] <= 1e-12;
   };
   add_right("riis, every distance", n_slow_turns, all_distances);
-  // A marking with a limit that leaves out nothing: over the clusters of a prepared mesh, and node by node with Embree.
+  // A marking with a limit that leaves out nothing, over the clusters of a prepared mesh and node by node with Embree.
   const auto marking = [&](const riis_surface *of, std::int32_t search) {
     riis_mark_options options;
     check(riis_mark_options_init(&options, sizeof options));

@@ -23,14 +23,14 @@ class FcpwQuery {
   std::unique_ptr<Implementation> implementation_;
 };
 
-// A competitor of the library's marking. It makes a narrow band of voxels with distances, and interpolates them at the nodes. It
-// runs on one thread.
+// A competitor of the library's marking. It makes a narrow band of voxels with distances, and interpolates the distances at the
+// nodes. It runs on one thread.
 class OpenVdbBand {
  public:
   // The band reaches one voxel beyond the limit.
   OpenVdbBand(const Triangles &triangles, double voxel, double limit);
   ~OpenVdbBand();
-  // Makes the band. This must be repeated if the surface moved.
+  // Makes the band. This must be repeated after the surface has moved.
   void make();
   // distance: (n_nodes); about the limit for nodes outside the band. xyz: (3, n_nodes).
   void distances(std::int64_t n_nodes, const double *xyz, double *distance) const;

@@ -3,7 +3,7 @@
 writes both as JSON.
 
 Runs in a virtual environment that study.py makes. A missing package is left out, with the reason. The process uses one
-processor, so that packages with threads of their own have no advantage."""
+processor, so packages with their own threads have no advantage."""
 
 import argparse
 import collections
@@ -73,7 +73,7 @@ PEERS = {
 
 
 def compared(np, truth, distance):
-    """Compares distances with the truth, as riis_bench_peers does. Counts nodes that are marked differently, by reason."""
+    """Compares distances with the truth, as riis_bench_peers does. Counts the nodes that are marked differently, by reason."""
     by_peer, marked = distance <= HALF_THICKNESS, truth <= HALF_THICKNESS
     reasons = collections.Counter()
     for i in np.flatnonzero(by_peer != marked):
@@ -112,7 +112,7 @@ def measure(np, folder, kind):
             made = 1e3 * (time.perf_counter() - start)
             version = importlib.metadata.version(package)
             answer = ask()
-        except Exception as error:  # whatever error a package raises, it is left out with that reason
+        except Exception as error:  # whatever error a package raises, the package is left out with this reason
             out["left_out"][name] = f"not available: {type(error).__name__}: {error}".splitlines()[0]
             continue
         label = f"{name} {version}"

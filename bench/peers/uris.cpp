@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics. By this rule a node's distance
-// is the distance to the nearest middle of a triangle. The program compares these distances with the library's distances to the
-// same triangles, and prints rows of the table in docs/export.md.
+// ./run uris: reads exports back and marks the nodes of a cylinder by the rule of svMultiPhysics. By this rule, a node's
+// distance is the distance to the nearest middle of a triangle. The program compares these distances with the library's
+// distances to the same triangles, and prints rows of the table in docs/export.md.
 //   argv[1]   the kind of the valve
 //   argv[2]   thousands of nodes
 //   argv[3..] the output of riis export
@@ -43,7 +43,7 @@ constexpr Cylinder prosthesis_cylinder{1.6, -1.0, 1.6, 0};
 // Triangles in one state: their corners, (3, 3, n).
 using Corners = std::vector<double>;
 
-// The solver's input in one state: the leaflets' triangles, and all nodes, including those of the face that enlarges the solver's
+// The solver's input in one state: the leaflets' triangles, and all nodes, with the nodes of the face that enlarges the solver's
 // box.
 struct State {
   Corners leaflets, nodes;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # ./run uris, which reads this file. The steps use $build, $n_jobs, install_missing, step and say of `run`.
 
-# Largest edges, cm. The half thickness is 0.1. "none" means the triangles that the library makes.
+# Largest edges, cm. The half thickness is 0.1. "none" stands for the triangles that the library makes.
 uris_edges=(none 0.1 0.05 0.035 0.025 0.02 0.015)
 
 # export_of_size KIND EDGE: writes build/uris/KIND_EDGE, and prints the solver's input to build/uris/KIND_EDGE.xml.
@@ -41,7 +41,7 @@ END
 }
 
 # export_in_duct PATH HALF_THICKNESS SHIFT [TIME_STEP VALVE EDGE]: exports a valve with triangles up to EDGE, moved along the duct
-# of PATH.msh, to PATH and PATH.xml. The valve is the flat one unless another one is given.
+# of PATH.msh, to PATH and PATH.xml. Without another valve it is the flat one.
 export_in_duct() {
   local time_step=${4-0.002}
   rm -rf "$1"
@@ -57,13 +57,13 @@ expected_drop() { sed -n 's/.*closed valve: \([0-9.]*\) of.*/\1/p' "$1.xml"; }
 # leaflets_area PATH: prints the area of the closed leaflets in the mesh, cm2, that the export found.
 leaflets_area() { sed -n 's/.*leaflets in the mesh, \([0-9.e+-]*\);.*/\1/p' "$1.xml"; }
 
-# Prints the expected drop and the share of the sum of delta for a flat valve that is moved along the duct.
+# Prints the expected drop, and the share of the sum of delta, for a flat valve that is moved along the duct.
 drop_in_duct() { # arguments: path without ending, half thickness, shift along the duct
   export_in_duct "$1" "$2" "$3" &&
     printf '%s %s' "$(expected_drop "$1")" "$(sed -n 's/.*sum of delta is \([0-9.e+-]*\) of.*/\1/p' "$1.xml")"
 }
 
-# Writes a flat valve for the duct. It leans by a rise of $2 over half of the duct, or lies across the duct without $2.
+# Writes a flat valve for the duct. It is inclined by a rise of $2 over half of the duct, or lies across the duct without $2.
 flat_valve() { # arguments: name of the file, rise
   local low=-${2-0} high=${2-0}
   cat >"$build/uris/$1.json" <<END
@@ -75,7 +75,7 @@ flat_valve() { # arguments: name of the file, rise
 END
 }
 
-# A flat valve in a duct: the drop that the solver will have, beside its sum of delta.
+# A flat valve in a duct: the drop that the solver will have, and its sum of delta.
 uris_drop() {
   local elements ratio edge shift path
   flat_valve flat
@@ -105,9 +105,9 @@ uris_drop() {
 
 # ---- ./run uris solver PROGRAM ----
 
-# The valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step in s, eps in cm,
-# and the largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each node to each
-# triangle.
+# Each line has: the valve, the elements of its duct, eps over their edge, the shift of the valve over the edge, the time step
+# in s, eps in cm, and the largest edge of the valve's triangles in cm. In each marking the solver measures the distance of each
+# node to each triangle.
 uris_solver_cases=(
   "flat hex 1.1 0.3 0.001 0.2 0.03" "flat hex 1.1 0.3 0.004 0.2 0.03" "flat hex 1.5 0.3 0.001 0.2 0.03"
   "flat hex 1.5 0.3 0.004 0.2 0.03" "flat hex 2 0.3 0.001 0.2 0.06" "flat hex 3 0.3 0.001 0.4 0.06"

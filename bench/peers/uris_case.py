@@ -2,7 +2,7 @@
 """Writes a case of svMultiPhysics for ./run uris solver, and reads its drop.
 
     uris_case.py write DUCT.msh BLOCK.xml FOLDER TIME_STEP   # makes FOLDER; the working folder is that of `riis export`
-    uris_case.py drop FOLDER AREA FORECAST                   # prints the drop over (R/eps) u; AREA is that of the leaflets
+    uris_case.py drop FOLDER AREA FORECAST                   # prints the drop over (R/eps) u; AREA is the area of the leaflets
 
 duct_of_edge of uris.sh makes the duct. Blood enters at the top and flows down, so the valve stays closed. Units are CGS.
 The drop is refused if it changed by more than a thousandth in the last step, or differs by more than 3 % from the forecast.
@@ -14,7 +14,7 @@ import sys
 
 FLOW = 2.0  # ml/s
 STEPS = 14
-# The nodes of an element's faces, by gmsh's type of element: its number of nodes, VTK's type, and the faces.
+# The faces of an element by gmsh's type of element: its number of nodes, VTK's type, and the nodes of the faces.
 ELEMENTS = {
     4: (4, 10, ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))),
     5: (8, 12, ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))),
@@ -55,7 +55,7 @@ def ends(cells):
 
 
 def write_vtk(path, places, node_ids, cells, element_ids, cell_type=None):
-    """Writes a mesh if there is a type of cells, and a face otherwise. The ids count from 1 in the whole mesh."""
+    """Writes a mesh if a type of cells is given, and a face otherwise. The ids count from 1 in the whole mesh."""
     kind, part = ("UnstructuredGrid", "Cells") if cell_type else ("PolyData", "Polys")
     count = "NumberOfCells" if cell_type else "NumberOfPolys"
     path.write_text(
@@ -73,7 +73,7 @@ def write_vtk(path, places, node_ids, cells, element_ids, cell_type=None):
 
 
 def outer_faces(elements):
-    """Returns the faces that belong to one element: their nodes, and the number of the element."""
+    """Returns the faces that belong to only one element: their nodes, and the number of the element."""
     seen = collections.defaultdict(list)
     for number, (kind, corners) in enumerate(elements, 1):
         for face in ELEMENTS[kind][2]:

@@ -2,7 +2,7 @@
 // ./run bench proof, its first part: the search over clusters marks the same nodes as a loop over triangles, with the same
 // distances to the last bit and the same triangles. The proof covers a million nodes, both valves, three positions, three half
 // thicknesses, every instruction set of the processor, and 1 to 4 threads. The loop runs the scalar form of the library's
-// decision kernel on every triangle whose box is near the node. It finds these triangles by a grid of its own. On a sample of
+// decision kernel on every triangle whose box is near the node. It finds these triangles by its own grid. On a sample of
 // nodes it runs the kernel on every triangle. The program prints a table and fails on any difference. argv[1]: thousands of
 // nodes, instead of a million.
 #include <algorithm>
@@ -48,8 +48,8 @@ class NearTriangles {
             cells_[i + n_[0] * (j + n_[1] * k)].push_back(t);
   }
 
-  // Returns the closest of the triangles whose boxes are within reach, or the lowest of several equally close ones. Counts the
-  // pairs that it measures.
+  // Returns the closest of the triangles whose boxes are within reach. Of several equally close triangles, returns the lowest.
+  // Counts the pairs that it measures.
   riis::ClosestTriangle closest(const double *p, std::int64_t &n_pairs) const {
     riis::ClosestTriangle best{INFINITY, -1};
     if (!has(whole_, p)) return best;
@@ -72,8 +72,8 @@ class NearTriangles {
       if (p[i] < box.lower[i] || p[i] > box.upper[i]) return false;
     return true;
   }
-  // The cell is a monotone function of the coordinate. If a point is in a box, the point's cell is therefore one of the box's
-  // cells.
+  // The cell is a monotone function of the coordinate. If a box contains a point, the point's cell is therefore one of the
+  // box's cells.
   std::size_t cell_of(double coordinate, int i) const {
     return static_cast<std::size_t>((coordinate - whole_.lower[i]) / edge_);
   }

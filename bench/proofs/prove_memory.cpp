@@ -69,7 +69,7 @@ struct Case {
   int n_threads;
   int n_steps;
   // The limit on allocations of all markings after the warm-up. Threads divide the work by chance. If a thread gets more work
-  // than ever before, its memory doubles. After some steps no memory grows any more.
+  // than ever before, its memory doubles. After some steps, no memory grows further.
   std::int64_t most_allocations;
 };
 

@@ -2,8 +2,8 @@
 // ./run bench proof, its third part: the memory of the process does not grow while every search marks a small mesh many times. It
 // runs with 1, 2 and 4 threads, on processors that other processes keep busy. Threads then arrive late at a search of less than a
 // millisecond, and TBB keeps the memory that it allocated for them. The program prints a table and fails if memory grows.
-// argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), or the run takes
-// many times as long.
+// argv[1]: another number of markings. OpenMP's threads should sleep while they wait (OMP_WAIT_POLICY=passive), otherwise the
+// run takes many times as long.
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -48,7 +48,7 @@ class BusyProcessors {
  private:
   [[noreturn]] static void compute_for(pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(0);  // the parent ended before the system was asked to kill this process with it
+    if (getppid() != parent) _exit(0);  // the parent ended before the system was asked to end this process with it
     for (volatile unsigned step = 0;; step = step + 1) {
     }
   }
@@ -119,12 +119,12 @@ class Marking {
   Result result_;
 };
 
-// The number of bytes that the markings may add to the memory of the process. A thread that first takes part during the
-// measurement adds its stack and its allocator's first pages. In the short form (300 markings) this limit is 1 kB per marking.
-// TBB's arena of two threads takes 7 kB.
+// The number of bytes that the markings may add to the memory of the process. If a thread first takes part during the
+// measurement, its stack and its allocator's first pages are added. In the short form (300 markings) this limit is 1 kB per
+// marking. TBB's arena of two threads takes 7 kB.
 constexpr double most_growth = 3e5;
 
-// A leak grows in every round. Memory that is allocated only once does not.
+// A leak grows in every round. Memory that is allocated only once does not grow.
 bool stays(const Case &of, int n_threads, int n_markings) {
   Marking marking(of, n_threads);
   for (int i = 0; i < 60; ++i) marking.mark();

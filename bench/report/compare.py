@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reports which benchmarks became slower than a kept baseline. The exit status is 1 if there are any.
+"""Reports which benchmarks have become slower than a baseline. The exit status is 1 if there are such benchmarks.
 
-Times are divided by those of the calibration benchmarks of the same run. So runs of two machines, or of one machine on two
-days, can be compared. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either, so it
-counts as slower only if it is slower relative to both. If the calibrations of the two machines differ much, a loss below this
-difference is not noticed. --factor should not be below the difference, which the output gives.
+Times are divided by those of the calibration benchmarks of the same run. Runs on two machines, or on one machine on two days,
+can therefore be compared. There are two calibrations, for memory and for arithmetic. A benchmark may depend on either
+calibration, so it counts as slower only if it is slower relative to both. If the calibrations of the two machines differ
+much, a loss below this difference is not noticed. --factor should not be below this difference, which the output states.
 
-Exit status: 0, none is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
+Exit status: 0, no benchmark is slower; 1, one is slower, is missing or ended early; 2, a file has the wrong content."""
 
 import argparse
 import json
@@ -43,7 +43,7 @@ def read(path):
 
 
 def compare(base, now):
-    """Returns how many times slower each benchmark is now, by name and by the more lenient calibration. Also returns the
+    """For each benchmark, returns by how many times it is slower now, by the more lenient calibration. Also returns the
     calibrations' own factors."""
     calibrations = sorted(name for name in base if name.startswith(CALIBRATION) and name in now)
     if not calibrations:

@@ -22,7 +22,7 @@ METHODS = ("triangles", "sampling", "minimisation")
 
 
 class Data:
-    """The results in the folder. A result that is not there is None."""
+    """The results in the folder. A missing result is None."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -313,8 +313,8 @@ def stage_shares(case):
 
 
 def floor_values(data):
-    """Returns the time that a step would take if it met the missed bars, and the time of the step's parts by the roofline's
-    fractions."""
+    """Returns the time that a step would take if it met the missed bars, and the times of the step's parts by the
+    roofline's fractions."""
     least = {name: t["least_ms"] for name, t in data.marking["times"].items()}
     step, fine = least.get("step, 1 thread"), least.get("step, 2 threads, fine triangles")
     queries, cgal = least.get("the paper's search, point queries, 1 thread"), least.get("CGAL, every node, 1 thread")
@@ -406,7 +406,8 @@ STEP_STAGES = (
 
 
 def peak_ns(peak, stage, unit, case):
-    """Returns the least time that the machine needs for a stage: the longer of the times for its operations and for its bytes."""
+    """Returns the least time that the machine needs for a stage: the time for its operations or for its bytes, whichever is
+    longer."""
     by_memory = case["bytes"][stage] / peak["bytes"]
     return max(by_memory, case["operations"][stage] / peak[unit]) if unit else by_memory
 
@@ -482,7 +483,7 @@ def peers_table(data, valve):
             continue
         for name, t in sorted(peers["times"].items(), key=lambda item: item[1]["least_ms"]):
             marks = peers["marks"].get(name)
-            if not marks:  # timed for a bar only
+            if not marks:  # timed only for a bar
                 continue
             reasons = ", ".join(f"{n} {reason}" for reason, n in sorted(marks["reasons"].items()))
             is_bounded = name.startswith(BOUNDED) or name in ("riis, clusters", "riis, exhaustive search")
@@ -601,11 +602,11 @@ def plot_peers(data, path):
 
 
 PLOTS = (
-    ("searches", plot_searches, "Seconds of a marking by nodes, the paper's and those here, on one thread"),
+    ("searches", plot_searches, "Seconds of a marking by number of nodes on one thread: the paper's times and these"),
     (
         "threads",
         plot_threads,
-        "How many times faster than one thread, the paper's searches and those here; shaded: more threads than processors",
+        "Speedup over one thread: the paper's searches and these; shaded: more threads than processors",
     ),
     ("peers", plot_peers, "Milliseconds of each peer for the same nodes"),
 )
@@ -648,7 +649,7 @@ def plot_left_out(data, name, title):
 
 
 def write_figures(data, folder):
-    """Writes the plots for the page of figures, and plots.json, which has their texts and names the missing plots with
+    """Writes the plots for the page of figures, and plots.json, which has the texts and names the missing plots with
     reasons."""
     os.makedirs(folder, exist_ok=True)
     drawn = {name: title for name, plot, title in PLOTS if plot(data, os.path.join(folder, name + ".png"))}

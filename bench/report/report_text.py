@@ -73,8 +73,8 @@ _PLACE = re.compile(r"<!--=([\w.]+)-->(\n?)(.*?)<!--/-->", re.DOTALL)
 def fill_in_place(path, values, to=None):
     """Writes the values between their marks in a page, or in a copy of the page.
 
-    The mark `<!--=a.b-->` begins the place of values["a"]["b"], and `<!--/-->` ends it. A mark on a line of its own begins a
-    block such as a table. No other mark begins a line, because Markdown would then take the line for HTML. A place without a
+    The mark `<!--=a.b-->` begins the place of values["a"]["b"], and `<!--/-->` ends it. A mark on its own line begins a
+    block such as a table. No other mark begins a line, because Markdown would take such a line for HTML. A place without a
     value, or with the value None, keeps its text. Returns the names of these places."""
     left = []
 
@@ -148,7 +148,7 @@ def table(heads, rows):
 
 
 class figure:
-    """Makes plots with logarithmic axes. If matplotlib is missing, it makes none and prints a line that says so."""
+    """Makes plots with logarithmic axes. If matplotlib is missing, it makes no plots, and prints a line that says so."""
 
     @staticmethod
     def _pyplot():
@@ -177,8 +177,8 @@ class figure:
     @staticmethod
     def lines(panels, across, up, path, ticks=None, limit=None):
         """Draws lines. panels: titles and lines. A line is a label, points and a style, and has the same colour in all panels.
-        ticks: values on the horizontal axis, instead of powers of ten. limit: (at, text); the region beyond `at` is shaded
-        and contains the text."""
+        ticks: values on the horizontal axis, instead of powers of ten. limit: (at, text); the region beyond `at` is shaded and
+        contains the text."""
         pyplot = figure._pyplot()
         if not pyplot:
             return False

@@ -106,7 +106,8 @@ class Study:
         return os.path.join(self.build, "bench", name)
 
     def run(self, name, command):
-        """Runs a command that writes out/bench/NAME.json, and records when. The file is replaced only if the command succeeds."""
+        """Runs a command that writes out/bench/NAME.json, and records the time. The file is replaced only if the command
+        succeeds."""
         print(f"==> {name}: {' '.join(command)}", flush=True)
         load = os.getloadavg()[0]
         date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
@@ -171,7 +172,7 @@ class Study:
         self.run("peers_python", [python, os.path.join(here, "..", "peers", "peers.py"), os.path.join(self.out, "peers"), "OUT"])
 
     def missing_for_figures(self):
-        """Measures the costs that the page of figures plots and that out/bench lacks. Existing results are kept, since they
+        """Measures the costs that the page of figures plots, if out/bench lacks them. Existing results are kept, since they
         may come from a longer run."""
         for name, measure in (("searches", lambda: self.searches(False)), ("peers", self.peers)):
             if os.path.exists(self.path(name)):
@@ -217,7 +218,7 @@ def main(arguments):
             parser.error(f"{options.what} takes a file")
         if options.what == "compare":
             try:
-                compare.read(options.file)  # read first, before minutes are spent
+                compare.read(options.file)  # read first, before minutes have been spent
             except compare.Unusable as error:
                 sys.exit(f"study.py: {error}")
         study.guard()

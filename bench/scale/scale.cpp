@@ -39,7 +39,7 @@ double peak_megabytes() {
   return static_cast<double>(usage.ru_maxrss) / 1000 * 1.024;
 }
 
-// The time that processors worked for this process. On a busy machine the wall time is longer.
+// The processor time of this process. On a busy machine the wall time is longer.
 double processor_seconds() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
@@ -125,7 +125,7 @@ class GridPieces : public MeshPieces {
     return MeshFile(mesh);
   }
 
-  // Counts the marks in the written file, each node in the first piece that has it. Then deletes the file.
+  // Counts the marks in the written file. Each node counts in the first piece that has it. Then deletes the file.
   void finished(std::int64_t piece) const override {
     const auto begin = Clock::now();
     const std::string digits = std::to_string(piece), zeros(4 - std::min<std::size_t>(4, digits.size()), '0');
@@ -276,7 +276,7 @@ int run(int argc, char **argv) {
     const riis::Surface surface(made);
     const riis_surface_info info = info_of(made);
     pieces.half_thickness = info.half_thickness;
-    // Two points on the axis, below and above the valve, in the box.
+    // Two points on the axis in the box, one below and one above the valve.
     const double low = pieces.z_of(0), high = pieces.z_of(pieces.shape()[2] * (side - 1));
     if (with_leaks)
       all.options.check_leaks = all.valves[0].options.check_leaks =

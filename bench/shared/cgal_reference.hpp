@@ -10,8 +10,8 @@
 
 namespace bench {
 
-// Computes the distance of each node within a limit by a query, and infinity for other nodes. This class is the fastest way to
-// get distances from CGAL. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
+// Queries the distance of each node within a limit. Other nodes have infinity. This class is the fastest way to get distances
+// from CGAL. Times on one thread, with a million nodes of which 3 % are marked, and 2456 triangles:
 //
 //   this class: a traversal with a shrinking limit, after a test of the tree's own box                50 ms
 //   the same with CGAL's test of a sphere and a box instead of the distance of a box                  62 ms
@@ -25,7 +25,8 @@ class CgalQuery {
  public:
   explicit CgalQuery(const Triangles &triangles);
   ~CgalQuery();
-  // distance: (n_nodes). xyz: (3, n_nodes). With an infinite limit, a node begins with the distance of the last node's triangle.
+  // distance: (n_nodes). xyz: (3, n_nodes). With an infinite limit, the search for a node begins with its distance from the last
+  // node's triangle.
   void distances(std::int64_t n_nodes, const double *xyz, double limit, int n_threads, double *distance) const;
 
  private:

@@ -15,12 +15,12 @@ double milliseconds_of(const Contest::Work &work) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Waits until only the calling thread runs, at most a second. OpenMP's threads spin for some milliseconds after a loop, and
-// would take processors from the next contender. The calling thread stays awake: if it slept, Linux would often wake a further
-// thread of the next loop on the calling thread's own processor.
+// Waits for at most a second until only the calling thread runs. After a loop, OpenMP's threads spin for some milliseconds,
+// and would take processors from the next contender. The calling thread stays awake: if it slept, Linux would often wake a
+// further thread of the next loop on the calling thread's own processor.
 void wait_for_other_threads() {
   using std::chrono::steady_clock;
-  constexpr double share = 0.1;  // of a processor, which the other threads may use
+  constexpr double share = 0.1;  // the share of a processor that the other threads may use
   const auto seconds_since = [](steady_clock::time_point start) {
     return std::chrono::duration<double>(steady_clock::now() - start).count();
   };

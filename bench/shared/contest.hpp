@@ -27,7 +27,7 @@ class Contest {
   double least(const std::string &name) const;
   // Computes the ratio of the two contenders' least times for each fifth of the run, and returns the median of these ratios.
   double ratio(const std::string &above, const std::string &below) const;
-  // Returns the reason why a contender was left out, or "" if it was not.
+  // Returns the reason why a contender was left out, or "" if it took part.
   std::string why_left_out(const std::string &name) const;
   // Returns the reasons of all contenders that were left out, by name.
   const std::map<std::string, std::string> &left_out() const { return left_out_; }

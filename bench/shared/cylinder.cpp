@@ -50,7 +50,7 @@ riis_csr CylinderMesh::rows() const {
 }
 
 std::vector<std::int32_t> CylinderNodes::tetrahedra() const {
-  // The six paths along the edges of a box from one corner to the opposite one.
+  // The six paths along the edges of a box from one corner to the opposite corner.
   constexpr int paths[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   const std::int64_t step[3] = {1, n_across_, n_across_ * n_across_};
   std::vector<std::int32_t> nodes;

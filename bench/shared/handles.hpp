@@ -108,7 +108,7 @@ inline void get_distances(const riis_marks *marks, double far_distance, std::vec
   check(riis_marks_get_dense(marks, &arrays));
 }
 
-// Adds the resistance to K (n) and to K_u_surface (3, n), which may be NULL.
+// Adds K and K u_surface to K (n) and to K_u_surface (3, n), which may be NULL.
 inline void add_resistance(const riis_marks *marks, const riis_resistance &resistance, std::vector<double> &K,
                            double *K_u_surface) {
   riis_resistance_arrays arrays;

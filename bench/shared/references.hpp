@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Declares competitors of the library's marking, written plainly and compiled with the same flags. They are the paper's
-// neighbour search, with a chosen method for distances, and a pass over the coordinates.
+// neighbour search, with a method for distances of choice, and a pass over the coordinates.
 #pragma once
 
 #include <riis/riis.h>
@@ -50,13 +50,13 @@ class PointQuery {
 };
 
 // The paper's neighbour search (4.2.2). It goes breadth first through marked nodes. For every leaflet it begins at the node
-// nearest to the leaflet. It takes its queue level by level, so that threads can share it.
+// nearest to the leaflet. It takes its queue level by level, so that threads can share each level.
 class PaperSearch {
  public:
   PaperSearch(std::int64_t n_nodes, const double *xyz, const riis_csr &rows)
       : n_nodes_(n_nodes), xyz_(xyz), rows_(rows) {}
 
-  // Finds the nodes at which the first search begins. Later searches begin at the nodes of the last marking.
+  // Finds the nodes where the first search begins. Later searches begin at the nodes of the last marking.
   void begin_at(const Triangles &triangles);
   // Returns the number of marked nodes. n_asked() returns the number of queried nodes.
   template <class Distance>

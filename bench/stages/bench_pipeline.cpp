@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times the stages from parameters to a scene (paper, 3 and 4.1), on one thread. The valves are the aortic valve and the
 // half-open mitral valve, at the default tolerance. Every stage starts from the results of the previous one. riis_surface_create
-// runs all stages. A stage is faster there if it reuses the memory of the last surface.
+// runs all stages. A stage is faster in riis_surface_create if it reuses the memory of the last surface.
 #include <benchmark/benchmark.h>
 
 #include "api/handles.hpp"
@@ -30,7 +30,7 @@ Surface surface_of(const riis_valve *valve) {
   return make_surface(valve, &options);
 }
 
-// Times the way from parameters to curves and patches.
+// Times the step from parameters to curves and patches.
 void pipeline_patches(benchmark::State &state, const char *kind) {
   const Valve valve = moved_valve(kind);
   for (auto _ : state) benchmark::DoNotOptimize(valve->valve.make_patches());

@@ -71,7 +71,7 @@ riis_mark_options options_for(const benchmark::State &state, std::int32_t search
   return options;
 }
 
-// Keeps the shortest of many markings, since other work on the machine only adds time to a marking.
+// Keeps the shortest of many markings, because other work on the machine makes markings longer.
 class Shortest {
  public:
   template <class Work>
@@ -115,7 +115,7 @@ void search_exhaustive(benchmark::State &state) { mark_repeatedly(state, RIIS_SE
 void search_neighbor_warm(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_NEIGHBOR); }
 void search_paper(benchmark::State &state) { mark_repeatedly(state, RIIS_SEARCH_PAPER); }
 
-// Marks into a new result every time, so there is no earlier marking to start from and no memory to reuse. The mesh already has
+// Marks into a new result every time, so there is no earlier marking as a start, and no memory to reuse. The mesh already has
 // its balls.
 void search_neighbor_cold(benchmark::State &state) {
   const riis_mesh *mesh = mesh_of(state).mesh();
@@ -162,7 +162,7 @@ void search_all_distances(benchmark::State &state) {
 }
 
 // Runs the paper's exhaustive search: every node and every triangle, on one thread, with the library's kernel. Only every 50th
-// node is measured. "all_nodes_s" extrapolates the time to all nodes, since each takes the same time.
+// node is measured. Each node takes the same time, so "all_nodes_s" is the extrapolated time of all nodes.
 void search_every_triangle(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const riis_surface *surface = valve_of(state).first();
@@ -186,7 +186,7 @@ void search_every_triangle(benchmark::State &state) {
 }
 
 // The first of the paper's two searches, written plainly (references.hpp). It measures an evenly spaced sample of about 2,000
-// nodes against every triangle. "all_nodes_ms" extrapolates the time to all nodes, since each takes the same time.
+// nodes against every triangle. Each node takes the same time, so "all_nodes_ms" is the extrapolated time of all nodes.
 void search_paper_exhaustive(benchmark::State &state) {
   const CylinderMesh &mesh = mesh_of(state);
   const Triangles triangles(valve_of(state).first());

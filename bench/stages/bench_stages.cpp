@@ -30,7 +30,7 @@ Surface aortic_surface(double tolerance) {
   return make_surface(make_valve("aortic").get(), &options);
 }
 
-// Returns nodes in the box around the demo's cylinder, the same nodes in every run.
+// Returns nodes in the box around the demo's cylinder. The nodes are the same in every run.
 const std::vector<double> &nodes() {
   static const std::vector<double> xyz = [] {
     constexpr std::size_t n_nodes = 100000;
@@ -56,8 +56,8 @@ Mesh box_mesh() {
   return Mesh(mesh);
 }
 
-// Times all stages from parameters to triangles to the scene, as in every time step of a moving valve. Argument: tolerance in
-// tenths of a per cent.
+// Times all stages from parameters to triangles and the scene, as in every time step of a moving valve. Argument: tolerance
+// in tenths of a per cent.
 void surface_update(benchmark::State &state) {
   const Valve valve = make_valve("aortic");
   const riis_surface_options options = with_tolerance(static_cast<double>(state.range(0)) * 1e-3);
@@ -104,7 +104,7 @@ void mark_exhaustive(benchmark::State &state) {
 BENCHMARK(mark_exhaustive)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 // Compares the loop over all triangles, which uses the library's own kernel, with the marking of the same nodes on one thread.
-// The ratio tells how many times faster the marking is. The loop measures every 100th node.
+// The ratio tells how many times as fast the marking is. The loop measures every 100th node.
 void brute_force_over_marking(benchmark::State &state) {
   const Surface surface = aortic_surface(0.05);
   const riis::TriangleSet &triangles = riis::content_of(surface.get()).triangles();

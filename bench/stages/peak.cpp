@@ -24,7 +24,7 @@ const PeakKernels &peak_kernels(InstructionSet set) {
   return peak_kernels_baseline;
 }
 
-// Other work on the machine only adds to a time, so the shortest of many runs is used.
+// Other work on the machine makes times longer, so the shortest of many runs counts.
 template <class Work>
 double shortest_nanoseconds(int n_turns, const Work &work) {
   double least = 1e300;

@@ -18,7 +18,8 @@ struct PeakKernel {
 struct PeakKernels {
   // Functions for single precision: multiply-adds; multiply-adds and additions; multiplications and additions.
   PeakKernel floats[3];
-  PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses none
+  PeakKernel doubles;  // for double precision: multiplications and additions, because the decision kernel fuses no
+                       // operations
 };
 
 extern const PeakKernels peak_kernels_baseline, peak_kernels_avx2, peak_kernels_avx512;

@@ -42,7 +42,7 @@ constexpr int n_turns = 100;
 
 double nanoseconds(Clock::duration duration) { return std::chrono::duration<double, std::nano>(duration).count(); }
 
-// The sums that the timing kernels below keep. Only one thread calls them.
+// The sums that the timing kernels below collect. Only one thread calls them.
 struct Measured {
   const riis::Kernels *kernels;
   Clock::time_point regions_end;  // when the last comparison of boxes ended
@@ -122,7 +122,7 @@ struct Counted {
 };
 Counted *counted = nullptr;
 
-// Adds the operations and pairs that the kernels count during this object's lifetime.
+// During this object's lifetime, adds the operations and pairs that the kernels count.
 class CountsOf {
  public:
   explicit CountsOf(riis::Counts &to) : to_(to), before_(riis::counts_of_kernels) {}
@@ -266,7 +266,8 @@ class StagedSteps {
     Times times;
     times.update = nanoseconds(updated - start);
     times.regions = nanoseconds(measured.regions_end - updated) - n_boxes * of_clock;
-    // An interval takes two readings of the clock. The time of one reading falls into the interval, and the other into the rest.
+    // An interval takes two readings of the clock. The time of one reading falls into the interval, and the time of the other
+    // reading falls outside.
     times.filter = nanoseconds(measured.filter) - n_filter * of_clock;
     times.decide = nanoseconds(measured.decide) - n_decide * of_clock;
     times.rest = nanoseconds(searched - measured.regions_end - measured.filter - measured.decide) -
@@ -339,7 +340,7 @@ nlohmann::json measure(const riis_mesh *mesh, double tolerance, double of_clock)
   options.half_thickness = half_thickness;
   options.tolerance = tolerance;
   StagedSteps steps(mesh, options);
-  // Whole and timed steps take turns. For each stage the shortest time is kept, because other work only adds to a time.
+  // Whole steps and timed steps take turns. For each stage the shortest time counts, because other work makes times longer.
   Times least{};
   double whole = 1e300;
   for (int turn = 0; turn < n_turns + 1; ++turn) {
@@ -347,7 +348,7 @@ nlohmann::json measure(const riis_mesh *mesh, double tolerance, double of_clock)
     const double of_whole = steps.whole();
     steps.move();
     const Times times = steps.staged(of_clock);
-    if (turn == 0) continue;  // the first turn does not count: caches and memory settle
+    if (turn == 0) continue;  // the first turn does not count, because caches and memory settle
     whole = std::min(whole, of_whole);
     if (turn == 1) least = times;
     for (double Times::*stage :

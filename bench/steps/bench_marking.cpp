@@ -206,7 +206,7 @@ bool compare_with_others(Contest &contest, Bars &bars, std::int64_t about_n_node
               100.0 * static_cast<double>(marked.n_nodes) / static_cast<double>(n));
   std::fflush(stdout);
   contest.run();
-  // More threads than processors come last: OpenMP starts and ends threads for them, and this would slow down the other
+  // More threads than processors come last. OpenMP starts and ends threads for them, which would slow down the other
   // contenders' steps on two threads.
   add(contest, "step, 4 threads", four);
   contest.run();
@@ -247,7 +247,7 @@ void compare_sizes(Contest &contest, std::int64_t about_n_nodes, nlohmann::json 
   const auto add_size = [&](const std::string &name, Size &size) {
     contest.add(
         name, n_turns, [&] { size.steps.step(); },
-        [&] {  // an untimed step, so that data of another mesh in the caches does not matter
+        [&] {  // an untimed step, so that another mesh's data in the caches does not matter
           size.steps.move();
           size.steps.step();
           size.steps.move();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. The same
-// steps are also measured while the two processes are stopped, and after a loop of the caller's own OpenMP threads. It prints
-// times and bars.
-// Beside busy processes the mean counts, and a few waits of milliseconds decide about it. So blocks of calls with 1 and with 2
-// threads take turns for a long time. The table gives the ratio of their mean times, with its standard error.
+// ./run bench busy: measures time steps on two processors that two other processes keep busy, with 1 and with 2 threads. The
+// same steps are also measured while the two processes are stopped, and after a loop on the caller's own OpenMP threads. It
+// prints times and bars. While other processes are busy, the mean counts, and a few waits of milliseconds decide it. Blocks of
+// calls with 1 and with 2 threads therefore take turns for a long time. The table gives the ratio of their mean times, with
+// its standard error.
 //   argv[1]  the number of nodes in thousands, 1000 by default
 #include <riis/riis.h>
 #include <sched.h>
@@ -34,7 +34,7 @@ using namespace bench;
 
 constexpr int most_turns = 400;
 constexpr std::chrono::seconds longest{5};       // for all turns of a subject
-constexpr std::chrono::seconds beside_busy{24};  // for all blocks of a subject beside busy processes
+constexpr std::chrono::seconds beside_busy{24};  // for all blocks of a subject while other processes are busy
 constexpr double block_milliseconds = 40;  // of calls with 1 thread; the system's slices take a tenth of this time
 
 [[noreturn]] void fail(const char *what) {
@@ -42,7 +42,7 @@ constexpr double block_milliseconds = 40;  // of calls with 1 thread; the system
   std::exit(1);
 }
 
-// Leaves this process and its later children two of its processors.
+// Leaves two of its processors to this process and its later children.
 void keep_two_processors() {
   cpu_set_t all, two;
   if (sched_getaffinity(0, sizeof all, &all) != 0) fail("sched_getaffinity");
@@ -125,7 +125,7 @@ struct Means {
   double ratio() const { return mean[1] / mean[0]; }
 };
 
-// Measures blocks of equally many calls with 1 and with 2 threads. Every second pair begins with 2 threads.
+// Measures blocks of equally many calls with 1 and with 2 threads. Every second pair of blocks begins with 2 threads.
 Means measure_in_blocks(const Subject &subject, double estimate) {
   const int n_calls = std::max(1, static_cast<int>(block_milliseconds / estimate));
   const auto block = [&](std::size_t i) {

@@ -23,8 +23,8 @@
 namespace bench {
 namespace {
 
-// The former version of riis_adjacency_create_from_cells, which did not yet count into 32-bit entries. It competes with the
-// present version.
+// The earlier version of riis_adjacency_create_from_cells, which did not count into 32-bit entries yet. It competes with
+// the present version.
 struct PlainRows {
   std::vector<std::int64_t> offsets;
   std::vector<std::int32_t> columns;
@@ -175,7 +175,7 @@ double status_kb(const char *field) {
   return kb;
 }
 
-// Runs the work in a process of its own, and returns by how many megabytes the peak memory rises.
+// Runs the work in a separate process, and returns by how many megabytes the peak memory rises.
 double peak_megabytes(const std::function<void()> &work) {
   int ends[2];
   if (pipe(ends) != 0) {

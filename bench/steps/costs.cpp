@@ -47,7 +47,7 @@ struct Row {
   std::string call, time[2], memory[2];
 };
 
-// Collects the table's rows. The column of one valve is filled at a time.
+// Collects the table's rows. The columns are filled one valve at a time.
 class Table {
  public:
   void begin(int column) {
@@ -75,7 +75,7 @@ class Table {
   std::vector<Row> rows_;
 };
 
-// Makes the object as often as the timing needs, and once more to count the bytes that malloc gave it.
+// Makes the object as often as the timing needs. It makes the object once more to count the bytes from malloc.
 template <class Handle>
 void add_making(Table &table, const std::string &name, const std::function<riis_status(Handle **)> &make,
                 void (*destroy)(Handle **), Handle **made) {
@@ -263,7 +263,7 @@ void get_coaptation(const riis_surface *surface) {
   check(riis_surface_get_coaptation(surface, RIIS_AUTO, RIIS_ALL_LEAFLETS, &coaptation, sizeof coaptation));
 }
 
-// Returns the processor's seconds of the shortest of five calls, on all threads. Other programs hardly add to these.
+// Returns the processor's seconds of the shortest of five calls, on all threads. Other programs hardly make these longer.
 double processor_seconds(const std::function<void()> &call, const std::function<void()> &before) {
   double least = HUGE_VAL;
   for (int n = 0; n < 5; ++n) {
@@ -275,7 +275,8 @@ double processor_seconds(const std::function<void()> &call, const std::function<
   return least;
 }
 
-// Prints the processor's times of the measures of a closed and of an open valve, whichever is longer.
+// Prints the processor's times of the measures. The times of a closed and of an open valve are compared, and the longer is
+// printed.
 void print_measures() {
   const std::pair<const char *, std::function<void(const riis_surface *)>> calls[] = {
       {"`riis_surface_get_orifice`", get_orifice},

@@ -38,7 +38,7 @@ riis_surface_info info_of(const Surface &surface) {
   return info;
 }
 
-// Returns a surface with the same triangles as the given one, and with another half thickness.
+// Returns a surface with the same triangles as the given surface, and with another half thickness.
 Surface with_half_thickness(const Surface &surface, double thickness) {
   riis_surface_arrays arrays;
   check(riis_surface_arrays_init(&arrays, sizeof arrays));
@@ -197,8 +197,8 @@ double open_share(const Surface &surface, double radius, int n_per_radius) {
   return static_cast<double>(n_open) / static_cast<double>(n_disc);
 }
 
-// Prints the milliseconds of a marking by clusters, of a first search for leaks, and of a second one with known edges. Prints
-// them also for the labels of regions, and for the passage from the first node to the last one.
+// Prints the milliseconds of a marking by clusters, of a first search for leaks, and of a second search with known edges.
+// Prints them also for the labels of regions, and for the passage from the first node to the last one.
 void print_cost(double thickness, const CylinderMesh &nodes) {
   const Surface surface = with_half_thickness(surface_of("aortic", 0), thickness);
   const double *xyz = nodes.xyz().data();

@@ -62,14 +62,14 @@ double largest_difference(const std::vector<double> &a, const std::vector<double
   return largest;
 }
 
-// Measures how much the resistance K jumps because a valve's triangles change between two steps.
+// Measures how much the resistance K jumps because the triangles of a valve change between two steps.
 struct KJump {
   double motion;        // the largest change of K in a step, on triangles so fine that their change does not matter
   double with_adapted;  // the largest difference from the change `motion`, with adapted triangles
   double with_fixed;
 };
 
-// Makes n_steps steps of the opening by `step`, from evenly spaced openings. All values are fractions of the largest K.
+// From evenly spaced openings, makes n_steps steps of the opening by `step`. All values are fractions of the largest K.
 KJump measure_k_jump(riis_valve *valve, const CylinderNodes &nodes, double step, int n_steps) {
   constexpr double tolerance = 0.05, fine = 0.0005;
   ResistanceChange adapted(valve, nodes, tolerance, RIIS_TRIANGULATION_ADAPTED),
@@ -157,7 +157,7 @@ class MovingSteps {
     marking_.fields = fields;
     check(riis_mark_nodes(surface_.get(), mesh_.get(), &marking_, result_.get()));
   }
-  // Directions of the opening. All parameters cost the same.
+  // Directions of the opening. All parameters take the same time.
   void add_directions(int n) {
     riis_valve *const after = after_.get(), *const earlier = earlier_.get();
     check(riis_valve_set_scalar(after, "opening", opening_ + 1e-4));

@@ -66,7 +66,7 @@ std::vector<idx_t> partition(Graph &graph, idx_t n_parts, std::vector<idx_t> &we
   std::exit(1);
 }
 
-// A rank, with whole surfaces of its own and the nodes of one part.
+// A rank, with its own whole surfaces and the nodes of one part.
 class Rank {
  public:
   Rank(const CylinderNodes &nodes, std::vector<std::int64_t> ids)

@@ -40,7 +40,7 @@ def outline(valve, opening, n=200001):
         x, y_arc = edge + q * radius * numpy.cos(angle), radius * numpy.sin(angle)
         covered = numpy.trapz(arc - edge, y)
         length = top + _length_inside(x, y_arc, radius)
-    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside it
+    else:  # docs/theory/trileaflet.md: the free edge is a parabola, and the cusp covers only the part outside this parabola
         y_end = 1.1 * 1.25 * numpy.sin(numpy.pi / 3)
         y = numpy.linspace(0, y_end, n)
         x = 1.0 + (1.1 * 1.25 * numpy.cos(numpy.pi / 3) - 1.0) * (y / y_end) ** 2
@@ -82,7 +82,7 @@ class Run:
         self.drop = RHO * pressure[-1]  # Pa, static, from the inlet to the outlet
         self.flow = INLET * numpy.pi * RADIUS[self.valve] ** 2 * 1e2  # ml/s
         out = foam.table(folder, "outlet")[-1, 1] * 1e6 * COPIES[self.valve]
-        # The mesh has polygons in place of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
+        # The mesh has polygons instead of circles, so a coarse mesh has less flow. The area uses the flow of the polygon.
         if abs(out / self.flow - 1) > 0.03:
             raise SystemExit(f"{folder}: {out} ml/s leave the tube, and {self.flow} enter it")
         self.flow = out
@@ -128,7 +128,8 @@ def line(eps, area):
 
 
 def far_from(points, triangles):
-    """Returns the largest distance of a point from the triangles. Points are few, so each is compared with each triangle."""
+    """Returns the largest distance of a point from the triangles. There are few points, so each is compared with each
+    triangle."""
     a, b, c = (triangles[:, k] for k in range(3))
     largest = 0.0
     for point in points:
@@ -254,7 +255,7 @@ def compare(valve, opening, runs, solids, folder):
               f" {run.drop:>9.2f} {run.area:>10.4f} {100 * (run.area / body - 1):>+8.2f} %  {c_of(run):>5.3f}")
     rows = []
     for rim in ("round", "cut"):
-        # Only the largest half thickness was also run with other edges and other resistances.
+        # Other edges and other resistances were only run with the largest half thickness.
         first = [one for one in obstacles if one.rim == rim and one.eps == max(other.eps for other in obstacles)]
         others = ""
         for words, some in (("edges", [one for one in first if one.resistance == 1e3]),
@@ -293,8 +294,8 @@ def compare(valve, opening, runs, solids, folder):
         rows.append({"id": f"bodyfit_{valve}_{opening:g}_{rim}_line",
                      "quantity": f"{what}: effective area on a line through all ε, at ε = 0, cm²", **common,
                      "deviation": round(float(at_zero / body - 1), 4), "bar": LINE_BAR if opening == 1 else None,
-                     "note": f"A − c ε P with P = {perimeter:.2f} cm: c {c_line:.2f} of the line, {min(c_each):.2f} to"
-                             f" {max(c_each):.2f} of single ε; over the discharge coefficient"
+                     "note": f"A − c ε P with P = {perimeter:.2f} cm: c is {c_line:.2f} on the line and {min(c_each):.2f} to"
+                             f" {max(c_each):.2f} at single ε; divided by the discharge coefficient"
                              f" {c_line * geometric / body:.2f}{others}"})
         rows += solid_row(what, [one for one in three if one.eps in solids], solids)
     shown = [one for one in chosen(obstacles) if one.rim == "round"]
@@ -376,7 +377,7 @@ def blood(folder, runs):
         "solver": SOLVER.replace("simpleFoam", "pimpleFoam"),
         "grids": [place(run, area) for run, area in sorted(rows, key=lambda one: -one[0].eps)],
         "order": None, "extrapolated": round(float(at_zero), 4), "deviation": round(float(at_zero / walls - 1), 4), "bar": None,
-        "note": "means over 0.06 s; planes of symmetry hold a quarter, so fluctuations across them are missing"}]
+        "note": "means over 0.06 s in a quarter of the valve; fluctuations across its planes of symmetry are missing"}]
 
 
 def main(folder):

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Compares open leaflets that are walls of no thickness in a body-fitted mesh with the same leaflets as obstacles of riis. Both
-# use the same solver and flow:
-# bench/validation/body_fitted.sh FOLDER [--quick]
-# A piece of the valve between its planes of symmetry lies in a tube. Blood with ten times its viscosity enters with a uniform
-# velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp / rho). Here dp is the total pressure at the inlet minus the pressure
-# at the outlet. The jet still exists at the outlet, so it has not regained pressure.
-# FOLDER gets the table body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A complete case in FOLDER is not run
-# again.
+# Compares open leaflets that are walls of no thickness in a body-fitted mesh with the same leaflets as obstacles of riis.
+# Both use the same solver and flow: bench/validation/body_fitted.sh FOLDER [--quick] A piece
+# of the valve between its planes of symmetry lies in a tube. Blood with ten times its
+# viscosity enters with a uniform velocity of 0.5 m/s. The effective area is Q / sqrt(2 dp /
+# rho). Here dp is the total pressure at the inlet minus the pressure at the outlet. The jet
+# still exists at the outlet, so it has not regained pressure. FOLDER gets the table
+# body_fitted.txt, the rows body_fitted.json, pictures, and the cases. A complete case in
+# FOLDER is not run again.
 set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "$0")")
 [[ ${1:-} && ${1:-} != -* && (${2:-} == '' || ${2:-} == --quick) && $# -le 2 ]] || {
@@ -37,7 +37,7 @@ openfoam_build >"$out/build.log" 2>&1 || {
 }
 openfoam_environment
 
-# logged LOG COMMAND...: runs the command with its output in the file. Shows the file's end if it fails.
+# logged LOG COMMAND...: runs the command with its output in the file. If the command fails, shows the file's end.
 logged() {
   "${@:2}" >"$1" 2>&1 && return
   printf 'failed: %s; the end of %s:\n' "${*:2}" "$1" >&2
@@ -62,7 +62,7 @@ make_mesh() {
   sed -i '/^ *wall$/,/}/s/patch;/wall;/; /^ *planes$/,/}/s/patch;/symmetry;/; /physicalType/d' "$mesh/constant/polyMesh/boundary"
   if (($3)); then
     logged "$mesh/log.createBaffles" createBaffles -case "$mesh" -overwrite || return
-    cp -r "$here/steady_case/0" "$mesh" # createBaffles gave the new walls conditions of their own
+    cp -r "$here/steady_case/0" "$mesh" # createBaffles gave the new walls their own boundary conditions
   fi
   logged "$mesh/log.checkMesh" checkMesh -case "$mesh" -constant && grep -q '^Mesh OK' "$mesh/log.checkMesh" &&
     rm "$mesh/mesh.msh" && touch "$mesh/complete"
@@ -74,8 +74,8 @@ set_valve() {
     s/opening 1;/opening ${2#*-};/" "$1/system/fvOptions"
 }
 
-# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. A mesh with walls in place of riis has no EPS,
-# RIM and RESISTANCE.
+# run_case NAME MESH VALVE [EPS RIM RESISTANCE]: runs simpleFoam. EPS is in metres. If walls replace riis in a mesh, it has no
+# EPS, RIM and RESISTANCE.
 run_case() {
   local case=$out/cases/$1
   [[ ! -e $case/complete ]] || return 0
@@ -164,8 +164,8 @@ solid() {
   meshes+="solid-$1-$2-$3 $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }') 0.13 $2"$'\n'
   cases+="solid-$1-$2-$3 solid-$1-$2-$3 $1"$'\n'
 }
-# obstacle VALVE EPS SIZE RIM [RESISTANCE]: adds a case of riis and its mesh. Edges have the length SIZE up to the distance
-# EPS + SIZE from the leaflet.
+# obstacle VALVE EPS SIZE RIM [RESISTANCE]: adds a case of riis and its mesh. Up to the distance EPS + SIZE from the
+# leaflet, edges have the length SIZE.
 obstacle() {
   local name=free-$1-$2-$3 line
   line="$name $1 0 $3 $(awk -v a="$2" -v b="$3" 'BEGIN { print a + b }')"

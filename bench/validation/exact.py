@@ -41,13 +41,13 @@ def hole(a, r, z):
 
 
 def contraction(m):
-    """Returns the contraction C of a plane free jet from a slit. m is the slit's width over the channel's width. m = 0 stands for
-    a jet from a half space.
+    """Returns the contraction C of a plane free jet from a slit. m is the slit's width divided by the channel's width. m = 0
+    stands for a jet from a half space.
 
     The formula comes from the theory of free streamlines (Helmholtz, Kirchhoff). Von Mises 1917 has a table of C. The hodograph
-    w = (u - i v)/U of half the jet is a quarter of the unit disc. It has a source at k = C m, the speed far upstream over U, and
-    a sink at 1. So W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). The integral of dz = dW / (U w) along the
-    free streamline goes from the edge, w = i, to w = 1. It gives 1/C = 1 + (2/pi) (1/k - k) arctan k."""
+    w = (u - i v)/U of half the jet is a quarter of the unit disc. It has a source at k = C m, which is the speed far upstream
+    divided by U, and a sink at 1. So W = (Q/pi) (log(w^2 - k^2) + log(w^2 - 1/k^2) - 2 log(w^2 - 1)). The integral of dz = dW /
+    (U w) along the free streamline goes from the edge, w = i, to w = 1. It gives 1/C = 1 + (2/pi) (1/k - k) arctan k."""
     if m == 0:
         return np.pi / (np.pi + 2)
     C = 0.6
@@ -68,7 +68,7 @@ def contraction_by_streamline(m, n=200_000):
     s = np.pi / 2 * t * t
     w = np.exp(1j * s)
     dW = 2 * w * (1 / (w * w - k * k) + 1 / (w * w - 1 / k**2) - 2 / (w * w - 1)) / np.pi * 1j * w
-    y = np.sum((dW / w).imag * np.pi * t) / n  # with Q = U = 1 the jet's half width is 1
+    y = np.sum((dW / w).imag * np.pi * t) / n  # with Q = U = 1, the jet's half width is 1
     return 1 / (1 + abs(y))
 
 

@@ -44,7 +44,7 @@ def jet(library, share, eps, per_eps, rim, shift=0.0, speed=SPEED, reynolds=REYN
     u, v, p = flow.solve(marking.RHO, mu, K, q, say=say)
     rho, discharge = marking.RHO, inlet * B / share
     total = p[0, 0] + rho / 2 * inlet**2
-    # The pressure downstream is that of a cell in the dead water behind the plate, half way between slit and wall.
+    # The pressure downstream is the pressure in a cell of the dead water behind the plate, half way between slit and wall.
     i = np.searchsorted(flow.xc, 2 * eps + B / 4)
     j = np.searchsorted(flow.yc, (B + B / share) / 2)
     core = u[(flow.x > 0) & (flow.x < 3 * B), 0].max()

@@ -69,7 +69,7 @@ def effective_radius(library, kind, eps, per_eps, rim, tolerance=1e-6):
             return sum(d @ lu.solve(d.T @ p) for d, lu in zip(D, A))
 
         # The velocity u = started + A^-1 D^T p must be free of divergence, which gives the equation S p = mass. The Schur
-        # complement S is close to the cell volumes where viscosity dominates, and close to `rough` where K dominates.
+        # complement S is close to the cell volumes if viscosity dominates, and close to `rough` if K dominates.
         p = _conjugate_gradients(schur, mass, lambda x: rough.solve(x) + x / size, tolerance)
         u = [x + lu.solve(d.T @ p) for x, lu, d in zip(started, A, D)]
         if kind == "disc":

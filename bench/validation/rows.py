@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the rows of ./run validate. A row compares a computed value with a reference.
 
-A row is one JSON object with the fields below. bench/validation/all.json also has rows, of solvers that take hours. They stand
-under "rows", and "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
-  id            unique word, which the page's prose may name
+A row is one JSON object with the fields below. bench/validation/all.json also has rows, from solvers that take hours. They
+are under "rows". "commit", "machine" and "command" say where they come from. validate.py merges them into the page.
+  id            unique word, which the page's prose may use
   group         stokes, closed, jets, bodyfit or clinical: the page's section
   quantity      text
   reference     number, or null for a row that only shows a trend
@@ -101,7 +101,7 @@ def stokes_tasks(variant):
     return tasks
 
 
-FACTORS = (1.0, 1e-2, 1e-4)  # R over the resistance of the examples
+FACTORS = (1.0, 1e-2, 1e-4)  # R divided by the resistance of the examples
 
 
 def resistance_tasks(variant):
@@ -141,7 +141,7 @@ def stokes_rows(variant, results):
                            [1 / c for c in cells], [f"ε/h {c}" for c in cells], [np.mean(b) for b in both])  # fmt: skip
                 spread = abs(both[-1][0] - both[-1][1]) * n / 2
                 made["c"], made["c_spread"] = sign * (1 - made["extrapolated"]) * n, spread
-                made["note"] = f"c = {made['c']:.2f}, ± {spread:.2f} by the rim's place between faces on the finest grid"
+                made["note"] = f"c = {made['c']:.2f}, ± {spread:.2f} for other places of the rim between faces"
                 radii.append(made)
             rows += radii
             eps = [1 / n for n in variant.stokes_n]
@@ -164,11 +164,11 @@ def stokes_rows(variant, results):
         value = results["space", kind][0]
         rows.append({
             "id": f"space_{kind}", "group": "stokes", "quantity": f"{what[kind]}; round rim, ε = a/4, ε/h 2, in space",
-            "reference": float(beside), "source": "the same grid size round the axis, mean of four places of the rim",
+            "reference": float(beside), "source": "the same grid size round the axis, mean over four positions of the rim",
             "solver": "staggered grid in an eighth of a box, Schur complement (bench/validation/octant.py)",
             "grids": [{"n": f"{results['space', kind][1]} cells", "value": float(value)}], "order": None,
             "extrapolated": float(value), "deviation": float(value / beside - 1), "bar": 0.05,
-            "note": "one grid: it only shows that the rows round the axis hold in space",
+            "note": "one grid; it only shows that the rows round the axis also hold in space",
         })  # fmt: skip
     return rows
 
@@ -223,7 +223,7 @@ def closed_rows(library, flow_program=None, short=False):
        1.0, "no flow through the plate", "{:.0f} cells across", 0.01)  # fmt: skip
     of("leak", "closed_leak", "leak of the closed aortic valve at 80 mmHg, ε = 1.5 h, over Δp ε/R times the area of its leaflets",
        1.0, "(R/ε) u on each leaflet by itself", "{:.0f} cells across", None,
-       "less than 1, as the bands of two cusps that touch are one; it tends to 1 with ε")  # fmt: skip
+       "less than 1, because two cusps that touch have one band; tends to 1 as ε tends to 0")  # fmt: skip
     return rows
 
 
@@ -279,7 +279,7 @@ def jet_rows(variant, results):
             made = row(f"slit_{rim}_{m}", "jets", f"effective half width of a slit, b_eff / b by Δp and C, {rim} rim, ε = b/{m}",
                        1.0, "contraction of the infinitely thin plate", PLANE, h_m, [f"b/h {m * c:g}" for c in some],
                        [results["jet", rim, 0.3, m, c, 1.0]["by_drop"] / C for c in some])  # fmt: skip
-            made["note"] = "the error of the grid is in it, unlike in c below"
+            made["note"] = "this value contains the error of the grid; c below does not"
             rows.append(made)
     for rim in ("round", "cut"):
         pair = [r for r in rows if r["id"] in (f"slit_{rim}_{n}", f"slit_{rim}_{2 * n}")]
@@ -301,12 +301,12 @@ def jet_rows(variant, results):
         drops = [results["jet", "cut", 0.3, n, c, s]["drop"] for s in SPEEDS]
         exponents.append(math.log(drops[-1] / drops[0]) / math.log(SPEEDS[-1] / SPEEDS[0]))
     rows.append(row("drop_exponent", "jets", "exponent of Q in the drop, from half to twice the flow", 2.0, "drop ∝ Q²", PLANE,
-                    h, names, exponents, 0.05, "viscosity is fixed, so the jet contracts more as it is faster"))  # fmt: skip
+                    h, names, exponents, 0.05, "the viscosity is fixed, so a faster jet contracts more"))  # fmt: skip
     return rows
 
 
 def picture(result):
-    """Returns the fields near the slit that the plot of a jet shows: the speed, and the stream function over the flow."""
+    """Returns the fields near the slit that the plot of a jet shows: the speed, and the stream function divided by the flow."""
     x, y = result["x"], result["y"]
     near = np.abs(x - jets.B) < 3 * jets.B
     low = y < 3 * jets.B

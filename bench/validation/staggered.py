@@ -5,7 +5,7 @@
 
 x runs along the axis or the stream. y is the radius or the direction across the stream. u lies on faces normal to x, v on faces
 normal to y, and p at cell centres. Diffusion uses central differences. Convection extrapolates linearly from two points
-upstream. Newton's method solves for all unknowns at once. Its Jacobian is exact as long as no flow through a face changes its
+upstream. Newton's method solves for all unknowns at once. Its Jacobian is exact unless the flow through some face changes its
 direction. Stokes flow takes one solution of linear equations."""
 
 import numpy as np
@@ -141,7 +141,7 @@ class Flow:
         area = self.wc * self.dy / 2
         X, Y = np.meshgrid(self.x, self.yc, indexing="ij")
         add(((u[:-1], area), (u[1:], area)), stencil_of(u, 0), stencil_of(X, 0), self.xc[:, None])
-        # Faces between volumes of u that are neighbours in y come second. The flow through a face is half of v in the cell on
+        # Faces between two volumes of u that are neighbours in y come second. The flow through a face is half of v in the cell on
         # the left plus half of v in the cell on the right. At both ends of the grid a face has only one of these halves.
         left, right = np.concatenate([self.dx[:1] * 0, self.dx / 2]), np.concatenate([self.dx / 2, self.dx[:1] * 0])
         to_left = np.concatenate([v[:1], v])[:, 1:-1]
@@ -179,7 +179,7 @@ class Flow:
         value = value_of @ q
         residual = B @ (mass * value)
         jacobian = B @ (sp.diags(mass) @ value_of + sp.diags(value) @ M)
-        out = self.u_of[-1]  # the half volumes at the outlet end at these faces; the outflow carries the velocity of its face
+        out = self.u_of[-1]  # the half volumes at the outlet end at these faces; the outflow has the velocity of its face
         if self.channel:
             area = self.wc * self.dy
             residual[out] += area * q[out] * q[out]
@@ -246,8 +246,8 @@ def _factor(matrix):
 
 
 def graded(h, fine, ends, growth=1.1, largest=None):
-    """Returns the edges of cells from ends[0] to ends[1]. Cells from fine[0] to fine[1] have the size h. Outside this range each
-    cell is larger than its inner neighbour by the factor growth."""
+    """Returns the edges of cells from ends[0] to ends[1]. Cells from fine[0] to fine[1] have the size h. Outside this range,
+    each cell is larger than the cell before it by the factor growth."""
     if fine[0] < ends[0] - 1e-9 * h or fine[1] > ends[1] + 1e-9 * h:
         raise ValueError(f"cells of {h} from {fine[0]} to {fine[1]} do not fit between {ends[0]} and {ends[1]}")
     n = max(1, round((fine[1] - fine[0]) / h))

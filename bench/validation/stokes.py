@@ -2,7 +2,7 @@
 """Computes the effective radius of a hole in a plate, and of a disc, in axisymmetric Stokes flow.
 
 Lengths are in radii a. K / mu is (R / mu) delta / eps with R / mu = 1e4 / 3.5e-3 = 2.9e6. R / mu has no unit, so blood's value
-holds at any size. The boundary values come from the closed form with the effective radius. The effective radius is therefore
+holds at any size. With the effective radius, the closed form gives the boundary values. The effective radius is therefore
 found by iteration."""
 
 import numpy as np
@@ -15,8 +15,8 @@ BOX = 6.0  # radii, half the box's length and its radius
 
 
 def grid_of(eps, per_eps, along, across):
-    """Returns the edges of the cells along the axis and in the radius. The distance of the plate from a face is `along` cells.
-    The distance of the rim from a face is `across` cells."""
+    """Returns the edges of the cells along the axis and along the radius. The distance of the plate from a face is `along`
+    cells. The distance of the rim from a face is `across` cells."""
     h = eps / per_eps
     n, m = round(1.5 * per_eps + 1), round(2.5 * per_eps + 1)
     z = graded(h, ((-n - along) * h, (n - along) * h), (-BOX, BOX), 1.12)
@@ -48,7 +48,7 @@ def effective_radius(library, kind, eps, per_eps, rim, place=(0.0, 0.0), solid=F
         for at in (0, -1):
             u[at] = outer(a, flow.yc, np.full(flow.ny, flow.x[at]))[0]
         v[:, -1] = outer(a, np.full(flow.nx, flow.y[-1]), flow.xc)[1]
-        # The velocities on the outer face are corrected so that the net flow into the box is also 0 on the grid.
+        # The velocities on the outer face are corrected, so that the net flow into the box is also 0 on the grid.
         area = flow.wc * flow.dy
         excess = area @ (u[-1] - u[0]) + flow.we[-1] * (flow.dx @ v[:, -1])
         v[:, -1] -= excess / (flow.we[-1] * (flow.x[-1] - flow.x[0]))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # check_fortran.py ford.md: checks that every public Fortran name has a text in FORD's output. The names that FORD shows are
-# compared with the names of the PUBLIC statements, so the check also finds a name that FORD overlooks. The Python that FORD was
-# installed for runs this script.
+# compared with the names of the PUBLIC statements, so the check also finds a name that FORD overlooks. This script runs in the
+# Python that has FORD.
 import pathlib
 import re
 import sys

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # ./run docs, which reads this file. It uses $build and functions of `run` and of python/python.sh.
 
-# Packages that ./run docs needs, the last for the Python package. FORD, for the Fortran pages, pdoc, for the Python pages, and
-# latex2mathml, for the formulas, come from PyPI.
+# Packages that ./run docs needs. The last one is for the Python package. FORD (for the Fortran pages), pdoc (for the
+# Python pages) and latex2mathml (for the formulas) come from PyPI.
 docs_packages=(doxygen python3-venv libjs-bootstrap5 fonts-lmodern
   g++ cmake ninja-build libembree-dev libtbb-dev nlohmann-json3-dev python3-dev)
 ford_version=7.0.13
@@ -36,7 +36,7 @@ run_docs() {
     docs/{theory,design}/*.md
   "$venv/bin/python" -B docs/reference/figures_page.py README.md docs/*.md docs/theory/*.md >"$reference/figures.md"
   step "C and pages (Doxygen)" env RIIS_DOCS_PYTHON="$venv/bin/python" doxygen docs/reference/Doxyfile
-  # Copies the files that pages link to and that are not pages themselves.
+  # Copies the files to which pages link and which are not pages themselves.
   cp --parents examples/*.c examples/*.cpp examples/*.f90 examples/*.json examples/python/*.ipynb \
     examples/cluster/mark_pieces.sh examples/flow_fortran/source.f90 examples/left_heart/heart.png \
     tests/marking/test_{resistance,empty_mesh}.c tests/process/test_restart.c CITATION.cff LICENSE docs/*_parameters.png out/docs

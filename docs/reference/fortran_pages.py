@@ -26,7 +26,7 @@ for page in sorted(folder.rglob("*.html")):
     text = re.sub(r"<!-- MathJax -->\s*", "", text)
     text = re.sub(r'<script type="text/x-mathjax-config">.*?</script>\s*', "", text, flags=re.DOTALL)
     text = re.sub(rf"<script src={REMOTE}MathJax\.js[^>]*></script>\s*", "", text)
-    text = re.sub(r'#moduleprocedure-[^"]*"', '"', text)  # places that FORD links to and does not make
+    text = re.sub(r'#moduleprocedure-[^"]*"', '"', text)  # places to which FORD links without making them
     if (n_css, n_js) != (1, 1):
         sys.exit(f"fortran_pages.py: {page} does not ask for Bootstrap as FORD's pages did: this script is out of date")
     page.write_text(text, encoding="utf-8")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # markdown_pages.py FILE.md...: writes the pages to stdout in the form that Doxygen reads. The pages have formulas in the form
 # that git hosts show: $...$ within a line, and ```math around lines of their own. The script turns the formulas into MathML,
-# which browsers show without scripts, fonts or a network. Links lose their places (#...), because Doxygen gives places other
-# names. The Python that has latex2mathml runs this script.
+# which browsers show without scripts, fonts or a network. Links lose their places (#...), because Doxygen gives the places
+# other names. This script runs in the Python that has latex2mathml.
 import pathlib
 import re
 import sys
@@ -10,12 +10,13 @@ import sys
 from latex2mathml.converter import convert
 
 FENCE = re.compile(r"^( *)```(\w*) *$")
-# A formula begins behind a blank or a bracket, and ends before a blank or punctuation. No blank stands just inside its dollars.
+# A formula begins behind a blank or a bracket, and ends before a blank or punctuation. Inside the dollars, a formula does not
+# begin or end with a blank.
 CODE = r"(`+)(?:(?!\1).)*\1(?!`)"
 FORMULA = re.compile(CODE + r"|(?<![\w$\\])\$(?=[^\s$])([^$]*?)(?<=[^\s$])\$(?![\w$])")
 
-# latex2mathml and browsers lack some of TeX's rules. A slash has no space around it, and a sign no space behind it. Functions
-# have some space around them. Columns need a style that Chromium knows. Primes are already drawn high, so they are no
+# latex2mathml and browsers lack some of TeX's rules. There is no space around a slash, and none behind a sign. Functions have
+# some space around them. Columns need a style that Chromium knows. Primes are already drawn high, so they are not
 # superscripts.
 THIN = '<mspace width="0.167em" />'
 SPACING = [

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # python_pages.py FOLDER: writes the reference of the installed Python package riis to the folder, by pdoc. Ends with an error if
-# a public name lacks a text. Exceptions, enumerations and records say in their one text what their members are.
+# a public name lacks a text. The text of an exception, an enumeration or a record describes its members as well.
 import inspect
 import pathlib
 import re
@@ -30,12 +30,12 @@ def undocumented():
 missing = sorted(undocumented())
 if missing:
     sys.exit("python_pages.py: without a text: " + ", ".join(missing))
-# The names of some types exist only for type checkers. pdoc shows them as they are written, and warns.
+# Some types have names only for type checkers. pdoc shows these names as they are written, and warns.
 warnings.filterwarnings("ignore", message="Error parsing type annotation")
 pdoc.render.configure(docformat="markdown", show_source=False, search=False, footer_text=f"riis {riis.version_string()}")
 folder = pathlib.Path(sys.argv[1])
 pdoc.pdoc("riis", output_directory=folder)
-for page in folder.rglob("*.html"):  # links to private base classes, which have no place in the pages
+for page in folder.rglob("*.html"):  # links to private base classes, which have no pages
     text = page.read_text(encoding="utf-8")
     page.write_text(re.sub(r'<a href="[^"]*#_[^"]*">(.*?)</a>', r"\1", text, flags=re.DOTALL), encoding="utf-8")
 print(len(riis.__all__), "names")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""site.py FOLDER: makes one site of the pages of Doxygen, FORD and pdoc in the folder.
+"""site.py FOLDER: makes one site from the pages of Doxygen, FORD and pdoc in the folder.
 
 The pages of FORD and pdoc, in fortran/ and python/, get a bar that leads to all parts. search.html searches all parts. It loads
 an index, site_index.js, so that it works without a server. An entry of the index is a part of a page that begins with a heading
@@ -151,7 +151,7 @@ def main(folder):
         if 'http-equiv="refresh"' in text:
             continue  # only leads to another page
         if depth and 'class="riis-bar"' not in text:
-            # pdoc lays out its body in columns, so there the bar is the head of the main column.
+            # pdoc lays out its body in columns, so the bar becomes the head of the main column.
             start = r'(<main class="pdoc">)' if '<main class="pdoc">' in text else r"(<body[^>]*>)"
             text, n = re.subn(start, lambda found, depth=depth: found[1] + bar(depth), text, count=1)
             if n != 1:

@@ -217,7 +217,7 @@ def check_beat(report, study):
 
 
 def restart_difference(whole, continued):
-    """Returns the largest difference of the drops between a whole run and a restarted run, and the largest drop."""
+    """Returns the largest difference between the drops of a whole and a restarted run, and the largest drop."""
     place = {step: i for i, step in enumerate(whole["step"])}
     pairs = [(whole["drop"][place[step]], drop) for step, drop in zip(continued["step"], continued["drop"]) if step in place]
     if not pairs:

@@ -64,8 +64,8 @@ saturne_open() {
     saturne_run c none 1 VALVE_PRESENT=0 RUN_INFLOW=0.2 RUN_STEPS=25
 }
 
-# saturne_beat: runs the beat, in which the solver's pressures open and close the valve. Further runs leave out u_surface, or use
-# several ranks up to the open valve, or consist of two halves. Both halves are also run without a valve.
+# saturne_beat: runs the beat, in which the solver's pressures open and close the valve. Further runs leave out u_surface, use
+# several ranks until the valve is open, or restart halfway. Both halves are also run without a valve.
 saturne_beat() {
   local half=30 steps=45
   saturne_run c beat 1 RUN_STEPS=150 RUN_SLICE_EVERY=5 RUN_CHECKPOINT=$half &&

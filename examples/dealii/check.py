@@ -7,7 +7,7 @@ import sys
 
 import numpy
 
-EQUAL = 1e-6  # runs on several ranks, and a restarted run, agree to this share of the largest value
+EQUAL = 1e-6  # runs on several ranks and a restarted run must agree to this share of the largest value
 DENSITY, LENGTH = 1060, 0.06  # of the blood, kg/m3, and of the duct of beat.prm, m
 # The limits of the leak over drop eps / R times the leaflets' area. They were set after the first beat, which had 0.69. The walls
 # probably cut off a part of the leaflets, and bands of leaflets that touch overlap.
@@ -97,7 +97,7 @@ def plate(folder, speed):
 
 
 def beat(folder, half_thickness, resistance):
-    """The beating valve: it opens and closes, blood that flows in flows out, and the closed valve holds."""
+    """The beating valve: it opens and closes, inflow equals outflow, and the closed valve holds."""
     steps = steps_of(folder)
     opening, flow, drop, speed = steps["opening"], steps["outflow"], steps["drop"], steps["largest_speed"]
     is_open, largest = opening == 1, numpy.abs(flow).max()
@@ -146,7 +146,7 @@ def plot(folder, path):
 
 
 def refined(folder, half_thickness):
-    """Every cell that the band reaches is as small as the smallest cells nearby."""
+    """Every cell that the band touches is as small as the smallest cells nearby."""
     _, cells = cells_of(folder)
     band = cells["K"] > 0
     size = cells["edge"][band]

@@ -143,11 +143,11 @@ void Parameters::read(const std::vector<std::string> &files) {
 // ---- The preconditioner of the linear system --------------------------------------------------------------------------------
 
 // The system is (A B^T; B 0). A good preconditioner is (A B^T; 0 -S) with the Schur complement S = B A^-1 B^T. Here A is
-// nearly a mass matrix: a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So
-// S is close to B D^-1 B^T, where D is the lumped mass matrix. It is a Laplacian of the pressure with the coefficient
-// 1/(rho/dt + K), and B gives it the boundary conditions of the flow. Each velocity in D has its own K. With one K for each cell,
-// a cell would look shut along the band if the band covers a part of it. Where viscosity and the grad-div term rule, S is close
-// to the pressure's mass matrix divided by their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
+// nearly a mass matrix: a velocity has the inertia rho/dt and the resistance K, and both are much larger than the viscosity. So S
+// is close to B D^-1 B^T, with the lumped mass matrix D. It is a Laplacian of the pressure with the coefficient 1/(rho/dt + K),
+// and B gives it the boundary conditions of the flow. Each velocity in D has its own K. With one K per cell, a cell partly in
+// the band would also resist flow along the band. Where viscosity and grad-div dominate, S is close to the pressure's mass
+// matrix over their coefficients. The sum of both inverses serves (Cahouet, Chabard 1988).
 //
 // MUMPS factorises A. In the band the grad-div term is larger than all other terms of A, and it couples the components of the
 // velocity. So an incomplete LU or SOR does not converge there.
@@ -262,7 +262,7 @@ Flow::Flow(const Parameters &parameters)
 }
 
 // Makes the coarse mesh, which every rank has. Only its nodes lie on the round wall. The refinement at the valve keeps its faces
-// plane. New nodes on the round wall would leave gaps between small and large cells, and blood would be lost there.
+// plane. On a round wall, new nodes would leave gaps between small and large cells, and blood would leak there.
 void Flow::make_mesh() {
   Triangulation<3> coarse;
   const double r = parameters.radius, length = parameters.length;
@@ -345,8 +345,8 @@ void Flow::set_up() {
 }
 
 // Refines cells that the band reaches, and coarsens others. Returns whether it refined any. A cell is at most half its diameter
-// from its centre, so the distance of the centre decides. A family of cells becomes one cell again only if that cell would not be
-// refined again.
+// from its centre, so the distance of the centre decides. Cells are merged only if the merged cell would not be refined
+// again.
 bool Flow::adapt_mesh() {
   Obstacle::Points centres;
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -557,7 +557,8 @@ void Flow::report(unsigned int step, double opening, std::int64_t n_marked, unsi
   flow_rate = sums[outflow];
   const double drop = sums[inlet_push] / sums[inlet_area] - sums[outlet_push] / sums[outlet_area];
   const double eps = parameters.obstacle.half_thickness, R = parameters.obstacle.R;
-  // K integrates to R/eps times the area. The quadrature finds this share, which a flat closed valve's drop has as well.
+  // K integrates to R/eps times the area. The quadrature finds this share of K, and a flat closed valve has the same share of its
+  // drop.
   const double share = R > 0 ? sums[sum_K] / (R / eps * obstacle.area()) : 1;
   const double eps_h = eps * sums[band] / sums[edges], time = step * parameters.time_step;
   out << std::fixed << std::setprecision(4) << time << " s: opening " << std::setprecision(3) << opening << ", drop "

@@ -39,7 +39,7 @@ demo_parts() {
 demo_valves=(aortic mitral)
 declare -A demo_kind=([aortic]=coapting [mitral]=mitral) demo_mesh_of=([aortic]=aortic_root [mitral]=mitral_tube)
 demo_openings=(0 0.25 0.5 0.75 1)
-# Two points for each valve, one on each side. demo_states looks for a path between them through the closed valve.
+# For each valve, a point on each side. demo_states looks for a path between them through the closed valve.
 declare -A demo_from=([aortic]="0,0,-0.4" [mitral]="0,0.2,-1.3") demo_to=([aortic]="0,0,2.8" [mitral]="0,0.2,2.1")
 
 # of_each_valve COMMAND: runs the command for both valves at the same time.

@@ -73,8 +73,8 @@ def order(xyz):
 
 
 def compare(xyz, fields, other_xyz, other):
-    """Compares two runs point by point. Returns how many points have other bits, and a row of counts and differences for each
-    step."""
+    """Compares two runs point by point. Returns the number of points whose bits differ, and a row of counts and differences
+    for each step."""
     require(len(xyz) == len(other_xyz), f"both have as many points, not {len(xyz)} and {len(other_xyz)}")
     partner = numpy.empty(len(xyz), int)  # its ordinal in the other run, by the order of coordinates to 1e-10 m
     partner[order(xyz)] = order(other_xyz)
@@ -114,7 +114,7 @@ def alone(xyz, fields, rows):
 
 
 def marks(folder, *ranks):
-    """The marks of runs on several numbers of ranks, compared with the run on 1 rank."""
+    """Compares the marks of runs on several ranks with the run on 1 rank."""
     xyz, fields = read(folder, 1)
     print(f"{len(xyz):,} points of the velocity. Those of several ranks are paired with those of 1 rank by coordinates."
           "\nThe differences are the largest, over the largest value.")

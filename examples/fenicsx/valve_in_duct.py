@@ -59,10 +59,10 @@ def flow(comm, law, dt, n_steps, size=2e-3, eps=2e-3, kind="bileaflet", speed=ME
     rho_dt, drag = RHO / fem.Constant(mesh, dt), max_value(K, 0)  # K falls below 0 at some places between its points
     a = (rho_dt * inner(u, v) + RHO * inner(dot(grad(u), u_old), v) + RHO / 2 * div(u_old) * inner(u, v)) * dx
     a += (2 * MU * inner(sym(grad(u)), sym(grad(v))) + drag * inner(u, v) - p * div(v) - q * div(u)) * dx
-    a += fem.Constant(mesh, GRAD_DIV) * div(u) * div(v) * dx  # limits the effect of the error of p in the band on div u
+    a += fem.Constant(mesh, GRAD_DIV) * div(u) * div(v) * dx  # limits how much the error of p in the band disturbs div u
     L = (rho_dt * inner(u_old, v) + inner(K_u, v)) * dx
 
-    # A parabola flows in, blood rests at the wall, and no stress acts at the outlet.
+    # The inflow is a parabola, blood rests at the wall, and no stress acts at the outlet.
     still, inflow = fem.Function(V), fem.Function(V)
     inflow.interpolate(lambda x: numpy.outer([0, 0, 2 * (speed or 0)], 1 - (x[0] ** 2 + x[1] ** 2) / RADIUS**2))
     bcs = [fem.dirichletbc(value, fem.locate_dofs_topological((W.sub(0), V), 2, tags.find(tag)), W.sub(0))

@@ -70,7 +70,7 @@ contains
     end do
   end subroutine write_slice
 
-  ! Writes the settings of the run that a restart must not change: grid, valve, its parameters and its placement. Each line of the
+  ! Writes the settings that a restart must not change: the grid, and the valve with parameters and placement. Each line of the
   ! result has a name and a value.
   subroutine get_identity(fluid, valve, lines)
     type(flow), intent(in) :: fluid

@@ -1,9 +1,9 @@
 ! SPDX-License-Identifier: Apache-2.0
 !> Computes the source in the band of a moving valve (README.md, "The source in the band").
 !!
-!! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. If only such faces and walls bound a
-!! cell, the divergence in the cell is therefore the divergence of u_surface. The source allows this divergence. Without the
-!! source the pressure grows until blood flows through these faces.
+!! A face with a large K has the velocity of the leaflet, and the pressure hardly changes it. So if a cell has only such faces and
+!! walls, its divergence is the divergence of u_surface. The source allows this divergence. Without the source the pressure grows
+!! until blood flows through these faces.
 module flow_source
   use, intrinsic :: iso_fortran_env, only: dp => real64
   implicit none

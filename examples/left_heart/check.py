@@ -18,7 +18,7 @@ import numpy as np
 import zero_d
 from zero_d import ML, MMHG, PERIOD, RHO, foam
 
-# The valve first goes to these shares of the way from the least opening to 1, at these times, without a pressure. The flow tells
+# Without a pressure, the valve first goes to these shares of the way from the least opening to 1, at these times. The flow tells
 # the volume that the leaflets displace.
 SWEPT, SWEEP = ((0.0, 0.0), (0.08, 0.4), (0.12, 1.0), (0.16, 0.0)), 0.17
 # The openings at which the orifice is then measured: shares of the same way. Each is held for HOLD seconds.
@@ -106,10 +106,10 @@ def keys(least):
 
 
 def orifice(case, valve, least):
-    """Prints opening, area, leak, and the volume that the leaflets displace for a change of the opening.
+    """Prints opening, area and leak, and the volume that a change of the opening displaces.
 
-    The pressure difference drives the leak and the jet. The leak is the flow over the pressure difference while there is no jet.
-    A valve that does not close, with a least opening above 0, has an orifice there, and no leak.
+    The pressure difference drives the leak and the jet. While there is no jet, the leak is the flow over the pressure
+    difference. A valve that does not close, with a least opening above 0, has an orifice there, and no leak.
     """
     openings = held(least)
     beat = Beat(pathlib.Path(case))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the numbers of the last beat that a clinician knows, with a column for each heart.
+"""Prints a clinician's usual numbers of the last beat, with a column for each heart.
 
     clinic.py CASE TABLES [CASE TABLES ...]
 
@@ -24,7 +24,7 @@ def written(case):
 
 
 def plane(case, time):
-    """Returns y and z of the points in the plane x = 0, the triangles, and the velocities there: (n, 2), (m, 3), (n, 2).
+    """Returns for the plane x = 0: y and z of the points (n, 2), triangles (m, 3), velocities (n, 2).
 
     z is 0 at the base, which descends.
     """

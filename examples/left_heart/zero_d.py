@@ -6,10 +6,10 @@
 The ventricle has the elastance E(t), so p = E (V - V0). The pulmonary veins fill an atrium before it, and a windkessel lies
 behind it. The tables have the leak of each closed valve, the area that each opening leaves to the flow, and the volume that the
 moving leaflets displace. check.py orifice measures them in the mesh, so the isovolumetric phases have the same lengths as in
-space. A few milliseconds more or less would cost hundreds of mmHg there, because blood is incompressible.
+space. Blood is incompressible, so a few milliseconds more or less would change the pressure there by hundreds of mmHg.
 
 The model runs until its beats repeat. The case's tables begin after the A wave, when the blood in the closing mitral valve is
-at rest, as is the blood of the case.
+at rest, because the case starts at rest.
 """
 import argparse
 import collections
@@ -69,7 +69,8 @@ class Orifice(typing.NamedTuple):
 
     @property
     def rest(self):
-        """The opening of the closed valve. The bands just touch, so leaflets that open hardly push blood before they part."""
+        """The opening of the closed valve. The bands just touch there, so opening leaflets push hardly any blood before they
+        part."""
         return max(self.sealed, self.openings[0])
 
     @property
@@ -81,7 +82,7 @@ class Orifice(typing.NamedTuple):
 
 
 class Valve:
-    """Flow Q with L dQ/dt = dp - q |q| rho / (2 A^2) beside the leak, with the effective area A of the opening.
+    """The flow Q beside the leak: L dQ/dt = dp - q |q| rho / (2 A^2), with the effective area A of the opening.
 
     q is the flow past the leaflets. Q also has the volume that the leaflets displace.
     """
@@ -99,8 +100,8 @@ class Valve:
     def pushed(self):
         """Returns the flow that the leaflets displace in the step.
 
-        OpenFOAM takes the leaflets' flow as a mean over the step, and their place from the end of the step. So the openings
-        lag by half a time step in space (write_tables).
+        OpenFOAM takes the leaflets' flow as a mean over the step, and their place from the end of the step. So in
+        space, the openings lag by half a time step (write_tables).
         """
         now = self.opening()
         self.lagged.append(now)

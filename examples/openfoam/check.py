@@ -165,8 +165,8 @@ def sizes(*cases):
 
 
 def hexahedra(*ratios):
-    """Prints the drop across a flat closed leaflet over (R / eps) u, for each eps / h. The leaflet is parallel to faces of
-    hexahedra, and lies at many places between two faces. On a face, 1/K is the mean of 1/K in the two cells."""
+    """Prints the drop across a flat closed leaflet divided by (R / eps) u, for each eps / h. The leaflet is parallel to faces of
+    hexahedra, and is tried at many places between two faces. On a face, 1/K is the mean of 1/K in the two cells."""
     places = numpy.linspace(0, 1, 201)
     for ratio in map(float, ratios):
         shares = layers(numpy.arange(-int(ratio) - 2, int(ratio) + 3)[:, None] + places, ratio)
@@ -174,8 +174,8 @@ def hexahedra(*ratios):
 
 
 def estimate(case):
-    """Returns three numbers of the closed valve from the plug-in's log: its area in the mesh, its drop over (R / eps) u, and the
-    factor of K or 1."""
+    """Returns three numbers of the closed valve from the plug-in's log: area in the mesh, drop divided by (R / eps) u, factor of
+    K (or 1)."""
     log = foam.text(pathlib.Path(case) / "log.pimpleFoam")
     found = re.search(r"the closed valve has (\S+) m2 in the mesh, and is expected to drop (\S+) of \(R / eps\) u,"
                       r" u = flow / area(?:\. K is multiplied by (\S+))?", log)
@@ -238,15 +238,15 @@ def cases_of_factor(case):
 
 
 def layers(heights, eps):
-    """Returns the drop over (R / eps) u of a flat leaflet at the height 0. Layers of cells have their centres at the given
-    heights. On a face, 1/K is the mean of 1/K in the two cells."""
+    """Returns the drop of a flat leaflet at height 0, divided by (R / eps) u. Layers of cells have their centres at the
+    given heights. On a face, 1/K is the mean of 1/K in the two cells."""
     k = numpy.where(abs(heights) < eps, (1 + numpy.cos(numpy.pi * heights / eps)) / (2 * eps), 0)
     k = numpy.maximum(k, 1e-30 / eps)
     return (2 / (1 / k[1:] + 1 / k[:-1])).sum(axis=0) * (heights[1] - heights[0])[()]
 
 
 def tables(case, again):
-    """Checks the table of a valve in a heartbeat against the log and OpenFOAM's own tables, and its restart."""
+    """Checks a valve's table and its restart in a heartbeat, against the log and OpenFOAM's own tables."""
     rows, flow, log = valve_table(case, "valve"), foam.table(case, "flow"), foam.steps(case)
     require(len(rows["Time"]) == len(flow) == len(log), f"the table of {case} has a row for each step: {len(rows['Time'])}")
     dt = flow[1, 0] - flow[0, 0]

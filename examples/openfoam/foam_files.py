@@ -148,9 +148,9 @@ def times(case):
 
 
 def columns(case, pattern, n):
-    """Returns the first n columns of all tables of a function object, those of the first start first.
+    """Returns the first n columns of all tables of a function object, in the order of the starts.
 
-    The first column is the time. If a run was cut off, it began again before the end of its table, and the later table counts.
+    The first column is the time. A run that was cut off begins again before the end of its table: there, the later table counts.
     """
     rows = []
     for path in sorted(pathlib.Path(case).glob(pattern), key=lambda path: float(path.parent.name)):

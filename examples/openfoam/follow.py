@@ -41,8 +41,8 @@ def fields(case, time):
 
 
 def follow(cases):
-    """Checks a valve in a mesh that moves as a rigid body. Its marks and K equal the marks and K of the valve at rest, and its
-    velocity is the rigid body's."""
+    """Checks a valve in a mesh that moves as a rigid body. Its marks and K equal those of the valve at rest, and its velocity
+    is that of the rigid body."""
     cases = pathlib.Path(cases)
     rest = cases / "follow-rest"
     times, dt = foam.times(rest), 1e-3
@@ -95,7 +95,7 @@ def follow(cases):
 
     deform(cases / "follow-deform")
 
-    # A mesh that moves steadily, with blood that moves with it: nothing else changes.
+    # A mesh that moves steadily, together with the blood: nothing else changes.
     steady, v = cases / "follow-steady", numpy.array([0.1, 0.2, 0.3])
     worst = 0.0
     for time in times:
@@ -159,7 +159,7 @@ def wall_points(case, time):
 
 
 def same_bits(whole, again, times):
-    """Checks that a restart has K and K U_valve with the bits of the run that was not stopped."""
+    """Checks that K and K U_valve have the same bits after a restart as in a run without one."""
     for time in times:
         for a, b in zip(fields(whole, time), fields(again, time)):
             require((a != 0).any() and (a == b).all(),
@@ -168,7 +168,7 @@ def same_bits(whole, again, times):
 
 
 def angle(case, again):
-    """Checks the angle law against an integration of its equation by the logged pressures and flows, and its restart."""
+    """Checks the angle law and its restart, against an integration of its equation with the logged pressures and flows."""
     case, again = pathlib.Path(case), pathlib.Path(again)
     rows = foam.steps(case)
     text = foam.text(case / "log.pimpleFoam")

@@ -54,8 +54,8 @@ END
   of_logged "$1" topoSet topoSet -case "$of_cases/$1"
 }
 
-# of_deforms NAME: lets the mesh deform, because the points of the inlet swing and the points of the outlet rest. Landmarks of the
-# valve follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six
+# of_deforms NAME: deforms the mesh: the points of the inlet swing, and the points of the outlet rest. Landmarks of the valve
+# follow the wall: the nadirs, and a point near each attachment. A file has them, because foamDictionary would keep only six
 # digits.
 of_deforms() {
   local folder=$of_cases/$1 name
@@ -122,8 +122,8 @@ openfoam_follow() {
   done
 }
 
-# Runs a valve by the angle law until it is open, and restarts it while it opens. Korakianitis and Shi give the gains for the
-# aortic valve, here in SI units. The gain of the pressure is halved, so that the valve opens in some steps.
+# Runs a valve by the angle law until it is open, and restarts it while it opens. The gains are those of Korakianitis and Shi
+# for the aortic valve, in SI units. The gain of the pressure is halved, so that the valve opens in some steps.
 openfoam_angle() {
   of_case angle && of_set angle system/controlDict endTime 0.03 deltaT 1e-3 writeInterval 1 &&
     of_set angle 0/p boundaryField/inlet/p0 'table ((0 0) (0.006 0.5) (1 0.5))' &&

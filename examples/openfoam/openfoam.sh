@@ -270,8 +270,8 @@ of_logged() {
   return 1
 }
 
-# Runs an opening valve in the tetrahedra and in cubes, and writes every step. With 27 cubes across, some centres lie in planes of
-# symmetry, where two leaflets are equally near. OpenFOAM also writes the cell centres.
+# Runs an opening valve in the tetrahedra and in cubes, and writes every step. With 27 cubes across, some centres lie in the
+# planes of symmetry, equally near to two leaflets. OpenFOAM also writes the cell centres.
 openfoam_marks() {
   local ranks name mesh
   openfoam_hexahedra 27 || return
@@ -542,7 +542,7 @@ openfoam_moving() {
   done
 }
 
-# Runs two moving valves and a valve at rest again by modelFoam, each in the case NAME-model.
+# Repeats two moving valves and a valve at rest with modelFoam, each in the case NAME-model.
 openfoam_model() {
   local name case
   for name in {hexahedra-28,box-28,rest}-riisSource; do

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """check.py FOLDER: checks the plug-in in pvpython, and leaves pictures in the folder. ./run paraview calls it.
 
-The marks of the filter are the bits of riis.mark for every kind of valve, placed at random in a random mesh. A saved state gives
+The filter's marks have the bits of riis.mark's, for every kind of valve, placed at random in a random mesh. A saved state gives
 the same bits when it is loaded again. Time steps follow the cycle. Bad input gives a message and no output.
 """
 
@@ -210,7 +210,7 @@ def check_leaks_of_cells():
 
 
 def check_transformed():
-    """ParaView's filters may lie between valve and marks: a valve that ParaView moves marks as the placement does."""
+    """ParaView's filters may lie between valve and marks: a valve moved by ParaView marks like a placed valve."""
     xyz, cells = box(25, 4.0, numpy.array([0.5, -0.25, 0.125]))
     mesh = pv.XMLUnstructuredGridReader(FileName=[write(grid_of(xyz, [(HEXAHEDRON, cell) for cell in cells]), "moved.vtu")])
     source = pv.HeartValve(Kind="coapting", Opening=0.4)

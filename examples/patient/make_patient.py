@@ -8,8 +8,8 @@ Writes three files into FOLDER. root.stl is a closed surface in millimetres with
 commissures and three nadirs, as 3D Slicer writes them. sides.txt has a point before the valve and a point after it. Axes are LPS:
 x to the left, y to the back, z upwards. The root lies obliquely, and no cusp is like another. The seed determines the landmarks'
 noise and the waves of the wall. With --random the seed also determines everything else. With --attachment there are also
-landmarks along the attachment. Curves of riis have no part in this root, so it tests whether a valve of riis fits. With --measure
-the script writes no file, and prints a distance in millimetres. 95 % of a valve's attachment lie within this distance of the
+landmarks along the attachment. This root contains no curves of riis, so it tests whether a valve of riis fits. With --measure the
+script writes no file, and prints a distance in millimetres. 95 % of a valve's attachment lie within this distance of the
 patient's attachment. The valve is a file of riis surface --output without a skirt. Needs only Python's own modules.
 """
 import argparse

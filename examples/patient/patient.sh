@@ -55,7 +55,7 @@ seconds_to_marks() {
     'BEGIN { printf "%.0f", to - from }'
 }
 
-# patient_claim CLAIM COMMAND...: prints the claim and whether it holds, which the command says.
+# patient_claim CLAIM COMMAND...: prints the claim, and whether it holds by the command's status.
 patient_claim() {
   local text=$1
   shift

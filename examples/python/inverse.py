@@ -58,7 +58,7 @@ class Flow(NamedTuple):
 class Channel:
     """A staggered grid: u across the channel at faces x = const, w along it at faces z = const, p in the cells.
 
-    The walls stop the fluid, w is given at the inlet, and p and the shear are 0 at the outlet.
+    The velocity is 0 at the walls, w is given at the inlet, and p and the shear are 0 at the outlet.
     """
 
     def __init__(self, n):
@@ -180,8 +180,8 @@ class Estimate:
 def grid_errors(channel, unknowns, velocity, jacobian):
     """Returns about how far the unknowns are off because of the grid.
 
-    A grid with 1.5 times as many cells across gives other velocities. Errors fall with the square of the spacing, so the
-    velocities of an endless grid differ 1 / (1 - 1 / 1.5^2) = 1.8 times as much.
+    A grid with 1.5 times as many cells across gives other velocities. Errors fall with the square of the spacing, so an
+    infinitely fine grid differs 1 / (1 - 1 / 1.5^2) = 1.8 times as much.
     """
     finer = Channel(3 * channel.n // 2)
     difference = finer.seen @ finer.solve(finer.K(unknowns)).velocity - velocity

@@ -247,11 +247,11 @@ module riis_c
     real(c_double) :: lower(3), upper(3)     !< bounds of the triangles, mesh units
     real(c_double) :: seconds_triangles      !< wall time of the last create or update: for checks and triangles
     real(c_double) :: seconds_scene          !< wall time of the last create or update: for groups of triangles,
-                                             !! sampling, minimisation. Embree's tree is built by the first query that
-                                             !! needs it
-    real(c_double) :: error_bound            !< the most by which a point's distances to the triangles and to the smooth
-                                             !! valve can differ; at most tolerance * half_thickness. 0 for a surface
-                                             !! from arrays
+                                             !! sampling, minimisation. Embree's tree is not included: the first query
+                                             !! that needs it builds it
+    real(c_double) :: error_bound            !< the largest possible difference between a point's distances to the
+                                             !! triangles and to the smooth valve; at most tolerance * half_thickness. 0
+                                             !! for a surface from arrays
     integer(c_int64_t) :: largest_leaflet_id !< of the triangles
   end type riis_surface_info
 
@@ -287,7 +287,7 @@ module riis_c
     integer(c_int32_t) :: real_bits !< storage_size(xyz)
   end type riis_keyframe_arrays
 
-  !> The closest point of the surface to one point. For other measures than triangles see RIIS_MEASURE_*.
+  !> The closest point of the surface to one point. RIIS_MEASURE_* says what holds for other measures than triangles.
   type, bind(c) :: riis_closest
     real(c_double) :: distance        !< >= 0, mesh units
     real(c_double) :: point(3)        !< on the triangle, mesh units
@@ -297,7 +297,7 @@ module riis_c
     integer(c_int32_t) :: leaflet_id  !< of the triangle
     integer(c_int32_t) :: side        !< +1 on the side to which normals point (downstream), -1 on the other side, 0 on
                                       !! the surface or level with its rim. At a shared edge or vertex (equal placed
-                                      !! coordinates) the angle-weighted normal of its triangles decides (Baerentzen,
+                                      !! coordinates), the angle-weighted mean of the normals decides (Baerentzen,
                                       !! Aanaes 2005)
   end type riis_closest
 
@@ -448,13 +448,12 @@ module riis_c
     integer(c_int64_t) :: n_queries      !< number of closest-point queries, of nodes and of parts of the mesh
     real(c_double) :: seconds            !< wall time of riis_mark_nodes
     integer(c_int32_t) :: search         !< the search that ran, never RIIS_SEARCH_AUTO
-    integer(c_int32_t) :: n_threads      !< the largest number of threads in any part. A caller's TBB limit affects
-                                         !! walks, not loops
-    integer(c_int32_t) :: complete       !< 1: every node within the limit was found, for the coordinates last given; 0:
-                                         !! not certain
+    integer(c_int32_t) :: n_threads      !< the largest number of threads in any part of the marking. A caller's TBB
+                                         !! limit affects walks, not loops
+    integer(c_int32_t) :: complete       !< 1: all nodes within the limit were found, for the coordinates that the mesh
+                                         !! was last given; 0: this is not certain
     integer(c_int32_t) :: instructions   !< the instructions that were used, never RIIS_INSTRUCTIONS_AUTO
-    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found by its proof, not by
-                                         !! its walk
+    integer(c_int64_t) :: n_unreached    !< nodes within the limit that the neighbour search found only by its proof
   end type riis_mark_stats
 
   type, bind(c) :: riis_resistance_arrays
@@ -520,12 +519,13 @@ module riis_c
     real(c_double) :: seconds
   end type riis_leak_list
 
-  !> The widest passage from one set of nodes to another: the path whose least distance from the surface is largest.
+  !> The widest passage from one set of nodes to another: the path with the largest least distance from the surface.
   type, bind(c) :: riis_passage
     integer(c_int64_t) :: node_id  !< the path's node that is nearest to the surface; -1 without a path. If nodes have
                                    !! equal distances, the higher id counts as nearest
-    real(c_double) :: distance     !< the distance of node_id. For these triangles, a half thickness of at least this
-                                   !! distance closes the passage, and a smaller one leaves it open. 0 without a path
+    real(c_double) :: distance     !< the distance of node_id. A half thickness of at least this distance closes the
+                                   !! passage between these triangles, and a smaller one leaves it open. 0 without a
+                                   !! path
     real(c_double) :: point(3)     !< the coordinates of node_id; 0 without a path
     real(c_double) :: seconds      !< wall time of riis_find_passage
     integer(c_int32_t) :: state    !< RIIS_PASSAGE_*
@@ -542,7 +542,7 @@ module riis_c
 
   !> A leaflet of a surface. Lengths are in mesh units.
   type, bind(c) :: riis_leaflet
-    integer(c_int64_t) :: n_triangles !< the number of its triangles that answer queries
+    integer(c_int64_t) :: n_triangles !< the number of its triangles, without those of zero area
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
                                       !! For a surface from arrays: the edges that only one of its triangles has,
@@ -558,11 +558,11 @@ module riis_c
   !! leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
   !! (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
-    real(c_double) :: area           !< the area of the orifice. Without an outline only axis and rim_reach differ from
-                                     !! 0
+    real(c_double) :: area           !< the area of the orifice. Without an outline, all fields but axis and rim_reach
+                                     !! are 0
     real(c_double) :: outline_area   !< the area inside the outline
-    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. The edge is first moved
-                                     !! inwards by a tenth of the half thickness, so that narrower slits do not count.
+    real(c_double) :: perimeter      !< the length of the orifice's edge along the triangles. Before that, the edge
+                                     !! moves inwards by a tenth of the half thickness, so narrower slits do not count.
                                      !! Parts of the edge on the outline are walls and do not count
     real(c_double) :: effective_area !< the area that the band around the valve leaves to the flow. The edge along the
                                      !! triangles is moved inwards by rim_reach * half_thickness. To first order the
@@ -576,10 +576,9 @@ module riis_c
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
 
-  !> The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units.
+  !> The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units.
   type, bind(c) :: riis_coaptation
-    real(c_double) :: area  !< the area of the points of the leaflet's triangles that lie within reach of another
-                            !! leaflet
+    real(c_double) :: area  !< the area of the leaflet's triangles within reach of another leaflet
     real(c_double) :: edge  !< the length of the part of its free edge (riis_leaflet) within reach of another leaflet
     real(c_double) :: reach !< the distance within which leaflets touch
   end type riis_coaptation
@@ -640,7 +639,7 @@ module riis_c
     real(c_double) :: noise                 !< the noise for the standard errors: the landmarks' noise, or more if the
                                             !! residuals show more
     real(c_double) :: rotation_error        !< standard error of the rotation, degrees
-    real(c_double) :: position_error        !< standard error of the place of the valve's origin, mesh units
+    real(c_double) :: position_error        !< standard error of the position of the valve's origin, mesh units
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
     integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
     integer(c_int32_t) :: reserved          !< 0
@@ -669,8 +668,8 @@ module riis_c
     real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine
-    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, half way from a landmark
-                                              !! to the nearest other one
+    real(c_double) :: least_determinant       !< the least determinant of the map's derivative, over all points half way
+                                              !! from a landmark to its nearest landmark
     real(c_double) :: least_point(3)          !< the point between the sources where the determinant is least
     integer(c_int32_t) :: is_planar           !< 1 if the landmarks lie nearly in a plane, else 0
     integer(c_int32_t) :: reserved            !< 0

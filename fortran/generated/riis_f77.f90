@@ -876,8 +876,8 @@ subroutine riisf_adjacency_from_mixed(n_nodes, n_cells, node_ids, offsets, index
   integer(int32), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int32), intent(in) :: n_cells                   !< >= 0.
   integer(int32), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                          !! cell begins in node_ids, and where the last ends.
+  integer(int32), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
+                                                          !! of each cell in node_ids, and the end of the last cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -909,8 +909,8 @@ subroutine riisf_adjacency_from_mixed_64(n_nodes, n_cells, node_ids, offsets, in
   integer(int64), intent(in) :: n_nodes                   !< The mesh's number of nodes.
   integer(int64), intent(in) :: n_cells                   !< >= 0.
   integer(int64), intent(in) :: node_ids(*)               !< (nodes_per_cell, n_cells): the nodes of cell after cell.
-  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: where each
-                                                          !! cell begins in node_ids, and where the last ends.
+  integer(int64), intent(in) :: offsets(*)                !< (n_cells + 1), ascending from 0 or from index_base: the beginning
+                                                          !! of each cell in node_ids, and the end of the last cell.
   integer(int32), intent(in) :: index_base                !< 0 or 1: the number of the first.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: as many as there is work for.
   integer(int64), intent(inout) :: adjacency              !< Written on success.
@@ -1258,9 +1258,9 @@ subroutine riisf_keyframes_create(n_vertices, n_keys, time, xyz, period, interpo
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
   real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
-                                                          !! key. A last key one period after the first must have the same
-                                                          !! frame. 0: the surface rests before the first key and after the
-                                                          !! last.
+                                                          !! key. If the last key is one period after the first, it must have
+                                                          !! the same frame. 0: the surface rests before the first key and
+                                                          !! after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
@@ -1309,9 +1309,9 @@ subroutine riisf_keyframes_create_64(n_vertices, n_keys, time, xyz, period, inte
   real(c_double), intent(in) :: xyz(*)                    !< (3, n_vertices, n_keys): the vertices, frame after frame;
                                                           !! magnitude at most 1e60.
   real(c_double), intent(in) :: period                    !< > 0: the motion repeats. All keys lie within a period of the first
-                                                          !! key. A last key one period after the first must have the same
-                                                          !! frame. 0: the surface rests before the first key and after the
-                                                          !! last.
+                                                          !! key. If the last key is one period after the first, it must have
+                                                          !! the same frame. 0: the surface rests before the first key and
+                                                          !! after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, of each coordinate. Usually
                                                           !! RIIS_INTERPOLATION_LINEAR.
   integer(int32), intent(in) :: corners_per_face          !< 3 for triangles, 4 for quads.
@@ -1613,7 +1613,7 @@ subroutine riisf_surface_direction(surface, direction_num, length, n, rate, area
   integer(int32), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
   real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
-                                                          !! from all triangles.
+                                                          !! again from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -1645,7 +1645,7 @@ subroutine riisf_surface_direction_64(surface, direction_num, length, n, rate, a
   integer(int64), intent(inout) :: n                      !< The number of vertices, even if an array is too short.
   real(c_double), intent(inout) :: rate(*)                !< (3, length): the derivative of each vertex; written up to n.
   real(c_double), intent(inout) :: area_rate              !< The derivative of riis_surface_info.area. Each call computes it
-                                                          !! from all triangles.
+                                                          !! again from all triangles.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_direction) :: direction
   real(c_double), pointer :: c_rate(:)
@@ -3649,13 +3649,13 @@ subroutine riisf_find_crossings(surface, depth, n_threads, crossings, n_pairs, l
   implicit none
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: depth                     !< Half thicknesses, 0 to 1, usually 1e-6: pairs up to this depth
-                                                          !! only touch.
+                                                          !! count as touching.
   integer(int32), intent(in) :: n_threads                 !< 1 to 1024; 0: 1 per 4096 triangles, at most 1 per processor.
   integer(int64), intent(inout) :: crossings              !< 0, which creates them, or from an earlier call.
   integer(int64), intent(inout) :: n_pairs                !< The number of pairs that cross, INTEGER*8.
   real(c_double), intent(inout) :: length                 !< The total length of their intersections.
-  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair, which is the first one of equally
-                                                          !! deep pairs.
+  real(c_double), intent(inout) :: deepest                !< The depth of the deepest pair. Of several equally deep pairs, the
+                                                          !! first one counts.
   real(c_double), intent(inout) :: point(3)               !< The middle of the deepest pair's intersection.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_crossing_options) :: options
@@ -3707,7 +3707,7 @@ subroutine riisf_crossing_pairs(crossings, length, n, triangle_num, point, depth
   integer(int32), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
   integer(int32), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
                                                           !! written up to n.
-  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment where the two triangles
                                                           !! meet; written up to n.
   real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3749,7 +3749,7 @@ subroutine riisf_crossing_pairs_64(crossings, length, n, triangle_num, point, de
   integer(int64), intent(inout) :: n                      !< The number of pairs that cross, even if an array is too short.
   integer(int64), intent(inout) :: triangle_num(2, *)     !< (2, length): the two triangles, the lower id first, from 1;
                                                           !! written up to n.
-  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment in which the two triangles
+  real(c_double), intent(inout) :: point(3, *)            !< (3, length): the middle of the segment where the two triangles
                                                           !! meet; written up to n.
   real(c_double), intent(inout) :: depth(*)               !< (length): the penetration depth; written up to n.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -3828,11 +3828,11 @@ subroutine riisf_surface_orifice(surface, half_thickness, rim, area, outline_are
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
-  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline only axis and
-                                                          !! rim_reach differ from 0.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
+                                                          !! and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
-                                                          !! first moved inwards by a tenth of the half thickness, so that
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before that,
+                                                          !! the edge moves inwards by a tenth of the half thickness, so
                                                           !! narrower slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
@@ -3910,8 +3910,8 @@ subroutine riisf_surface_coaptation(surface, reach, leaflet_id, area, edge, stat
   integer(int64), intent(in) :: surface                   !< Must be created.
   real(c_double), intent(in) :: reach                     !< Mesh units; RIIS_AUTO: the surface's half thickness.
   integer(int32), intent(in) :: leaflet_id                !< From 0; RIIS_ALL_LEAFLETS: the sum over all leaflets.
-  real(c_double), intent(inout) :: area                   !< The area of the points of the leaflet's triangles that lie within
-                                                          !! reach of another leaflet.
+  real(c_double), intent(inout) :: area                   !< The area of the leaflet's triangles within reach of another
+                                                          !! leaflet.
   real(c_double), intent(inout) :: edge                   !< The length of the part of its free edge (riis_leaflet) within
                                                           !! reach of another leaflet.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
@@ -4206,10 +4206,10 @@ subroutine riisf_opening_from_table(n_keys, key_time, key_opening, period, inter
   integer(int32), intent(in) :: n_keys                    !< 1 to 1,000,000.
   real(c_double), intent(in) :: key_time(*)               !< (n_keys), strictly ascending, magnitude at most 1e30.
   real(c_double), intent(in) :: key_opening(*)            !< (n_keys), 0 to 1.
-  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within a period of the first
-                                                          !! key. A last key one period after the first must have the same
-                                                          !! opening. 0: the opening is constant before the first key and after
-                                                          !! the last.
+  real(c_double), intent(in) :: period                    !< > 0: the table repeats. All keys lie within one period of the
+                                                          !! first key. If the last key is one period after the first, it must
+                                                          !! have the same opening. 0: the opening is constant before the first
+                                                          !! key and after the last.
   integer(int32), intent(in) :: interpolation             !< RIIS_INTERPOLATION_*, usually RIIS_INTERPOLATION_LINEAR.
   real(c_double), intent(in) :: time                      !< Magnitude at most 1e30.
   real(c_double), intent(inout) :: opening                !< Written on success.
@@ -4410,15 +4410,15 @@ subroutine riisf_place(valve, n_landmarks, xyz, role, leaflet_id, scale, noise, 
   integer(int32), intent(in) :: n_landmarks               !< 1 to 10,000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks), in mesh units.
   integer(int32), intent(in) :: role(*)                   !< (n_landmarks): RIIS_LANDMARK_*.
-  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): for a nadir or a point of the attachment, its
-                                                          !! cusp and -1; for a commissure, its two cusps, in any order. -1 and
-                                                          !! -1: not known. For an aortic valve, enough cusps must be known to
-                                                          !! name all. Without names, cusp 0 of three equal cusps is at the
-                                                          !! first nadir.
+  integer(int32), intent(in) :: leaflet_id(2, *)          !< (2, n_landmarks): the cusp of a nadir or attachment point, then
+                                                          !! -1; the two cusps of a commissure, in any order. -1 and -1: not
+                                                          !! known. For an aortic valve, the known cusps must determine the
+                                                          !! names of all. Without names, the first nadir lies on cusp 0 of
+                                                          !! three equal cusps.
   real(c_double), intent(in) :: scale                     !< Mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for
                                                           !! metres. Must be set.
-  real(c_double), intent(in) :: noise                     !< The scatter of the landmarks, each coordinate's standard
-                                                          !! deviation, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
+  real(c_double), intent(in) :: noise                     !< The scatter of the landmarks: the standard deviation of each
+                                                          !! coordinate, mesh units, >= 0. RIIS_AUTO: 0.03 * scale.
   real(c_double), intent(in) :: flow(3)                   !< The direction of flow; 0 0 0: not known.
   character(len=*), intent(in) :: held                    !< Parameters that keep their values, separated by blanks; ' ': none.
   real(c_double), intent(inout) :: rotation_axis(3)       !< Unit vector.
@@ -4468,8 +4468,8 @@ subroutine riisf_warp_create(n_landmarks, xyz, noise, scale, rotation_axis, rota
   integer(int32), intent(in) :: n_landmarks               !< 3 to 1000.
   real(c_double), intent(in) :: xyz(3, *)                 !< (3, n_landmarks).
   real(c_double), intent(in) :: noise                     !< Standard deviation of each coordinate of the targets, 0 to 1e50.
-                                                          !! The map is smoothed until it misses the targets by about that
-                                                          !! much. 0: it meets the targets exactly.
+                                                          !! The map is smoothed until it misses the targets by about this
+                                                          !! noise. 0: it meets the targets exactly.
   real(c_double), intent(in) :: scale                     !< 1e-12 to 1e12, usually 1.
   real(c_double), intent(in) :: rotation_axis(3)          !< Components up to 1e50, length at least 1e-50, usually (0, 0, 1).
   real(c_double), intent(in) :: rotation_angle            !< Degrees, counter-clockwise seen from the axis's tip; -1e6 to 1e6,

@@ -26,8 +26,9 @@ typedef int32_t riis_status;
 enum {
   RIIS_OK = 0,                  /* success */
   RIIS_INVALID_ARGUMENT = 1,    /* a NULL pointer, a number out of range, a non-finite option */
-  RIIS_INVALID_STRUCT_SIZE = 2, /* a size that no release has: not initialised, or riis.h newer than the library */
-  RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that clash */
+  RIIS_INVALID_STRUCT_SIZE = 2, /* a size that no release has: the struct is not initialised, or riis.h is newer than the
+                                   library */
+  RIIS_INVALID_PARAMETER = 3,   /* a valve: unknown kind or name, value out of range, values that do not fit together */
   RIIS_INVALID_SURFACE = 4,     /* the caller's surface: empty, non-finite, index out of range, zero area */
   RIIS_INVALID_MESH = 5,        /* the caller's mesh: empty, non-finite coordinate */
   RIIS_LIMIT_EXCEEDED = 6,      /* the request is valid but too large for the library */
@@ -60,11 +61,11 @@ enum {
 /* Sets the log function of the process. Any thread may call riis_set_log.
  *   function   receives the messages; NULL, the default, means no log
  *   user_data  passed to the function; it must stay valid as long as the function is set
- * A message that another thread is sending may still reach the previous function.
- * A log function also makes the library search surfaces for crossings (riis_find_crossings). It searches a shape whose
- * parameters, patches or open state the caller chose. The search takes longer than an update. Openings have five
- * ranges: 0, up to 0.05, up to 1/3, up to 2/3, and up to 1. In each range the search runs once, at the shape's first
- * opening there. It ends with the shape's first warning. */
+ * The previous function may still get a message that another thread is sending. With a log function, the library also
+ * searches surfaces for crossings (riis_find_crossings). It searches only shapes whose parameters, patches or open state the
+ * caller chose. The search takes longer than an update. Openings have five ranges: 0, up to 0.05, up to 1/3, up to 2/3, and
+ * up to 1. In each range the search runs once, at the shape's first opening there. It ends after the shape's first
+ * warning. */
 RIIS_API void riis_set_log(riis_log_function function, void *user_data);
 
 /* Stands for the value of another quantity, which the field's comment names. */

@@ -17,7 +17,7 @@ extern "C" {
 /* Adds a direction in which the surface of a valve changes. It belongs to a parameter, a landmark or a number of the
  * placement.
  *   valve_after, valve_before  two copies of the surface's valve, with the parameter a little larger and a little smaller than
- *                   in the surface. If only the placement changes, pass the same valve twice
+ *                   in the surface. If only the placement changes, both are the same valve
  *   dp              the parameter's difference from valve_before to valve_after, 1e-30 to 1e30 in magnitude
  *   options_after, options_before  scale, rotation and translation of both states; other fields are ignored. NULL: the
  *                   surface's options
@@ -25,7 +25,8 @@ extern "C" {
  * RIIS_FIELD_GRADIENT gives the derivatives of distances and of K in all directions (docs/theory/gradients.md).
  * Each vertex moves by the difference between both states, on the triangles of the surface, divided by dp. The error of the
  * derivative is of second order in dp if the surface is midway between the states, otherwise of first order. A dp of 1e-5 of
- * the parameter's size suits most parameters. The limits of a fixed triangulation hold for the surface only.
+ * the parameter's size suits most parameters. The limits of a fixed triangulation hold for the surface only, not for the two
+ * states.
  * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays and for a dp out of range; RIIS_INVALID_PARAMETER for a state of
  * another kind or with other patches, and for parameters that do not fit together; RIIS_LIMIT_EXCEEDED for more than 1000
  * directions. */
@@ -38,12 +39,12 @@ typedef struct riis_direction {
   int64_t n_vertices;  /* as riis_triangles.n_vertices */
   const double *rate;  /* (3, n_vertices): the derivative of each vertex in riis_triangles.xyz by the parameter, in mesh units
                           divided by the parameter's unit. Within a triangle the rate is linear */
-  double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it from all triangles */
+  double area_rate;    /* the derivative of riis_surface_info.area. Each call computes it again from all triangles */
 } riis_direction;
 /* Gives the rates of a surface's vertices along a direction, until the surface's next update or its destruction.
  *   direction_id  0 for the first riis_surface_add_direction after the last update, 1 for the second, and so on
- * With the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md).
- * They belong to the triangles with every RIIS_MEASURE_*.
+ * From the rates a caller computes derivatives of other numbers that depend on the triangles (docs/theory/gradients.md).
+ * The rates belong to the triangles, also with other measures than RIIS_MEASURE_TRIANGLES.
  * Errors: RIIS_INVALID_ARGUMENT for a direction that the surface lacks. */
 RIIS_API riis_status riis_surface_get_direction(const riis_surface *surface, int64_t direction_id,
                                                 riis_direction *direction, int64_t struct_size);

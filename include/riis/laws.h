@@ -20,8 +20,9 @@ extern "C" {
  * - The pressure difference is the upstream pressure minus the downstream pressure. Flow is positive downstream. So
  *   positive values open a valve.
  * - `rate` is the time derivative of the opening.
- * - A state has no pointers: a solver that restores it from a restart file continues with the same bits.
- * - `now` may be the same struct as `before`, and gets its struct_size. To repeat a step, start from `before` again. */
+ * - A state has no pointers. A solver that restores it from a restart file continues with the same bits.
+ * - `now` may be the struct `before` itself. It gets the struct_size of `before`. To repeat a step, start from `before`
+ * again. */
 
 /* An opening by its values at keys in time. */
 typedef struct riis_opening_table {
@@ -29,9 +30,9 @@ typedef struct riis_opening_table {
   int64_t n_keys;        /* 1 to 1,000,000 */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const double *opening; /* (n_keys), 0 to 1 */
-  double period;         /* > 0: the table repeats. All keys lie within a period of the first key. A last key one
-                            period after the first must have the same opening. 0, the default: the opening is
-                            constant before the first key and after the last */
+  double period;         /* > 0: the table repeats. All keys lie within one period of the first key. If the last
+                            key is one period after the first, it must have the same opening. 0, the default: the
+                            opening is constant before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, default RIIS_INTERPOLATION_LINEAR */
   int32_t reserved;      /* 0 */
 } riis_opening_table;
@@ -42,8 +43,8 @@ RIIS_API riis_status riis_opening_table_init(riis_opening_table *table, int64_t 
 RIIS_API riis_status riis_opening_from_table(const riis_opening_table *table, double time, double *opening,
                                              double *rate);
 
-/* An opening by the times of two ramps. The ramps are of fifth degree, so neither the rate nor its derivative jumps. A mitral
- * valve may begin to open at 0.45 s and to close at 0.95 s, every second, and take 0.05 s for both. */
+/* An opening by the times of two ramps. The ramps are of fifth degree, so neither the rate nor its derivative jumps. For
+ * example, a mitral valve opens from 0.45 s and closes from 0.95 s in each second, and takes 0.05 s for both. */
 typedef struct riis_opening_times {
   int64_t struct_size;    /* set by the init function */
   double opening_start;   /* when the valve begins to open. Default NaN here and in the next three fields; NaN is
@@ -67,9 +68,9 @@ enum {
   RIIS_PHASE_OPENING = 1  /* opening or open */
 };
 
-/* A valve that opens when the pressure difference exceeds a value, and closes when the flow falls below one. An aortic valve
- * in SI units has opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
- * filter_time 0.002 and dwell_time 0.02. */
+/* A valve opens when the pressure difference exceeds a value, and closes when the flow falls below another value. For an
+ * aortic valve in SI units: opening_duration 0.04, closing_duration 0.04, open_above 0, close_below 0 (the flow reverses),
+ * filter_time 0.002, dwell_time 0.02. */
 typedef struct riis_opening_switch {
   int64_t struct_size;    /* set by the init function */
   double opening_duration; /* time from closed to open, > 0. Default NaN, which is refused */
@@ -85,7 +86,7 @@ typedef struct riis_opening_switch_state {
   int64_t struct_size;        /* set by the init function */
   double time;                /* of this state */
   double opening, rate;       /* at that time */
-  double progress;            /* share of the way to open, 0 to 1; the opening is a smooth ramp over this share */
+  double progress;            /* how far the valve is on the way to open, 0 to 1; the opening is a smooth ramp over it */
   double pressure_difference; /* filtered; NaN: none yet */
   double flow;                /* filtered; NaN: none yet */
   double turn_time;           /* time of the last change of phase; NaN: none yet */
@@ -133,12 +134,12 @@ typedef struct riis_opening_angle_state {
 /* Fills *state with a closed valve at rest, at time 0. Until the first step its angle 0 stands for angle_min. */
 RIIS_API riis_status riis_opening_angle_state_init(riis_opening_angle_state *state, int64_t struct_size);
 /* Advances the angle law to a time. Pressure difference and flow are taken as linear over the step. So the angle is accurate
- * to second order in the length of steps. If `before` has no pressure difference and flow, the present ones are used for the
- * whole step.
+ * to second order in the length of steps. In a first step without earlier pressure difference and flow, the present ones
+ * hold for the whole step.
  *   time                       at least before->time, magnitude at most 1e30
  *   pressure_difference, flow  at that time, magnitude at most 1e30
- * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step so
- * long that the integration would need more than a million smaller steps. *now stays unchanged. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the field or argument and its value; RIIS_LIMIT_EXCEEDED for a step
+ * whose integration needs more than a million smaller steps. *now stays unchanged. */
 RIIS_API riis_status riis_opening_angle_advance(const riis_opening_angle *law,
                                                 const riis_opening_angle_state *before, double time,
                                                 double pressure_difference, double flow,

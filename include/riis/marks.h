@@ -23,22 +23,22 @@ RIIS_API void riis_marks_destroy(riis_marks **marks); /* destroys the marks and 
 
 /* How nodes are searched. All but RIIS_SEARCH_PAPER find the same nodes (docs/theory/search.md). */
 enum {
-  RIIS_SEARCH_AUTO = 0,       /* clusters, with three exceptions that take the exhaustive search: distances by sampling or
-                                 minimisation; the first marking of a mesh without riis_mesh_prepare, if the distance
-                                 limit is at most a fifth of the surface's extent; a larger limit with few nodes */
+  RIIS_SEARCH_AUTO = 0,       /* clusters. The exhaustive search runs instead in three cases: for distances by sampling or
+                                 minimisation; at the first marking of a mesh without riis_mesh_prepare, if the distance limit is
+                                 at most a fifth of the surface's extent; for a larger limit with few nodes */
   RIIS_SEARCH_EXHAUSTIVE = 1, /* queries every node (paper, algorithm "Exhaustive node iteration") */
   RIIS_SEARCH_NEIGHBOR = 2,   /* walks from marked nodes to their neighbours (paper, algorithm "Recursive
                                  neighbor search") and queries every other node that it cannot prove to be far. The
                                  mesh must have an adjacency, which need not be connected */
-  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that are not
-                                 connected to its one starting node. The mesh must have an adjacency */
+  RIIS_SEARCH_PAPER = 3,      /* the paper's algorithm to the letter, for comparison: it misses nodes that no path
+                                 joins to its one starting node. The mesh must have an adjacency */
   RIIS_SEARCH_CLUSTERS = 4    /* filters clusters of nodes in single precision, and decides in double precision.
-                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more. It also runs
-                                 if the mesh, or its distance from the surface, is a million times as large as the
-                                 surface */
+                                 The exhaustive search runs instead (stats.search) for 2^32 nodes and more. It
+                                 also runs if the mesh is a million times as large as the surface, or as far
+                                 away */
 };
 
-/* The processor's instructions that a marking uses. The results are bitwise the same with all of them. */
+/* The processor's instructions that a marking uses. All of them give the same bits. */
 enum {
   RIIS_INSTRUCTIONS_AUTO = 0,     /* the best available */
   RIIS_INSTRUCTIONS_BASELINE = 1, /* available on every processor that the library was built for: SSE2 on x86-64 */
@@ -84,7 +84,7 @@ RIIS_API riis_status riis_resistance_init(riis_resistance *resistance, int64_t s
 typedef struct riis_mark_options {
   int64_t struct_size;       /* set by the init function */
   double distance_limit;     /* the search finds nodes up to this distance; half thickness to 1e60. Default
-                                RIIS_AUTO: the half thickness. The limit does not change which nodes are marked */
+                                RIIS_AUTO: the half thickness. The limit does not change the marked nodes */
   const uint8_t *node_mask;  /* (n_nodes): nodes with 0 are left out, but must be finite. NULL: all nodes */
   const riis_resistance *resistance; /* requests riis_mark_list.K and, if the last update of the surface gave
                                         velocities, riis_mark_list.K_u_surface. Default NULL: neither */
@@ -97,12 +97,12 @@ typedef struct riis_mark_options {
 } riis_mark_options;
 RIIS_API riis_status riis_mark_options_init(riis_mark_options *options, int64_t struct_size); /* the defaults */
 
-/* Finds every node near the surface: at most the half thickness away (marked), or at most the distance limit. The
- * reported distance, in double precision, decides.
+/* Finds every node near the surface: the nodes within the half thickness (marked), and within the distance limit.
+ * The reported distance decides, in double precision.
  *   marks  its content is replaced
- * The log warns if the units of mesh and surface seem to differ. Their boxes' largest sides then differ by more than a
- * factor of 50, or one of them is less than the half thickness. It warns once per surface and mesh, at most eight times
- * per mesh, and never for fewer than 1000 nodes.
+ * The log warns if the units of mesh and surface seem to differ. They do if the largest sides of their boxes differ by
+ * more than a factor of 50, or if one side is less than the half thickness. It warns once per surface and mesh, at most
+ * eight times per mesh, and never for fewer than 1000 nodes.
  * Errors: RIIS_INVALID_MESH for a coordinate that became non-finite after it was given. */
 RIIS_API riis_status riis_mark_nodes(const riis_surface *surface, const riis_mesh *mesh,
                                      const riis_mark_options *options, riis_marks *marks);
@@ -125,29 +125,29 @@ typedef struct riis_mark_list {
   const double *point;        /* (3, n_nodes): the closest point of the surface */
   const double *normal;       /* (3, n_nodes): the unit normal of its triangle */
   const double *barycentric;  /* (3, n_nodes): the point's weights for the triangle's vertices */
-  const double *uv;           /* (2, n_nodes): the point's u and v on its patch, in [0,1]. S_u x S_v points along
-                                 the normal, but against it on mirrored patches (cusps: patch_id % 4 >= 2;
-                                 mitral: 3, 4, 5, 8, 9). With flipped normals it is the reverse */
+  const double *uv;           /* (2, n_nodes): u and v of the point on its patch, in [0,1]. S_u x S_v points
+                                 along the normal, on mirrored patches against it (cusps: patch_id % 4 >= 2;
+                                 mitral: 3, 4, 5, 8, 9). Flipped normals reverse both */
   const double *velocity;     /* (3, n_nodes): the velocity of the surface at the point, from its last update.
                                  Several leaflets may be equally near (within 1e-6 half thicknesses), or several patches
                                  of one leaflet (within 1e-9). The velocity is then the mean of the velocities at their
-                                 closest points (docs/theory/marks.md). Other fields come from one triangle */
+                                 closest points (docs/theory/marks.md). Other fields come from the closest triangle */
   const int32_t *side;        /* (n_nodes): as riis_closest.side */
   const int32_t *rim;         /* (n_nodes): 1 if the point lies on the rim of the surface, else 0. The rim of a valve
-                                 has the sides that only one patch has, such as free edges and the annulus. Free edges
-                                 that coincide when closed are not rim. The rim of a surface from arrays has the edges
-                                 that only one triangle has; vertices with equal coordinates count as one */
+                                 consists of sides of only one patch, such as free edges and the annulus. Free edges
+                                 that coincide in a closed valve are not rim. The rim of a surface from arrays consists of edges
+                                 of only one triangle; vertices with equal coordinates count as one */
   const int32_t *patch_id;    /* (n_nodes): as in riis_triangles */
   int64_t n_directions;       /* the surface's directions during the marking; 0 without RIIS_FIELD_GRADIENT */
   const double *distance_gradient; /* (n_directions, n_nodes): the derivative of the distance in each direction, -n.V. The
                                  unit vector n points from the closest point to the node, on both sides. V is the rate
-                                 of the closest point, on the triangle of triangle_id. 0 on the surface, where the
-                                 distance has a kink. If several places are equally near, the distance also has a
-                                 kink */
+                                 of the closest point, on the triangle of triangle_id. On the surface it is 0, because the
+                                 distance has a kink there. The distance also has a kink at nodes with several nearest
+                                 places */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
                                  beyond the half thickness and beyond a cut rim; NULL without a resistance */
 } riis_mark_list;
-/* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
+/* Gives a list of the last marking. It is valid until the next riis_mark_nodes with these marks, or their destruction.
  *   which  RIIS_LIST_* */
 RIIS_API riis_status riis_marks_get_list(const riis_marks *marks, int32_t which, riis_mark_list *list,
                                          int64_t struct_size);
@@ -176,10 +176,12 @@ typedef struct riis_mark_stats {
   int64_t n_queries;    /* number of closest-point queries, of nodes and of parts of the mesh */
   double seconds;       /* wall time of riis_mark_nodes */
   int32_t search;       /* the search that ran, never RIIS_SEARCH_AUTO */
-  int32_t n_threads;    /* the largest number of threads in any part. A caller's TBB limit affects walks, not loops */
-  int32_t complete;     /* 1: every node within the limit was found, for the coordinates last given; 0: not certain */
+  int32_t n_threads;    /* the largest number of threads in any part of the marking. A caller's TBB limit affects walks, not
+                           loops */
+  int32_t complete;     /* 1: all nodes within the limit were found, for the coordinates that the mesh was last given; 0: this
+                           is not certain */
   int32_t instructions; /* the instructions that were used, never RIIS_INSTRUCTIONS_AUTO */
-  int64_t n_unreached;  /* nodes within the limit that the neighbour search found by its proof, not by its walk */
+  int64_t n_unreached;  /* nodes within the limit that the neighbour search found only by its proof */
 } riis_mark_stats;
 /* Tells how the last marking with the marks went; all 0 for empty marks. */
 RIIS_API riis_status riis_marks_get_stats(const riis_marks *marks, riis_mark_stats *stats, int64_t struct_size);

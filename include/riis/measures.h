@@ -16,7 +16,7 @@ extern "C" {
 
 /* A leaflet of a surface. Lengths are in mesh units. */
 typedef struct riis_leaflet {
-  int64_t n_triangles; /* the number of its triangles that answer queries */
+  int64_t n_triangles; /* the number of its triangles, without those of zero area */
   double area;         /* the area of its triangles */
   double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. For a surface
                           from arrays: the edges that only one of its triangles has, without the longest closed line of
@@ -45,11 +45,11 @@ enum {
  * keyframes point. A bileaflet valve has its z axis. A valve's skirt does not count. If leaflets of arrays do not touch at the
  * commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
-  double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
+  double area;           /* the area of the orifice. Without an outline, all fields but axis and rim_reach are 0 */
   double outline_area;   /* the area inside the outline */
-  double perimeter;      /* the length of the orifice's edge along the triangles. The edge is first moved inwards by
-                            a tenth of the half thickness, so that narrower slits do not count. Parts of the edge
-                            on the outline are walls and do not count */
+  double perimeter;      /* the length of the orifice's edge along the triangles. Before that, the edge moves
+                            inwards by a tenth of the half thickness, so narrower slits do not count. Parts of the
+                            edge on the outline are walls and do not count */
   double effective_area; /* the area that the band around the valve leaves to the flow. The edge along the triangles
                             is moved inwards by rim_reach * half_thickness. To first order the result is area -
                             rim_reach * half_thickness * perimeter. It is never below 0 */
@@ -78,9 +78,9 @@ RIIS_API riis_status riis_surface_get_orifice_in_wall(const riis_surface *surfac
 enum {
   RIIS_ALL_LEAFLETS = -1 /* the sum over all leaflets, without a skirt */
 };
-/* The coaptation of a surface's leaflets: the parts that touch another leaflet. Lengths are in mesh units. */
+/* The coaptation of a surface's leaflets: their parts that touch another leaflet. Lengths are in mesh units. */
 typedef struct riis_coaptation {
-  double area;  /* the area of the points of the leaflet's triangles that lie within reach of another leaflet */
+  double area;  /* the area of the leaflet's triangles within reach of another leaflet */
   double edge;  /* the length of the part of its free edge (riis_leaflet) within reach of another leaflet */
   double reach; /* the distance within which leaflets touch */
 } riis_coaptation;
@@ -89,8 +89,8 @@ typedef struct riis_coaptation {
  *   leaflet_id  as in riis_triangles, or RIIS_ALL_LEAFLETS for the sum over all leaflets, which counts a contact from
  *               both sides
  * The error of an area is at most 1e-3 times the contact's outline times reach (docs/theory/measures.md). The extent of
- * a surface is the diagonal of its box. If the reach is below 1/250 of the extent, details below 1/2000 of the extent
- * are lost.
+ * a surface is the diagonal of its box. A reach below 1/250 of the extent loses details below 1/2000 of the
+ * extent.
  * Errors: RIIS_INVALID_ARGUMENT for a leaflet that the surface lacks, and for a reach out of range. */
 RIIS_API riis_status riis_surface_get_coaptation(const riis_surface *surface, double reach, int32_t leaflet_id,
                                                  riis_coaptation *coaptation, int64_t struct_size);
@@ -136,8 +136,8 @@ typedef struct riis_first_passage {
  *   mesh   must have an adjacency, and need not have been marked
  *   ends   as for riis_find_passage; each end must be outside the band at each tried opening
  * The call tries 0, 1/8, 2/8, ... until a passage is open. It then halves the last step until opening and closed_opening
- * differ by at most the tolerance. A passage may close again as the valve opens further. So the call may miss a passage that
- * ends before the next multiple of 1/8.
+ * differ by at most the tolerance. A valve may close a passage again as it opens further. So the call may miss a passage
+ * that ends before the next multiple of 1/8.
  * Errors: the errors of riis_surface_create and riis_find_passage, with the opening. RIIS_INVALID_PARAMETER for a
  * valve with only one state. */
 RIIS_API riis_status riis_find_first_passage(const riis_valve *valve, const riis_mesh *mesh,

@@ -34,7 +34,7 @@ RIIS_API riis_status riis_mesh_update(riis_mesh *mesh, int64_t n_nodes, const do
 RIIS_API riis_status riis_mesh_create_copy(const riis_points *nodes, riis_mesh **mesh);
 /* As riis_mesh_update, but copies the coordinates. A mesh may change between borrowed and copied coordinates. */
 RIIS_API riis_status riis_mesh_update_copy(riis_mesh *mesh, const riis_points *nodes);
-/* Destroys the handle. The caller's coordinates stay, and so do marks. */
+/* Destroys the handle. The caller's coordinates and all marks stay. */
 RIIS_API void riis_mesh_destroy(riis_mesh **mesh);
 /* Makes the clusters of RIIS_SEARCH_CLUSTERS now, not in the first marking that uses them. Clusters copy the
  * coordinates: they take 41 bytes per node while the handle lives, and 32 more while they are made.
@@ -59,7 +59,7 @@ RIIS_API riis_status riis_csr_init(riis_csr *csr, int64_t struct_size); /* the d
 
 /* Gives the mesh the adjacency that the neighbour search walks along, and checks it once.
  *   csr  its arrays are borrowed: they must stay in place, unchanged, until the handle is destroyed or gets another
- *        adjacency. NULL removes the adjacency, and so does riis_mesh_update with another n_nodes
+ *        adjacency. NULL removes the adjacency, as riis_mesh_update with another n_nodes does
  * Errors: RIIS_INVALID_MESH naming the row and its value. */
 RIIS_API riis_status riis_mesh_set_adjacency(riis_mesh *mesh, const riis_csr *csr);
 
@@ -75,8 +75,8 @@ typedef struct riis_mesh_cells {
   int64_t n_nodes;         /* of the mesh, >= 0 */
   int64_t n_cells;         /* >= 0 */
   const void *node_ids;    /* the nodes of cell after cell; NULL only without cells */
-  const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: where each cell begins in
-                              node_ids, and where the last ends. NULL: nodes_per_cell for all cells */
+  const void *offsets;     /* (n_cells + 1), ascending from 0 or from index_base: the beginning of each cell in node_ids, and
+                              the end of the last cell. NULL: nodes_per_cell for all cells */
   int32_t nodes_per_cell;  /* 4, 5, 6 or 8; not used with offsets. Default 4 */
   int32_t id_bits;         /* of node_ids and offsets */
   int32_t index_base;      /* of node_ids */
@@ -111,10 +111,10 @@ RIIS_API riis_status riis_adjacency_create_from_faces(const riis_mesh_faces *fac
 RIIS_API riis_status riis_adjacency_create_from_grid(int64_t ni, int64_t nj, int64_t nk, int32_t n_threads,
                                                      riis_adjacency **adjacency);
 /* Gives the rows as riis_mesh_set_adjacency takes them. The arrays belong to the adjacency: int64_t offsets, and
- * columns of column_bits, which is 32 for fewer than 2^31 nodes, else 64. */
+ * columns of 32 bits for fewer than 2^31 nodes, otherwise of 64 bits. */
 RIIS_API riis_status riis_adjacency_get_csr(const riis_adjacency *adjacency, riis_csr *csr,
                                             int64_t struct_size);
-/* Destroys the adjacency and its arrays. Destroy the mesh that borrows them first. */
+/* Destroys the adjacency and its arrays. First destroy the mesh that borrows them. */
 RIIS_API void riis_adjacency_destroy(riis_adjacency **adjacency);
 
 #ifdef __cplusplus

@@ -67,19 +67,19 @@ typedef struct riis_reaction {
 /* Fills *reaction with the defaults. */
 RIIS_API riis_status riis_reaction_init(riis_reaction *reaction, int64_t struct_size);
 /* Adds the force of the flow on the surface, and its moment, for the whole surface, each leaflet and each edge.
- *   flow      u and the volumes; u_surface is 0 if the marking lacked RIIS_FIELD_VELOCITY
+ *   flow      u and the volumes; u_surface counts as 0 if the marking lacks RIIS_FIELD_VELOCITY
  *   reaction  moments and sums of edges need RIIS_FIELD_POINT
  * Each result is a plain sum over nodes. With MPI all ranks pass the same points and edges, and add up their sums. The sums
  * of leaflets add up to the sum of the whole, up to rounding. The sums of edges are loads for tissue codes. They do not
  * model how a membrane carries loads to its edges. A node takes a time of order log n_edges, or of order n_edges if all
  * edges are equally near.
- * The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band. A scheme
- * with K at its faces then needs a source in its pressure equation, or the force is wrong by newtons. Some cells are
- * bounded only by walls and by faces with K dt > rho. They get the flow of u_surface out through these faces
- * (docs/solvers.md, "The source in the band"). Finite elements have the same fault for K dt > rho, and no source was
- * found for them.
- * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for an n_leaflets that is too small, naming the
- * leaflet id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
+ * The force on a valve at rest is right. The force on a moving valve includes the inertia of the blood in the band. If a
+ * scheme has K at its faces, its pressure equation then needs a source, or the force is wrong by newtons. Some cells are
+ * bounded only by walls and by faces with K dt > rho. Through these faces such a cell gets the outflow of u_surface
+ * (docs/solvers.md, "The source in the band"). Finite elements have the same fault for K dt > rho, and we found no source
+ * for them.
+ * Errors: as riis_marks_add_resistance; RIIS_INVALID_ARGUMENT also for too small an n_leaflets, naming the leaflet
+ * id, for a leaflet without edge, for a bad edge, and for a reaction without any sum. */
 RIIS_API riis_status riis_marks_add_reaction(const riis_marks *marks, const riis_resistance *resistance,
                                              const riis_flow_arrays *flow, const riis_reaction *reaction);
 
@@ -99,8 +99,8 @@ typedef struct riis_band {
   const double *weight; /* (n_nodes), volume around a node, 0 for nodes of other ranks; NULL only for 0 nodes */
 } riis_band;
 RIIS_API riis_status riis_band_init(riis_band *band, int64_t struct_size); /* the defaults */
-/* Gives the sums of the value over the nodes in the band, by side. Nodes whose closest point is on the rim are
- * left out, and so are nodes on neither side. With an open valve the two sides have no meaning.
+/* Gives the sums of the value over the nodes in the band, by side. It leaves out nodes whose closest point is
+ * on the rim, and nodes on neither side. With an open valve the two sides have no meaning.
  * Errors: RIIS_INVALID_ARGUMENT also for a field that the marks lack. */
 RIIS_API riis_status riis_marks_get_band_sums(const riis_marks *marks, const riis_band *band,
                                               riis_band_sums *sums, int64_t struct_size);

@@ -39,15 +39,15 @@ typedef struct riis_landmarks {
   const void *x, *y, *z;     /* (n_landmarks) by stride, in mesh units */
   int64_t stride;            /* of x, y and z. Default 1 */
   const int32_t *role;       /* (n_landmarks): RIIS_LANDMARK_* */
-  const int32_t *leaflet_id; /* (2, n_landmarks): for a nadir or a point of the attachment, its cusp and -1; for a
-                                commissure, its two cusps, in any order. -1 and -1: not known. NULL: all -1. For an
-                                aortic valve, enough cusps must be known to name all. Without names, cusp 0 of three
-                                equal cusps is at the first nadir */
+  const int32_t *leaflet_id; /* (2, n_landmarks): the cusp of a nadir or attachment point, then -1; the two cusps of a
+                                commissure, in any order. -1 and -1: not known. NULL: all -1. For an aortic valve, the
+                                known cusps must determine the names of all. Without names, the first nadir lies on cusp 0
+                                of three equal cusps */
   double scale;              /* mesh units in a centimetre: 10 for millimetres, 1, or 0.01 for metres. Must be set */
-  double noise;              /* the scatter of the landmarks, each coordinate's standard deviation, mesh units, >= 0.
+  double noise;              /* the scatter of the landmarks: the standard deviation of each coordinate, mesh units, >= 0.
                                 Default RIIS_AUTO: 0.03 * scale */
   double flow[3];            /* the direction of flow, of any length; default 0: not known. bileaflet: must be set.
-                                mitral: needed if neither both commissures nor the horns show the atrium's side */
+                                mitral: needed unless both commissures or the horns show the atrium's side */
   int32_t real_bits;         /* of x, y and z */
   int32_t reserved;          /* 0 */
 } riis_landmarks;
@@ -58,8 +58,9 @@ enum {
   RIIS_SIZE_KEPT = 0,        /* it is the valve's own */
   RIIS_SIZE_DETERMINED = 1,  /* the landmarks determine the parameter: its standard error at their noise moves the
                                 valve by at most a fifteenth of its radius */
-  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter; other sizes give it by the valve's proportions */
-  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it; it tends to the proportions */
+  RIIS_SIZE_TIED = 2,        /* no landmark bears on the parameter; it follows from other sizes by the valve's proportions */
+  RIIS_SIZE_UNDETERMINED = 3 /* landmarks bear on the parameter but do not determine it; it stays near the valve's
+                                proportions */
 };
 /* The placement that riis_place finds, for the fields of riis_surface_options with these names. */
 typedef struct riis_placement {
@@ -72,7 +73,7 @@ typedef struct riis_placement {
   double noise;              /* the noise for the standard errors: the landmarks' noise, or more if the residuals show
                                 more */
   double rotation_error;     /* standard error of the rotation, degrees */
-  double position_error;     /* standard error of the place of the valve's origin, mesh units */
+  double position_error;     /* standard error of the position of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
   int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
   int32_t reserved;          /* 0 */
@@ -90,15 +91,15 @@ typedef struct riis_placement_arrays {
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
- *   valve   the template, a kind with any parameters: lengths that no landmark bears on keep their proportions. Translation
- *           and opening stay, and so does the open state of riis_valve_set_open_state
- *   held    names of parameters that keep the valve's values, separated by blanks or commas; "": none
+ *   valve   the template, a kind with any parameters: lengths without a landmark keep their proportions. Translation,
+ *           opening and the open state of riis_valve_set_open_state stay
+ *   held    names of parameters that keep the valve's values, between blanks or commas; "": none
  *   arrays  its arrays are written; NULL: not wanted
- * The result has the least squares of the distances between the landmarks and their places on the closed valve
- * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. A leaflet_power
- * that would make its cusps overlap is lowered.
+ * The result minimises the sum of squared distances between the landmarks and their places on the closed valve
+ * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. If a
+ * leaflet_power would make its cusps overlap, it is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
- * large or small for a heart valve at this scale, and if they do not show the flow; the message names them.
+ * large or small for a heart valve at this scale, or that do not show the flow; the message names them.
  * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
@@ -106,15 +107,16 @@ RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmar
 
 /* ---- Warp: a valve that meets a patient's landmarks, and moves with them ------------------------------- */
 
-/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is affine plus a term |r|^3 for
- * each landmark (docs/theory/warp.md). Its matrix is factored once, so new targets in each time step cost little. */
+/* A smooth map of space that takes landmarks on a valve to landmarks in a patient. The map is the sum of an affine map and a
+ * term |r|^3 for each landmark (docs/theory/warp.md). Its matrix is factored once, so new targets in each time step cost
+ * little. */
 typedef struct riis_warp riis_warp;
 
 /* Options of riis_warp_create. */
 typedef struct riis_warp_options {
   int64_t struct_size; /* set by the init function */
   double noise;        /* standard deviation of each coordinate of the targets, 0 to 1e50. The map is smoothed until it
-                          misses the targets by about that much. Default 0: it meets the targets exactly */
+                          misses the targets by about this noise. Default 0: it meets the targets exactly */
   const riis_surface_options *placement; /* NULL, the default: landmarks and noise are in the valve's own coordinates.
                           Otherwise they are in the mesh's frame, and scale, rotation and translation of these options
                           place them. Use the same options for the surface */
@@ -124,18 +126,18 @@ RIIS_API riis_status riis_warp_options_init(riis_warp_options *options, int64_t 
 
 /* Makes a warp from landmarks on the valve at rest. Until riis_warp_set_targets, it is the identity.
  *   sources  3 to 1000 landmarks. If they lie nearly in a plane, they do not determine the map across that plane. The map then
- *            stretches that direction as it stretches the plane, and keeps it at right angles (riis_warp_info.is_planar)
+ *            stretches the normal direction as it stretches the plane, and keeps it at right angles (riis_warp_info.is_planar)
  * Errors: RIIS_INVALID_ARGUMENT naming the landmark or field and its value, also for two landmarks in one place, and for
  * landmarks on a line. */
 RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_warp_options *options, riis_warp **warp);
-/* Destroys the warp. Valves that have it keep their copies. */
+/* Destroys the warp. Valves with this warp keep their copies. */
 RIIS_API void riis_warp_destroy(riis_warp **warp);
-/* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
+/* Makes the warp take the landmarks to these places. The same targets give the same bits, whatever the earlier targets were.
  *   targets  as many points as the sources, in their order
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
- * landmark to the nearest other one, its determinant is not above 0. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: its determinant is
+ * not positive half way from some landmark to the nearest other landmark. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
-/* Takes the landmarks to their places at a time, from a table of keys in time.
+/* Makes the warp take the landmarks to their places at a time, from a table of keys in time.
  *   frames  n_vertices is the number of landmarks. The keys are read during the call only
  *   time    magnitude at most 1e30
  * Errors: as riis_warp_set_targets; RIIS_INVALID_ARGUMENT naming the field, key or landmark and its value. */
@@ -149,15 +151,15 @@ typedef struct riis_warp_info {
   double largest_residual;     /* the largest distance between a mapped source and its target */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
-  double least_determinant;    /* the least determinant of the map's derivative, half way from a landmark to the
-                                  nearest other one */
+  double least_determinant;    /* the least determinant of the map's derivative, over all points half way from a
+                                  landmark to its nearest landmark */
   double least_point[3];       /* the point between the sources where the determinant is least */
   int32_t is_planar;           /* 1 if the landmarks lie nearly in a plane, else 0 */
   int32_t reserved;            /* 0 */
 } riis_warp_info;
 /* Gives the quality of a warp. */
 RIIS_API riis_status riis_warp_get_info(const riis_warp *warp, riis_warp_info *info, int64_t struct_size);
-/* Maps points, such as the chords of a mitral valve.
+/* Maps points, such as points of the chords of a mitral valve.
  *   points  in the coordinates of the landmarks
  *   mapped  (3, n_points); may be the array of the points
  * Errors: RIIS_INVALID_ARGUMENT naming the point. */
@@ -189,23 +191,23 @@ typedef struct riis_gap {
 } riis_gap;
 /* Measures the gap between a valve's attachment and a wall, such as a patient's vessel.
  *   wall      a surface in the same frame, usually by riis_surface_create_from_arrays
- *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment, RIIS_FAR_DISTANCE where the line
+ *   distance  (2, n_edges): the gap at both ends of each edge of riis_attachment; RIIS_FAR_DISTANCE if the line
  *             misses the wall. NULL if it is not wanted
- * The gap is the distance along the skirt's direction: outwards from the valve's axis and perpendicular to it
- * (docs/theory/skirt.md). Of all places at which that line meets the wall, the nearest counts. The gap is negative if the
+ * The gap is the distance along the skirt's direction, which is outwards from the valve's axis and perpendicular to it
+ * (docs/theory/skirt.md). If the line meets the wall several times, the nearest place counts. The gap is negative if the
  * wall lies inside.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for one without an attachment, and for an attachment that
- * encloses no area. */
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, for a valve without an attachment, and for an attachment
+ * that encloses no area. */
 RIIS_API riis_status riis_surface_get_gap(const riis_surface *surface, const riis_surface *wall, double *distance,
                                           riis_gap *gap, int64_t struct_size);
-/* Gives a valve a skirt that reaches a wall, and no farther. It replaces the valve's skirt.
+/* Gives a valve a skirt that just reaches a wall. It replaces the valve's skirt.
  *   wall     as in riis_surface_get_gap
  *   longest  the longest length to accept, mesh units, 1e-50 to 1e50
  *   options  scale, rotation and translation place the valve, and n_threads is used. NULL stands for the defaults
- * At each point of the attachment of the closed valve, the length is the gap. If the gap is below 0.01 of the attachment's mean
- * distance from the axis, the length is that limit. These lengths stay while the valve opens. The parameter
- * "skirt_length" becomes the largest length, before placement. Setting that parameter removes the lengths.
- * Errors: RIIS_INVALID_ARGUMENT for a wall that is missed or farther than longest, with the first such point;
+ * The length at each point of the closed valve's attachment is the gap there. The length is at least 0.01 of the attachment's
+ * mean distance from the axis. These lengths stay while the valve opens. The parameter "skirt_length" becomes the largest
+ * length, before placement. Setting that parameter removes the lengths.
+ * Errors: RIIS_INVALID_ARGUMENT if the wall is missed or farther than longest, naming the first such point;
  * RIIS_INVALID_PARAMETER for a bileaflet valve, and for an attachment that encloses no area. */
 RIIS_API riis_status riis_valve_set_skirt_to_wall(riis_valve *valve, const riis_surface *wall, double longest,
                                                   const riis_surface_options *options);

@@ -14,7 +14,7 @@ extern "C" {
 
 /* ---- Closest points (paper, 4.1) ----------------------------------------------------------------------- */
 
-/* The closest point of the surface to one point. For other measures than triangles see RIIS_MEASURE_*. */
+/* The closest point of the surface to one point. RIIS_MEASURE_* says what holds for other measures than triangles. */
 typedef struct riis_closest {
   double distance;        /* >= 0, mesh units */
   double point[3];        /* on the triangle, mesh units */
@@ -23,11 +23,11 @@ typedef struct riis_closest {
   int64_t triangle_id;    /* the lowest id of the closest triangles */
   int32_t leaflet_id;     /* of the triangle */
   int32_t side;           /* +1 on the side to which normals point (downstream), -1 on the other side, 0 on the surface
-                             or level with its rim. At a shared edge or vertex (equal placed coordinates) the
-                             angle-weighted normal of its triangles decides (Baerentzen, Aanaes 2005) */
+                             or level with its rim. At a shared edge or vertex (equal placed coordinates),
+                             the angle-weighted mean of the normals decides (Baerentzen, Aanaes 2005) */
 } riis_closest;
-/* Finds the closest point of the surface at any distance, with the result of a loop over all triangles in double
- * precision. Distances below 1e-154 underflow to 0.
+/* Finds the closest point of the surface at any distance, in double precision, as a loop over all triangles
+ * would. Distances below 1e-154 underflow to 0.
  *   point  3 finite coordinates, magnitude at most 1e60
  * Errors: RIIS_INVALID_ARGUMENT naming the coordinate. */
 RIIS_API riis_status riis_closest_point(const riis_surface *surface, const double *point, riis_closest *closest,
@@ -77,7 +77,7 @@ RIIS_API riis_status riis_closest_points(const riis_surface *surface, const riis
 /* Options of riis_find_crossings. */
 typedef struct riis_crossing_options {
   int64_t struct_size; /* set by the init function */
-  double depth;        /* half thicknesses, 0 to 1, default 1e-6: pairs up to this depth only touch */
+  double depth;        /* half thicknesses, 0 to 1, default 1e-6: pairs up to this depth count as touching */
   int32_t n_threads;   /* default 0 */
   int32_t reserved;    /* 0 */
 } riis_crossing_options;
@@ -90,14 +90,14 @@ RIIS_API riis_status riis_crossings_create(riis_crossings **crossings); /* makes
 RIIS_API void riis_crossings_destroy(riis_crossings **crossings); /* destroys the crossings and their list */
 
 /* Finds every pair of the surface's triangles that go through each other.
- *   options    a pair crosses if it is deeper than depth. A depth within the rounding error also counts as touching. That
- *              error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
+ *   options    a pair crosses if its depth is larger. A depth within the rounding error counts as touching in any
+ *              case. That error is 2^-24 of the pair's longest edge plus 2^-46 of the surface's largest coordinate
  *   crossings  its content is replaced
- * A pair's depth is its penetration depth: the length of the shortest translation of one triangle after which both only
- * touch (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that
- * share a vertex (equal placed coordinates) are neighbours, not a pair. The call uses the triangles with every
- * RIIS_MEASURE_*. Triangles of smooth leaflets that touch may therefore cross by twice riis_surface_info.error_bound. A log
- * function (riis_set_log) gets warnings of deeper crossings without this call.
+ * The depth of a pair is the length of the shortest translation of one triangle after which both only touch
+ * (docs/theory/crossings.md). Triangles that touch or lie in one plane have depth 0. Triangles of one leaflet that share a
+ * vertex (equal placed coordinates) are neighbours, not a pair. The call uses the triangles, also with other measures
+ * than RIIS_MEASURE_TRIANGLES. If smooth leaflets touch, their triangles may therefore cross by twice
+ * riis_surface_info.error_bound. A log function (riis_set_log) gets warnings of deeper crossings even without this call.
  * Errors: RIIS_INVALID_ARGUMENT naming the field. */
 RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis_crossing_options *options,
                                          riis_crossings *crossings);
@@ -106,17 +106,17 @@ RIIS_API riis_status riis_find_crossings(const riis_surface *surface, const riis
 typedef struct riis_crossing_list {
   int64_t n_pairs;            /* pairs that cross. If 0, ids are -1 and all other fields but seconds are 0 */
   const int64_t *triangle_id; /* (2, n_pairs): the two triangles, the lower id first */
-  const double *point;        /* (3, n_pairs): the middle of the segment in which the two triangles meet */
+  const double *point;        /* (3, n_pairs): the middle of the segment where the two triangles meet */
   const double *depth;        /* (n_pairs): the penetration depth */
   const double *length;       /* (n_pairs): the length of this segment */
   double total_length;        /* the sum of length */
-  double deepest_depth;       /* the depth of the deepest pair, which is the first one of equally deep pairs */
+  double deepest_depth;       /* the depth of the deepest pair. Of several equally deep pairs, the first one counts */
   double deepest_point[3];    /* the point of the deepest pair */
   int64_t deepest_triangle_id[2]; /* the triangles of the deepest pair */
   int32_t deepest_leaflet_id[2];  /* the leaflets of the deepest pair's triangles */
   double seconds;             /* wall time of riis_find_crossings */
 } riis_crossing_list;
-/* Gives the pairs of the last riis_find_crossings, until the next riis_find_crossings with these crossings. */
+/* Gives the pairs of the last riis_find_crossings. They are valid until the next riis_find_crossings with these crossings. */
 RIIS_API riis_status riis_crossings_get_list(const riis_crossings *crossings, riis_crossing_list *list,
                                              int64_t struct_size);
 

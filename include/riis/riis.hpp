@@ -41,7 +41,7 @@ class Error : public std::runtime_error {
   riis_status status_;
 };
 
-// Throws an Error unless the status is RIIS_OK. Call it on the thread of the call that returned the status.
+// Throws an Error unless the status is RIIS_OK. Call it on the thread that made the refused call.
 inline void check(riis_status status) {
   if (status != RIIS_OK) throw Error(status, riis_last_error());
 }
@@ -136,7 +136,7 @@ Struct defaults() {
   return made;
 }
 
-// Returns a struct that a call has filled in, such as get<riis_surface_info>(riis_surface_get_info, surface).
+// Returns a struct that a call fills in, such as get<riis_surface_info>(riis_surface_get_info, surface).
 template <class Struct, class Call, class... Arguments>
 Struct get(const Call &call, const Arguments &...arguments) {
   Struct filled;

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * riis_vtk.h - optional component: meshes and surfaces from and to VTK files, and pictures. It is a separate
- * library, riis_vtk, so that the core never links VTK.
+ * library, riis_vtk, so that the core needs no VTK.
  *
  * The rules of riis.h also hold here, and riis_last_error() has the messages. These rules are added:
  *
  * - VTK keeps process-wide state: call these functions from one thread at a time.
- * - Messages that VTK would print while a function runs are caught and become the message of the error.
- * - A file is refused if it is cut short or of another kind. It is also refused if it claims more points, cells, values
- *   or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So read files
- *   that you do not trust in a separate process.
+ * - Messages that VTK would print are caught, and become the message of the error.
+ * - A file is refused if it is of another kind, or if its end is missing. It is also refused if it claims more points,
+ *   cells, values or bytes than it holds. VTK's own readers can still crash on a .vtu file whose bytes were damaged. So
+ *   read files that you do not trust in a separate process.
  * - RIIS_OUT_OF_MEMORY names the file that was read or written.
  * - If a path cannot be read or written, the status is RIIS_FILE_ERROR, and the message names the file.
  * - A written file is complete or does not exist: it is written under a temporary name and then moved. It gets
- *   the permissions of the file that it replaces. If the path is a link, the link's target is written, and the
- *   link stays.
+ *   the permissions of the file that it replaces. If the path is a link, the file behind it is written, and the link
+ *   stays.
  * - The caller's locale has no influence and does not change.
  */
 /* clang-format off: as riis.h */
@@ -46,10 +46,10 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh);
  * until the mesh is destroyed. */
 RIIS_API riis_status riis_vtk_mesh_get_notes(const riis_vtk_mesh *mesh, const char **notes);
 /* Replaces the nodes of the mesh by the centres of its cells, in the order of the cells. This is for solvers with
- * unknowns at centres. They are OpenFOAM's centres. Two nodes are then neighbours if their cells share a face, and the
- * arrays that are set are arrays of cells. Centres have no parts (riis_vtk_mesh_extract).
- * Errors: RIIS_INVALID_ARGUMENT naming the cell, if it is neither a linear volume cell nor a polyhedron. The
- * mesh then keeps its nodes. */
+ * unknowns at centres. They are OpenFOAM's centres. Two nodes are then neighbours if their cells share a face, and
+ * arrays that are set become arrays of cells. A mesh of centres has no parts (riis_vtk_mesh_extract).
+ * Errors: RIIS_INVALID_ARGUMENT for a cell that is neither a linear volume cell nor a polyhedron, naming it.
+ * The mesh then keeps its nodes. */
 RIIS_API riis_status riis_vtk_mesh_use_centers(riis_vtk_mesh *mesh);
 /* Destroys the mesh. */
 RIIS_API void riis_vtk_mesh_destroy(riis_vtk_mesh **mesh);
@@ -63,38 +63,38 @@ RIIS_API riis_status riis_vtk_mesh_get_nodes(const riis_vtk_mesh *mesh, int64_t 
  * borrows nothing from the mesh. Nodes without such an edge get empty rows: RIIS_SEARCH_NEIGHBOR still finds
  * them, RIIS_SEARCH_PAPER does not.
  * - A linear cell, a prism with more than three sides and a polyhedron have the edges of their faces.
- * - A quadratic cell has edges from each corner to the middle of each adjacent side, and between the middles
- *   of neighbouring sides of a face. If the face has a node in its middle, this node has edges to all others
- *   of the face instead.
+ * - A quadratic cell has edges from each corner to the middles of its sides, and between the middles of
+ *   neighbouring sides of a face. If a face has a node in its middle, edges join this node to all others of the face
+ *   instead.
  * - A Lagrange or Bezier tetrahedron, wedge or hexahedron has edges along the lines of its lattice.
- * The edges of other volume cells are not known here. These cells are convex point sets, and Lagrange and
+ * The edges of two kinds of volume cells are not known here: convex point sets, and Lagrange and
  * Bezier cells with nodes beyond their lattice. */
 RIIS_API riis_status riis_vtk_mesh_create_adjacency(const riis_vtk_mesh *mesh, int32_t n_threads,
                                                     riis_adjacency **adjacency);
-/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, leaks are unknown,
- * because there is no edge that could leak.
+/* Counts the volume cells. In a mesh without volume cells, such as a mesh of triangles, no edge could
+ * leak, so leaks are unknown.
  *   n_volume_cells    NULL if not wanted
  *   n_cells_left_out  the number of volume cells whose edges are not known here; NULL if not wanted */
 RIIS_API riis_status riis_vtk_mesh_get_volume_cells(const riis_vtk_mesh *mesh, int64_t *n_volume_cells,
                                                     int64_t *n_cells_left_out);
 
-/* Copies the cells in the file's order. Call it twice: the last offset of the first call is the number of node ids.
+/* Copies the cells in the file's order. Call it twice: the first call gives the number of node ids as its last offset.
  *   n_cells     the number of cells, as riis_vtk_mesh_get_nodes gives it
  *   offsets     (n_cells + 1): cell i has the nodes node_ids[offsets[i]] to node_ids[offsets[i + 1] - 1]; NULL if not
  *               wanted
  *   types       (n_cells): VTK's numbers of the types, such as 10 for a tetrahedron; NULL if not wanted
  *   n_node_ids  the last offset; 0 if node_ids is NULL
- *   node_ids    (n_node_ids), from 0, in VTK's order; NULL if not wanted. A polyhedron has its points, each once
- * Errors: RIIS_INVALID_ARGUMENT for other numbers than the mesh has, and for a mesh of centres. */
+ *   node_ids    (n_node_ids), from 0, in VTK's order; NULL if not wanted. Each point of a polyhedron is listed once
+ * Errors: RIIS_INVALID_ARGUMENT for n_cells or n_node_ids of another mesh, and for a mesh of centres. */
 RIIS_API riis_status riis_vtk_mesh_copy_cells(const riis_vtk_mesh *mesh, int64_t n_cells, int64_t *offsets,
                                               uint8_t *types, int64_t n_node_ids, int64_t *node_ids);
 
 /* Makes the part of the mesh's adjacency that riis_find_leaks needs, in one pass over the cells. It consists of the
- * edges that are longer than a given length, if their bounding box meets the surface's bounding box. It borrows
- * nothing. Use it only for riis_find_leaks: a search along so few edges would not get far from its start.
+ * edges that are longer than a given length and whose bounding box meets the surface's bounding box. It borrows
+ * nothing. Use it only for riis_find_leaks: a search cannot go far along so few edges.
  *   longer_than       twice the half thickness of the marking. 0 gives all edges near the surface. Use 0 after a
- *                     marking by RIIS_SEARCH_PAPER, or if distances were not measured to the triangles. Edges shorter
- *                     by up to a billionth are also included
+ *                     marking by RIIS_SEARCH_PAPER, or if distances were not measured to the triangles. Edges that
+ *                     are shorter by up to a billionth are also included
  *   n_cells_left_out  as in riis_vtk_mesh_get_volume_cells
  * Errors: RIIS_INVALID_ARGUMENT if longer_than is below 0 or not finite. */
 RIIS_API riis_status riis_vtk_mesh_create_long_edges(const riis_vtk_mesh *mesh, const riis_surface *surface,
@@ -132,20 +132,20 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
 /* Makes a mesh of all cells that have one of the given nodes, with all nodes of these cells. Nodes and cells
- * keep their order and their data. Two arrays have their ids in the whole mesh: riis_node_id of points and
- * riis_cell_id of cells (Int64). The part borrows nothing.
+ * keep their order and their data. Two new arrays give their ids in the whole mesh: riis_node_id of points
+ * and riis_cell_id of cells (Int64). The part borrows nothing.
  *   n_ids     >= 0
  *   node_ids  (n_ids), 0 to n_nodes - 1, in any order
  * Errors: RIIS_INVALID_ARGUMENT naming the id and its position in node_ids. */
 RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_ids, const int64_t *node_ids,
                                            riis_vtk_mesh **part);
-/* Gives the number of bytes of the file that riis_vtk_mesh_write would write, without its few kilobytes of
+/* Gives the size in bytes of the file of riis_vtk_mesh_write, without its few kilobytes of
  * text. */
 RIIS_API riis_status riis_vtk_mesh_get_file_size(const riis_vtk_mesh *mesh, int64_t *n_bytes);
 
 /* Writes the mesh with all its arrays to a file. The points are Float64.
- *   path  ends in .vtu, or in .xdmf. The numbers of NAME.xdmf are in NAME.h5 beside it, or in itself if riis was
- *         built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was read from a case of
+ *   path  ends in .vtu, or in .xdmf. The numbers of NAME.xdmf are in NAME.h5 beside it, or in NAME.xdmf itself if riis
+ *         was built without HDF5. Polyhedra and text have no place in an .xdmf. If the mesh was read from a case of
  *         OpenFOAM, with nodes at centres, the path may also be a time folder of the case, such as CASE/0. The arrays
  *         of cells become its fields, with zeroGradient at patches: riis_K becomes K, and riis_K_u_surface becomes Ku.
  *         Such a folder may be written in part if an error occurs */
@@ -158,8 +158,8 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
 typedef struct riis_vtk_pieces riis_vtk_pieces;
 /* Reads the list, not the pieces.
  *   path  ends in .pvtu. Names of pieces are absolute or relative to its folder
- * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, listed twice or
- * no .vtu file, and as in riis_vtk_mesh_read. */
+ * Errors: RIIS_FILE_ERROR naming the file and the piece: if there is no piece, if a piece is missing, is listed twice
+ * or is no .vtu file, and as in riis_vtk_mesh_read. */
 RIIS_API riis_status riis_vtk_pieces_read(const char *path, riis_vtk_pieces **pieces);
 /* Makes a list of pieces that have the same arrays as a mesh, for riis_vtk_pieces_write. It borrows nothing.
  *   n_files  1 to 1,000,000
@@ -187,16 +187,16 @@ RIIS_API riis_status riis_vtk_pieces_write(const riis_vtk_pieces *pieces, const 
 /* How a node of a piece belongs to the whole mesh. */
 enum {
   RIIS_VTK_NODE_INSIDE = 0, /* no other piece has the node, except as a ghost */
-  RIIS_VTK_NODE_SHARED = 1, /* other pieces may have it: it is on a face of one cell only, or on no volume cell */
-  RIIS_VTK_NODE_GHOST = 2,  /* it belongs only to ghost cells, which are copies of another piece's cells */
-  RIIS_VTK_NODE_LOOSE = 3   /* it belongs to no cell of the piece */
+  RIIS_VTK_NODE_SHARED = 1, /* other pieces may have the node: it is on a face of only one cell, or on no volume cell */
+  RIIS_VTK_NODE_GHOST = 2,  /* the node belongs only to ghost cells, which are copies of another piece's cells */
+  RIIS_VTK_NODE_LOOSE = 3   /* the node belongs to no cell of the piece */
 };
 /* The cells of a piece that are not ghosts. Ghosts have bit 1 in the cell array vtkGhostType. */
 typedef struct riis_vtk_sharing {
   int64_t n_cells;          /* cells that are not ghosts */
   int64_t n_volume_cells;   /* the volume cells among these */
-  int64_t n_cells_left_out; /* the volume cells among these whose edges are not known, as in
-                               riis_vtk_mesh_get_volume_cells */
+  int64_t n_cells_left_out; /* the number of these volume cells whose edges are not known,
+                               as in riis_vtk_mesh_get_volume_cells */
   int32_t has_global_ids;   /* 1 if the mesh has global ids */
   int32_t reserved;         /* 0 */
 } riis_vtk_sharing;
@@ -219,17 +219,17 @@ typedef struct riis_vtk_surface riis_vtk_surface;
  *             or .ply
  *   leaflets  the name of the cell array of leaflet ids, one whole number >= 0 for each cell. The array must
  *             exist. NULL stands for riis_leaflet, which may be missing
- * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the list of its
- * corners is first rotated by one, which keeps the winding.
- * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the existing arrays. */
+ * A quad is cut from its first corner to its third. If this line runs outside a concave quad, the cut goes
+ * from the second corner to the fourth, with the same winding.
+ * Errors: RIIS_FILE_ERROR naming the file, and the cell with its value or the arrays that exist. */
 RIIS_API riis_status riis_vtk_surface_read(const char *path, const char *leaflets, riis_vtk_surface **surface);
 /* Makes every connected piece of the surface a leaflet, numbered from 0 in the order of the pieces' first
  * faces. Faces are connected if they share a vertex, or have vertices with exactly the same coordinates, as in
  * an .stl file. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_number_pieces(riis_vtk_surface *surface);
-/* Adds the faces of another surface, for a valve with a file for each leaflet. The first surface becomes leaflet
- * 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the surfaces has quads,
- * these are cut. `other` stays. Arrays that the surface gave before become invalid. */
+/* Adds the faces of another surface, for a valve with one file for each leaflet. The first surface becomes
+ * leaflet 0, and each added surface the next leaflet. Other leaflet ids are lost. If only one of the surfaces
+ * has quads, these are cut. `other` stays. Arrays that the surface gave before become invalid. */
 RIIS_API riis_status riis_vtk_surface_append(riis_vtk_surface *surface, const riis_vtk_surface *other);
 /* Destroys the surface. Its arrays become invalid. Surfaces made from it stay. */
 RIIS_API void riis_vtk_surface_destroy(riis_vtk_surface **surface);
@@ -246,7 +246,7 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
 
 /* ---- Motion -------------------------------------------------------------------------------------------- */
 
-/* The frames of a moving surface, such as a patient's valve, read from files: the same faces at several times.
+/* The frames of a moving surface, such as a patient's valve, from files with the same faces at several times.
  * Keyframes are made from the frames, with a period and an interpolation that the caller sets:
  *   riis_vtk_motion_read_pvd("valve.pvd", NULL, &motion);
  *   riis_vtk_motion_get_arrays(motion, &arrays, sizeof arrays);
@@ -258,14 +258,14 @@ RIIS_API riis_status riis_vtk_surface_write(const riis_surface *surface, const c
  *   order. Polygons and quads are cut as in the first file.
  * - Leaflets come from the first file. `leaflets` names their cell array, as in riis_vtk_surface_read.
  * - An .stl file has triangles, in the same order in all files, and no vertices. Corners at exactly the same
- *   position in the first file become one vertex. They must also share one position in every other file. If
- *   leaflets touch at corners in the first file and part later, use files with points instead.
+ *   position in the first file become one vertex. They must also share one position in each of the other
+ *   files. If leaflets touch at corners in the first file and separate later, use files with points instead.
  * - Times ascend strictly, and coordinates are finite, as in riis_keyframe_arrays.
  * Errors: RIIS_FILE_ERROR naming the file and the difference, with its value. */
 typedef struct riis_vtk_motion riis_vtk_motion;
 
 /* Reads a motion from a ParaView collection. Each DataSet has a timestep and a file, whose path is absolute or
- * relative to the folder of the .pvd file. Other attributes are ignored, so a time in several parts is
+ * relative to the folder of the .pvd file. Other attributes are ignored, so a time with several parts is
  * refused.
  * Errors: RIIS_FILE_ERROR naming the .pvd file and the DataSet, also if there is no DataSet. */
 RIIS_API riis_status riis_vtk_motion_read_pvd(const char *path, const char *leaflets,
@@ -279,9 +279,9 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
                                                 const double *times, const char *leaflets,
                                                 riis_vtk_motion **motion);
 /* Reads a motion from one .vtp or .vtu file with displacements. Each frame is the points plus a point array of
- * 3 components. The points alone are not a frame.
- *   prefix   each array's name is the prefix, then "_" or nothing, then a whole number, such as displacement_0
- *            and displacement_10. Frames are in the order of the numbers, which may have gaps
+ * 3 components. The points alone make no frame.
+ *   prefix   the name of each array is the prefix, then "_" or nothing, then a whole number, as in
+ *            displacement_0 and displacement_10. Frames are in the order of the numbers, which may have gaps
  *   n_times  the number of these arrays, or 0
  *   times    (n_times); NULL, with n_times 0, takes the times from the field array TimeValue
  * Errors: RIIS_INVALID_ARGUMENT for a bad entry of times, which the message names, and if n_times is not the number of
@@ -289,9 +289,9 @@ RIIS_API riis_status riis_vtk_motion_read_files(int64_t n_files, const char *con
 RIIS_API riis_status riis_vtk_motion_read_displacements(const char *path, const char *prefix, int64_t n_times,
                                                         const double *times, const char *leaflets,
                                                         riis_vtk_motion **motion);
-/* Reads a motion from the frames of svMultiPhysics, which riis export writes: the positions of all nodes, frame by
- * frame. The faces are in a .vtu or .vtp file beside it. NAME_motion_open.dat takes the file NAME_motion_open,
- * NAME_motion or NAME, each also followed by _mesh or _face.
+/* Reads a motion from a file of svMultiPhysics, as riis export writes it: the positions of all nodes, frame by
+ * frame. The faces are in a .vtu or .vtp file in the same folder. For NAME_motion_open.dat this file
+ * is NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face.
  *   path       ends in .dat
  *   time_step  above 0: the time from a frame to the next one. The first frame is at 0
  * Errors: RIIS_INVALID_ARGUMENT for a bad time_step. */
@@ -302,7 +302,7 @@ RIIS_API riis_status riis_vtk_motion_read_frames(const char *path, double time_s
  * Errors: RIIS_INVALID_ARGUMENT naming the frame with another time. */
 RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_vtk_motion *other);
 /* Gives the files that were read: one for each frame, or the one file with displacements.
- *   paths  (n_files): the path as given, for a .pvd file after its folder; valid until the motion is destroyed */
+ *   paths  (n_files): the path as given, preceded by the folder of a .pvd file; valid until the motion is destroyed */
 RIIS_API riis_status riis_vtk_motion_get_files(const riis_vtk_motion *motion, int64_t *n_files,
                                                const char *const **paths);
 /* Makes every connected piece of the first frame a leaflet, as riis_vtk_surface_number_pieces does. */
@@ -332,7 +332,7 @@ enum {
   RIIS_VTK_VIEW_VALVE_THREE = 7    /* as RIIS_VTK_VIEW_THREE, by the axes of the valve */
 };
 
-/* The contents and the view of a picture. Texts are in ASCII. Other characters are drawn as "?". */
+/* The contents and the view of a picture. Texts are in ASCII. Characters outside ASCII are drawn as "?". */
 typedef struct riis_vtk_picture_options {
   int64_t struct_size;    /* set by the init function */
   const char *title;      /* precedes the number of triangles. Default NULL: "Surface" */
@@ -343,7 +343,7 @@ typedef struct riis_vtk_picture_options {
                                        NULL: "leaflet 0", ..., as for leaflets without a name here */
   int64_t n_leaking_edges;/* >= 0, default 0 */
   const int64_t *leaking_edges; /* (2, n_leaking_edges): node ids of mesh edges, dark red and in front of everything.
-                                   Default NULL: the picture does not mention leaks. If n_leaking_edges is 0 and this
+                                   Default NULL: the picture says nothing of leaks. If n_leaking_edges is 0 and this
                                    is not NULL, the picture says that no edge leaks */
   int32_t view;           /* RIIS_VTK_VIEW_*. Default RIIS_VTK_VIEW_OBLIQUE */
   int32_t width, height;  /* pixels, 64 to 8192. Default 1600 x 800 */
@@ -363,8 +363,8 @@ RIIS_API riis_status riis_vtk_picture_options_init(riis_vtk_picture_options *opt
  *   colour of the leaflet nearest to one of them. Other cells with a marked node show only their far side, in
  *   a pale colour.
  * - Captions count nodes and cells. If the mesh has volume cells, flat cells are neither drawn nor counted.
- * - Axes and a scale bar are below the panels. A mesh much longer than the surface is cut at dashed lines.
- *   Pictures lower than 120 pixels have no texts, axes or bar.
+ * - Axes and a scale bar are below the panels. If a mesh is much longer than the surface, the picture cuts
+ *   it at dashed lines. Pictures lower than 120 pixels have no texts, axes or bar.
  * - RIIS_VTK_VIEW_THREE and RIIS_VTK_VIEW_VALVE_THREE draw one column for each view, with the panels above each
  *   other. The columns have the same scale.
  *
@@ -384,11 +384,11 @@ RIIS_API riis_status riis_vtk_draw_views(const riis_surface *surface, const riis
                                          const riis_vtk_picture_options *options, int64_t n_views,
                                          const int32_t *views, const char *const *paths);
 
-/* Pictures of a valve that moves in one mesh, all seen by one camera, such as the frames of a movie. */
+/* Pictures of a moving valve in one mesh, all seen by one camera, such as the frames of a movie. */
 typedef struct riis_vtk_film riis_vtk_film;
 /* Makes the window and the outline of the mesh, which all pictures share.
  *   mesh          its nodes and cells must stay the same, but its marks may change. NULL draws the surface
- *                 alone. The film shares the mesh's data, so the mesh may be destroyed first
+ *                 alone. The film shares the mesh's data, so the caller may destroy the mesh first
  *   lower, upper  (3), bounds of the surface at all times along the mesh's axes, for the camera
  *   options       the view, the size and the leaflets' names; title and leaking edges are ignored
  * Errors: RIIS_UNAVAILABLE without a usable X display, after about half a second; RIIS_INVALID_ARGUMENT for

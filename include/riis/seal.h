@@ -23,13 +23,13 @@ RIIS_API void riis_leaks_destroy(riis_leaks **leaks); /* destroys the leaks and 
  * the surface.
  *   surface, mesh  the surface and the mesh of the marking. The mesh must have an adjacency
  *   marks          marks from riis_mark_nodes
- *   options        the options of the marking. An edge to a node that node_mask leaves out does not leak
+ *   options        the options of the marking. An edge with a node that node_mask leaves out does not leak
  *   leaks          its content is replaced
  * The decision is exact for coordinates in double precision; coordinates below 1e-90 count as 0. An edge may be given in one
- * row or in both, and is listed once. Edges to ghosts are ignored. Edges that are at most two half thicknesses long do not
- * leak (docs/meshes.md). A marking of the same triangles with the half thickness of riis_leak_list closes all of these edges,
- * except by RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
- * tolerance * half_thickness, so search again after it.
+ * row or in both, and appears once in the list. Edges to ghosts are ignored. Edges that are at most two half thicknesses long
+ * do not leak (docs/meshes.md). A marking of the same triangles with the half thickness of riis_leak_list closes all of these
+ * edges, except by RIIS_SEARCH_PAPER. But riis_surface_update with that half thickness moves a valve's triangles by up to
+ * tolerance * half_thickness. Search again after it.
  * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency, and for marks that no marking has filled, or that
  * have another number of nodes or half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_leaks(const riis_surface *surface, const riis_mesh *mesh,
@@ -43,7 +43,7 @@ typedef struct riis_leak_list {
   const double *length;       /* (n_edges) */
   const double *distance;     /* (n_edges): the distance of the edge's nearer node, a half thickness that closes it */
   double half_thickness;      /* the smallest half thickness that gives each edge a marked node, for these triangles */
-  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. It is the first one of equally long edges */
+  int64_t longest_node_id[2]; /* the nodes of the longest edge, ascending. If edges are equally long, it is the first one */
   double longest_length;      /* the length of this edge */
   double longest_middle[3];   /* the middle of this edge */
   double seconds;             /* wall time of riis_find_leaks */
@@ -74,12 +74,12 @@ enum {
   RIIS_PASSAGE_OPEN = 1,   /* yes: some path has no node within the half thickness */
   RIIS_PASSAGE_NONE = 2    /* no: the mesh itself has no path between the sets */
 };
-/* The widest passage from one set of nodes to another: the path whose least distance from the surface is largest. */
+/* The widest passage from one set of nodes to another: the path with the largest least distance from the surface. */
 typedef struct riis_passage {
   int64_t node_id;  /* the path's node that is nearest to the surface; -1 without a path. If nodes have equal distances,
                        the higher id counts as nearest */
-  double distance;  /* the distance of node_id. For these triangles, a half thickness of at least this distance closes
-                       the passage, and a smaller one leaves it open. 0 without a path */
+  double distance;  /* the distance of node_id. A half thickness of at least this distance closes the passage between
+                       these triangles, and a smaller one leaves it open. 0 without a path */
   double point[3];  /* the coordinates of node_id; 0 without a path */
   double seconds;   /* wall time of riis_find_passage */
   int32_t state;    /* RIIS_PASSAGE_* */
@@ -96,12 +96,12 @@ typedef struct riis_passage_ends {
 RIIS_API riis_status riis_passage_ends_init(riis_passage_ends *ends, int64_t struct_size); /* the defaults */
 /* Finds the widest passage along the edges of the mesh's adjacency, whether it is open or closed.
  *   mesh     with an adjacency; it need not have been marked
- *   ends     paths include their ends, so the ends must be farther from the surface than the passage is wide
- *   options  only node_mask, n_threads and instructions are used. A node that node_mask leaves out is on no path
+ *   ends     paths include their ends, so an end limits the passage to its own distance from the surface
+ *   options  only node_mask, n_threads and instructions are used. No path passes through a node that node_mask leaves out
  * A new half thickness moves a valve's triangles by up to tolerance * half_thickness: search again after
  * riis_surface_update.
- * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency; RIIS_INVALID_ARGUMENT also if a node of from or to is not
- * in the mesh, is left out by node_mask, or is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
+ * Errors: RIIS_INVALID_ARGUMENT for a mesh without adjacency; also if a node of from or to is not in the mesh, is left
+ * out by node_mask, or is within the half thickness; RIIS_INVALID_MESH as riis_mark_nodes. */
 RIIS_API riis_status riis_find_passage(const riis_surface *surface, const riis_mesh *mesh,
                                        const riis_passage_ends *ends, const riis_mark_options *options,
                                        riis_passage *passage, int64_t struct_size);

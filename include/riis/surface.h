@@ -14,8 +14,8 @@ extern "C" {
 
 /* ---- Surface: triangles in space that answer closest-point queries ------------------------------------- */
 
-/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs it builds the
- * triangles' Embree scene, also if several threads query at once. */
+/* Triangles with a half thickness. A surface borrows nothing from the caller. The first query that needs the
+ * triangles' Embree scene builds it, also if several threads query at once. */
 typedef struct riis_surface riis_surface;
 
 /* The leaflets of the parametric valves, as leaflet_id reports them. */
@@ -30,7 +30,7 @@ enum {
   RIIS_LEAFLET_NEGATIVE = 1,    /* bileaflet: the leaflet at x < 0 */
   RIIS_LEAFLET_HOUSING = 2,     /* bileaflet: the housing's wall, if ring_height is not 0 */
   RIIS_LEAFLET_SKIRT = 3        /* the skirt of a valve of any kind but bileaflet, if skirt_length is not 0. The skirt of
-                                   a valve from patches has this id or the largest leaflet_id + 1, the larger of both */
+                                   a valve from patches has this id, or the largest leaflet_id + 1 if that is larger */
 };
 
 /* How triangles of zero area in the caller's arrays are treated. */
@@ -42,26 +42,26 @@ enum {
 /* How the distance of a point to the surface is measured (paper, 4.1). Sampling and minimisation are for comparison with
  * the paper, and only for surfaces of valves. They measure to points S(u,v) of patches, with the error
  * e = measure_tolerance * half_thickness (docs/theory/paper-distances.md). Their closest point has the leaflet_id of its patch,
- * the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. Calls with these measures refuse arrays
- * for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
+ * the normal of S (0 0 0 if S has none), triangle_id -1, barycentric 0 and side 0. With these measures, calls refuse
+ * arrays for barycentric and side, and RIIS_SEARCH_CLUSTERS, as RIIS_INVALID_ARGUMENT. */
 enum {
-  RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, exactly */
+  RIIS_MEASURE_TRIANGLES = 0,   /* the closest point of all triangles, without approximation */
   RIIS_MEASURE_SAMPLING = 1,    /* the nearest of points spaced evenly on the patches, at most 16,777,216 of them.
-                                    The distance is too large by at most e, too small by at most e / 10 */
-  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) on every patch. The distance is too small by at most e / 10.
-                                    In a local minimum it is too large by any amount, and nothing shows this */
+                                    The distance is at most e too large, and at most e / 10 too small */
+  RIIS_MEASURE_MINIMIZATION = 2 /* Powell's method (1964) runs on every patch. The distance is at most e / 10 too small. In a
+                                    local minimum it is too large by any amount, without a sign of it */
 };
 
 /* How the smooth valve is cut into triangles. */
 enum {
   RIIS_TRIANGULATION_ADAPTED = 0, /* as few triangles as each state needs; they change as the valve opens */
   RIIS_TRIANGULATION_FIXED = 1    /* the same ids, vertices and neighbours at every opening. The first call with this option
-                                     chooses them. After it only opening and placement may change:
-                                     RIIS_INVALID_PARAMETER names any other parameter that changed.
-                                     RIIS_LIMIT_EXCEEDED refuses an opening at which the tolerance does not hold.
-                                     A triangle without area is left out, and its id is not reused. An update
-                                     with RIIS_TRIANGULATION_ADAPTED forgets the choice. Vertices of mitral or
-                                     warped valves slide along the surface, and velocities leave this slide out */
+                                     chooses the ids, vertices and neighbours. Afterwards only opening and placement may
+                                     change: RIIS_INVALID_PARAMETER names any other parameter that changed.
+                                     RIIS_LIMIT_EXCEEDED refuses an opening at which the tolerance does not hold. A triangle
+                                     without area is left out, and its id is not reused. An update with
+                                     RIIS_TRIANGULATION_ADAPTED forgets this choice. Vertices of mitral or warped
+                                     valves slide along the surface. Velocities leave this slide out */
 };
 
 /* Options of a surface. The placement, also of arrays, is x -> scale * rotation * x + translation. */
@@ -93,9 +93,9 @@ RIIS_API riis_status riis_surface_options_init(riis_surface_options *options, in
  * Normals point downstream: from the ventricular to the sinus face of the cusps, from the atrial to the ventricular face of
  * the mitral valve, and to +z on closed bileaflet leaflets. On the bileaflet ring they point outwards. Triangles of zero area
  * are skipped. They lie at the root of each cusp, at the mitral commissures and at the ends of bileaflet middle edges.
- * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve too far away;
- * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than
- * the rounding of coordinates. */
+ * Errors: RIIS_INVALID_PARAMETER for parameters that do not fit together or that put a curve out of range;
+ * RIIS_LIMIT_EXCEEDED if a tolerance needs more than 16,777,216 triangles, quads or samples, or is smaller than the rounding
+ * of coordinates. */
 RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_surface_options *options,
                                          riis_surface **surface);
 
@@ -103,7 +103,7 @@ RIIS_API riis_status riis_surface_create(const riis_valve *valve, const riis_sur
 typedef struct riis_surface_arrays {
   int64_t struct_size;       /* set by the init function */
   int64_t n_vertices;        /* 1 to 2^31 - 1 */
-  const void *x, *y, *z;     /* (n_vertices) by stride: the vertices, before placement */
+  const void *x, *y, *z;     /* (n_vertices) by stride: the vertices before placement */
   int64_t stride;            /* of x, y and z. Default 1 */
   const void *vx, *vy, *vz;  /* (n_vertices) by velocity_stride: velocities of the vertices, in lengths per
                                 unit of time. The placement turns and scales them. All NULL: none */
@@ -133,7 +133,7 @@ RIIS_API riis_status riis_surface_create_from_arrays(const riis_surface_arrays *
 RIIS_API riis_status riis_surface_update(riis_surface *surface, const riis_valve *valve,
                                          const riis_surface_options *options);
 /* Replaces the surface's content from arrays.
- *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move: the surface keeps its last faces
+ *   arrays   with n_faces 0, and vertex_ids and leaflet_id NULL, only the vertices move, and the faces stay
  *   options  as in riis_surface_update
  * Errors: as riis_surface_create_from_arrays. With n_faces 0, also RIIS_INVALID_ARGUMENT if n_vertices differs from the
  * last arrays, or if the surface was not made from arrays. */
@@ -152,9 +152,9 @@ typedef struct riis_surface_info {
   double lower[3], upper[3]; /* bounds of the triangles, mesh units */
   double seconds_triangles;  /* wall time of the last create or update: for checks and triangles */
   double seconds_scene;      /* wall time of the last create or update: for groups of triangles, sampling,
-                                minimisation. Embree's tree is built by the first query that needs it */
-  double error_bound;        /* the most by which a point's distances to the triangles and to the smooth valve
-                                can differ; at most tolerance * half_thickness. 0 for a surface from arrays */
+                                minimisation. Embree's tree is not included: the first query that needs it builds it */
+  double error_bound;        /* the largest possible difference between a point's distances to the triangles and to the smooth
+                                valve; at most tolerance * half_thickness. 0 for a surface from arrays */
   int64_t largest_leaflet_id; /* of the triangles */
 } riis_surface_info;
 /* Gives the size of the surface, and the seconds that it took. */
@@ -167,7 +167,7 @@ typedef struct riis_triangles {
   const double *xyz;          /* (3, n_vertices): the vertices */
   const double *uv;           /* (2, n_vertices): each vertex's u and v on its patch, in [0,1]; NULL from arrays */
   const double *velocity;     /* (3, n_vertices): each vertex's velocity; NULL if the last update gave none.
-                                 Where closed cusps meet, a vertex has the velocity of its own cusp */
+                                 Where closed cusps meet, each vertex has the velocity of its own cusp */
   int64_t n_triangles;        /* triangles that answer queries */
   const int64_t *vertex_id;   /* (3, n_triangles): their vertices */
   const int64_t *triangle_id; /* (n_triangles), ascending: the id that queries report; 0, 1, 2, ... for a valve */
@@ -178,15 +178,15 @@ typedef struct riis_triangles {
                                  3 mirrored middle, 4 mirrored side, 5 mirrored triangle. Mitral, posterior: 6 side
                                  scallop, 7 half of the middle scallop, 8 mirrored half, 9 mirrored side scallop.
                                  Bileaflet: 2 * leaflet, plus 0 or 1 for the half; 4 to 7 the ring's quarters.
-                                 Skirt: the id of the leaflet's patch that it continues, plus the number of these
-                                 ids: 10 mitral, 12 valves with three cusps */
+                                 Skirt: the id of the patch that it continues, plus the number of patch ids
+                                 without the skirt: 10 for mitral, 12 for three cusps */
 } riis_triangles;
 /* Gives the triangles of the surface, until its next update or its destruction. */
 RIIS_API riis_status riis_surface_get_triangles(const riis_surface *surface, riis_triangles *triangles,
                                                 int64_t struct_size);
 
-/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. They are in the
- * order of the patches, and within a side in the order of u or v. */
+/* The attachment of a valve, after placement: the edges at which tissue or a stent holds its leaflets. They follow the
+ * order of the patches, and along a side the order of u or v. */
 typedef struct riis_attachment {
   int64_t n_edges;           /* the number of edges; edges of length 0 are left out */
   const double *edges;       /* (3, 2, n_edges): both ends of each edge, in the layout of riis_reaction.edges */
@@ -197,10 +197,10 @@ typedef struct riis_attachment {
 /* Gives the attachment of a valve's surface, until the surface's next update or its destruction.
  * - A cusp is attached at the sinus, u = 1, from the root to the commissures.
  * - A mitral leaflet is attached at the annulus, v = 0.
- * - Patches are attached at the sides v = 0 that only one patch has.
+ * - A valve from patches is attached at the sides v = 0 of only one patch.
  * - A bileaflet valve has no attachment, because pivots hold its leaflets.
- * A skirt (the parameter "skirt_length") continues the leaflets there, and changes nothing.
- * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because nothing tells which of its edges are attached. */
+ * A skirt (the parameter "skirt_length") continues the leaflets at the attachment, and changes nothing of it.
+ * Errors: RIIS_INVALID_ARGUMENT for a surface from arrays, because its attached edges are not known. */
 RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, riis_attachment *attachment,
                                                  int64_t struct_size);
 
@@ -211,7 +211,7 @@ RIIS_API riis_status riis_surface_get_attachment(const riis_surface *surface, ri
  *   valve_before    the earlier state, of the same kind. A valve from patches has the same curves and sides
  *   dt              the time from valve_before to valve, 1e-30 to 1e30, or -1e30 to -1e-30 if time runs back
  *   options_before  scale, rotation and translation of the earlier state; other fields are ignored. NULL: as now
- * A vertex is compared with the point of the earlier state that has the same patch, u and v. Its velocity is the
+ * Each vertex is compared with the point of the earlier state at the same patch, u and v. Its velocity is the
  * displacement from that point, divided by dt (docs/theory/velocity.md). A warp does not change u and v, so vertices on
  * the wall have the wall's velocity (docs/theory/warp.md). The velocity is a mean over the step. It approximates the
  * velocity in the middle of the step to second order, and the velocity at either end to first order.
@@ -222,10 +222,10 @@ RIIS_API riis_status riis_surface_update_moving(riis_surface *surface, const rii
                                                 const riis_surface_options *options,
                                                 const riis_surface_options *options_before);
 
-/* Interpolation between keys in time. A time counts as a key if it equals the key plus whole periods, up to 8 * 2^-52
- * of the largest of time, key and period. */
+/* Interpolation between keys in time. A time counts as a key if it differs from the key plus whole periods by at most
+ * 8 * 2^-52 of the largest of time, key and period. */
 enum {
-  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; a key itself has the rate after the jump */
+  RIIS_INTERPOLATION_LINEAR = 0, /* the rate jumps at keys; at a key it has the value after the jump */
   RIIS_INTERPOLATION_CUBIC = 1   /* monotone between keys, with a continuous rate (Fritsch, Butland 1984) */
 };
 /* A surface that moves by frames, such as a patient's valve: the vertices move, the faces stay the same. */
@@ -237,9 +237,9 @@ typedef struct riis_keyframe_arrays {
   int64_t n_vertices;    /* of each frame, as in riis_surface_arrays */
   const double *time;    /* (n_keys), strictly ascending, magnitude at most 1e30 */
   const void *xyz;       /* (3, n_vertices, n_keys): the vertices, frame after frame; magnitude at most 1e60 */
-  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. A last key one
-                            period after the first must have the same frame. 0, the default: the surface rests
-                            before the first key and after the last */
+  double period;         /* > 0: the motion repeats. All keys lie within a period of the first key. If the last
+                            key is one period after the first, it must have the same frame. 0, the default: the
+                            surface rests before the first key and after the last */
   int32_t interpolation; /* RIIS_INTERPOLATION_*, of each coordinate. Default RIIS_INTERPOLATION_LINEAR */
   int32_t real_bits;     /* of xyz */
 } riis_keyframe_arrays;
@@ -254,13 +254,13 @@ RIIS_API riis_status riis_keyframes_create(const riis_surface_arrays *arrays,
 RIIS_API void riis_keyframes_destroy(riis_keyframes **keyframes);
 /* Makes a surface from the frames around a time, with velocities.
  *   time  finite, magnitude at most 1e30
- *   dt    the velocity is the mean from time - dt to time; if 0, the derivative of the interpolation
+ *   dt    the velocity is the mean from time - dt to time; for 0 it is the derivative of the interpolation
  * Errors: as riis_surface_create_from_arrays. */
 RIIS_API riis_status riis_surface_create_from_keyframes(const riis_keyframes *keyframes, double time, double dt,
                                                         const riis_surface_options *options,
                                                         riis_surface **surface);
-/* Replaces the surface's content by the frames around a time. Arguments and errors as
- * riis_surface_create_from_keyframes, options as in riis_surface_update. */
+/* Replaces the surface's content by the frames around a time. Arguments and errors
+ * are as in riis_surface_create_from_keyframes, options as in riis_surface_update. */
 RIIS_API riis_status riis_surface_update_from_keyframes(riis_surface *surface, const riis_keyframes *keyframes,
                                                         double time, double dt,
                                                         const riis_surface_options *options);

@@ -27,7 +27,7 @@ typedef struct riis_valve riis_valve;
 RIIS_API riis_status riis_valve_create(const char *kind, riis_valve **valve);
 /* Makes a second valve with the same parameters, patches and states. Destroy both. */
 RIIS_API riis_status riis_valve_copy(const riis_valve *valve, riis_valve **copy);
-/* Destroys the valve. Surfaces from this valve, and valves with it as their open state, do not change. */
+/* Destroys the valve. Surfaces made from this valve do not change, nor do valves with it as their open state. */
 RIIS_API void riis_valve_destroy(riis_valve **valve);
 
 /* Sets a parameter by its name in the paper. riis_surface_create checks whether all values fit together.
@@ -36,57 +36,57 @@ RIIS_API void riis_valve_destroy(riis_valve **valve);
  *   n_values  3 for rotation, translation (x, y, z), t0_* and t3_* (right, left, non-coronary cusp); 1 for others
  *   values    (n_values), within the parameter's range
  * Two parameters change the whole valve:
- * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters makes both states. The
- *   default is 1 (open) for the mitral valve, and 0 for others. The aortic valve at 0 has the paper's state, which
- *   leaves a hole. A valve from patches has opening 0 only, until riis_valve_set_open_state. To move a valve, set
- *   "opening" and call riis_surface_update.
- * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip outwards from the attachment, and
- *   closes the gap to the wall (docs/theory/skirt.md). The length is 0, the default, or 1e-4 to 10 times the
- *   attachment's mean distance from its axis. The value of an open state is ignored.
+ * - "opening", 0 to 1, moves the valve from a closed to an open state. One set of parameters describes both states.
+ *   The default is 1 (open) for the mitral valve, and 0 for others. The aortic valve at opening 0 is the paper's
+ *   closed state, which leaves a hole. A valve from patches has only opening 0 until riis_valve_set_open_state. To
+ *   move a valve, set "opening" and call riis_surface_update.
+ * - "skirt_length" gives any valve except "bileaflet" a skirt. The skirt is a strip from the attachment outwards, and
+ *   closes the gap to the wall (docs/theory/skirt.md). The length is 0 (the default), or 1e-4 to 10 times
+ *   the mean distance of the attachment from its axis. The value of an open state is ignored.
  * Errors: RIIS_INVALID_PARAMETER naming the parameter and the value. */
 RIIS_API riis_status riis_valve_set(riis_valve *valve, const char *name, int64_t n_values,
                                     const double *values);
 /* Sets a parameter that has one value. Arguments and errors as riis_valve_set. */
 RIIS_API riis_status riis_valve_set_scalar(riis_valve *valve, const char *name, double value);
 /* Copies a parameter's values to the caller's array. Arguments as riis_valve_set.
- * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
+ * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_get(const riis_valve *valve, const char *name, int64_t n_values,
                                     double *values);
 
-/* Sizes by a surgeon's names, and sizes that follow from others (docs/theory/sizes.md). Three names stand for
- * parameters. A kind without such a size refuses its name, and says why:
+/* Sizes by a surgeon's names, and sizes that follow from other sizes (docs/theory/sizes.md). Three names
+ * stand for parameters. If a kind lacks such a size, it refuses the name and says why:
  *   annulus           diameter: 2 root_radius (aortic, coapting, trileaflet), 2 radius (bileaflet)
  *   stj               diameter at the commissures: 2 leaflet_radius_out (aortic, trileaflet) or 2 commissure_radius
  *                     (coapting)
- *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). It is a
- *                     parameter of the coapting valve, for the middle of the edges
- * Some parameters have a rule: they follow from other parameters until they are set. The order of calls does not matter.
- * riis_valve_get gives their present values. Copies and open states keep the difference between set and not set. */
+ *   effective_height  height of the free edges above the annulus: leaflet_height (aortic, trileaflet). The
+ *                     coapting valve has it as a parameter, for the middle of the edges
+ * Some parameters have a rule: until they are set, they follow from other parameters. The order of calls does not matter.
+ * riis_valve_get gives their present values. Copies and open states keep which parameters were set. */
 
-/* Gives a parameter the value that it has before it is set: its rule's value, or its default.
+/* Gives a parameter the value of a parameter that is not set: its rule's value, or its default.
  *   name  as in riis_valve_set
  * Errors: RIIS_INVALID_PARAMETER for another name. */
 RIIS_API riis_status riis_valve_unset(riis_valve *valve, const char *name);
 /* Says whether a parameter was set.
  *   name    as in riis_valve_get
  *   is_set  1, or 0 if the parameter has its default or follows its rule
- * Errors: RIIS_INVALID_PARAMETER, also for a name that stands for all cusps. */
+ * Errors: RIIS_INVALID_PARAMETER, also for a name that means all cusps. */
 RIIS_API riis_status riis_valve_is_set(const riis_valve *valve, const char *name, int32_t *is_set);
 
-/* Gives the valve a second state: opening 0 is then the valve's own state, and opening 1 is the state of the valve `open`.
- *   open  a valve of the same kind, which is copied. Its opening, leaflet ids and open state are ignored. From patches, it
- *         has the same curves, sides and degrees (1 may stand for 2). Either both bileaflet valves have a ring or neither
- * A second call replaces the state. No call removes it. Between the states control points are blended linearly
+/* Gives the valve a second state. At opening 0 it then has its own state, and at opening 1 the state of the valve `open`.
+ *   open  a valve of the same kind, which is copied. Its opening, leaflet ids and open state are ignored. A valve from patches
+ *         has the same curves, sides and degrees (1 may stand for 2). Both bileaflet valves have a ring, or neither has one
+ * A second call replaces the state. No call removes it. Control points are blended linearly between the states
  * (docs/theory/openings.md). A bileaflet valve blends lengths and angles instead. The middle of a coapting cusp's free edge
- * hangs as deep as the edge's length requires. A mitral, trileaflet or coapting valve takes its closed shape from its
- * own parameters, and its open shape from the parameters of `open`.
+ * hangs as deep as the edge's length requires. Mitral, trileaflet and coapting valves take the closed shape from their
+ * own parameters, and the open shape from the parameters of `open`.
  * Errors: RIIS_INVALID_PARAMETER for another kind, or other curves, degrees or sides. */
 RIIS_API riis_status riis_valve_set_open_state(riis_valve *valve, const riis_valve *open);
 
-/* The caller's own valve, such as a prosthesis: Coons patches, each given by four boundary curves (paper, 3.3).
+/* The caller's own valve, such as a prosthesis: Coons patches with four boundary curves each (paper, 3.3).
  * - The sides v = 0 and v = 1 run from the side u = 0 to the side u = 1.
  * - The sides u = 0 and u = 1 run from the side v = 0 to the side v = 1.
- * - Sides must meet at corners to 1e-9 of the valve's size. A side may be a single point.
+ * - Sides must meet at corners to 1e-9 of the valve's size. A side may consist of a single point.
  * - Normals point along S_u x S_v.
  * - Patches that name the same curve meet without cracks. */
 typedef struct riis_patches {
@@ -104,7 +104,7 @@ typedef struct riis_patches {
 RIIS_API riis_status riis_patches_init(riis_patches *patches, int64_t struct_size); /* the defaults */
 
 /* Makes a valve from patches, which it copies. Its parameters are "opening" and "skirt_length". A skirt continues the
- * sides v = 0 that only one patch has. patch_id is the patch's number, from 0.
+ * sides v = 0 of only one patch. patch_id is the patch's number, from 0.
  * Errors: RIIS_INVALID_PARAMETER naming the curve or patch and its value, such as sides that do not meet. */
 RIIS_API riis_status riis_valve_create_from_patches(const riis_patches *patches, riis_valve **valve);
 
@@ -117,10 +117,10 @@ typedef struct riis_parameter {
   double default_values[3];/* entries beyond n_values are 0 */
   double minimum;          /* of every value, inclusive */
   double maximum;          /* of every value, inclusive */
-  const char *rule;        /* value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
+  const char *rule;        /* the value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default */
   const char *other_name;  /* second name that riis_valve_set takes, such as "annulus"; "": none */
-  double other_factor;     /* the value under other_name divided by the parameter's value: 1 or 2; 0 without
-                              other_name */
+  double other_factor;     /* the factor from the parameter's value to the value under other_name: 1 or 2; 0
+                              without other_name */
 } riis_parameter;
 /* Gives the number of the valve's parameters. */
 RIIS_API riis_status riis_valve_get_n_parameters(const riis_valve *valve, int64_t *n_parameters);
@@ -148,9 +148,9 @@ typedef struct riis_valve_patches {
                                  v = 1. W is the width and T is the unit tangent of the side v = 0. The middle control
                                  point lies bulge |W| unit(W x T) beside the middle of the straight line */
 } riis_valve_patches;
-/* Gives the curves and patches of a valve at its opening. The arrays are valid until the valve's next call that is not
- * const. Points of a side are labelled by their share of its length. All normals S_u x S_v point as in riis_surface_create.
- * A mitral patch has a bulge, so a Coons patch of its sides differs from it.
+/* Gives the curves and patches of a valve at its opening. The arrays are valid until the next call that may change the
+ * valve. Points of a side are labelled by their share of its length. All normals S_u x S_v have the directions that
+ * riis_surface_create describes. A mitral patch has a bulge, so a Coons patch of its sides differs from it.
  * Errors: RIIS_INVALID_PARAMETER as riis_surface_create. */
 RIIS_API riis_status riis_valve_get_patches(riis_valve *valve, riis_valve_patches *patches, int64_t struct_size);
 

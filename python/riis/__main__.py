@@ -24,7 +24,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _say_missing(error: ImportError) -> int:
-    """Says which package is missing, or why a package that is there cannot be loaded."""
+    """Says which package is missing, or why an installed package cannot be loaded."""
     is_missing = isinstance(error, ModuleNotFoundError) and error.name
     text = f"{error.name} is missing: pip install 'riis[view]'" if is_missing else str(error)
     print(f"riis view: {text}", file=sys.stderr)

@@ -65,15 +65,15 @@ class OutOfMemoryError(Error, MemoryError):
 
 
 class UnavailableError(Error, RuntimeError):
-    """The processor lacks the instructions, or the process must not make this call: in a child of ``fork``, or for another
-    thread's object."""
+    """The processor lacks the instructions, or the process must not make this call, for example a child of ``fork``, or a
+    call with another thread's object."""
 
     status = 9
     status_name = "RIIS_UNAVAILABLE"
 
 
 class InternalError(Error, RuntimeError):
-    """An error in riis or in a library below it. An object that was being written can only be closed."""
+    """An error in riis or in a library below it. If an object was being written, it can then only be closed."""
 
     status = -1
     status_name = "RIIS_INTERNAL_ERROR"
@@ -113,7 +113,8 @@ _NAMES = {
     "riis_valve_get_parameter": "Valve.parameters",
     "riis_valve_set_open_state": "Valve.set_open_state",
 }
-# Fields of C structs whose argument has another name in Python. Other fields have the same name as their argument.
+# Fields of C structs that correspond to an argument with another name in Python. Other fields have the same name as their
+# argument.
 _ARGUMENTS = {
     "arrays.vertex_ids": "faces",
     "csr.n_rows": "the number of rows",

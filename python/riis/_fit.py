@@ -29,7 +29,7 @@ _MOVES = ("rotation", "translation", "scale")
 _N_ROUGH = 400
 # If n_starts is not given, a fit has at least and at most these numbers of starts.
 _LEAST_STARTS, _LEAST_STARTS_OF_PART, _MOST_STARTS = 4, 8, 20
-# A fit with one of these doubts may be a wrong end, so more starts follow.
+# A fit with one of these doubts may have ended in the wrong place, so more starts follow.
 _OF_ENDS = ("starts:", "outliers:", "noise:", "misfit:", "cover:")
 # A fit whose measures exceed these limits gets a doubt in its result.
 _MOST_OUTLIERS = 0.3
@@ -39,7 +39,7 @@ _MOST_SCATTER = 0.05  # as a share of the valve's size, if no noise is stated
 
 
 class Rival(NamedTuple):
-    """Another fit with a similar cost, but with another surface than the best fit."""
+    """Another fit with a similar cost, but with a surface that differs from the best fit's."""
 
     parameters: dict[str, float]
     placement: dict[str, Any]
@@ -58,7 +58,7 @@ class FitResult:
     undetermined: tuple[str, ...]  #: free parameters and parts of the placement that the data do not determine
     without_influence: tuple[str, ...]  #: undetermined parameters whose whole range moves the surface by less than the noise
     at_bounds: tuple[str, ...]  #: free parameters that ended at a bound
-    doubts: tuple[str, ...]  #: reasons to distrust the whole result, each a sentence; empty if there is none
+    doubts: tuple[str, ...]  #: reasons to distrust the whole result, each as a sentence; empty if there is none
     n_starts: int  #: number of starts
     n_agreeing: int  #: number of starts that reached this fit, directly or after a turn by a cusp or half a turn
     rivals: tuple[Rival, ...]  #: other fits of similar cost, the best first
@@ -122,7 +122,7 @@ class FitResult:
 
 
 def _is_its_parameters(valve: Valve) -> bool:
-    """Returns whether the parameters alone define the valve: it has no patches, and the caller gave no open state."""
+    """Returns whether the parameters alone define the valve, without patches and without an open state from the caller."""
     if valve.kind == "patches":
         return False
     alone = Valve(valve.kind)
@@ -260,7 +260,7 @@ def _length(number: Any, name: str) -> float:
 
 
 def _with_unit(unit: Any, start: Mapping[str, Any], moves: list[str], kind: str) -> dict[str, Any]:
-    """Returns the start values of a fit, with the scale that the unit gives."""
+    """Returns the start values of a fit, with the scale for the unit."""
     if unit is None:
         return dict(start)
     if not isinstance(unit, str):
@@ -312,21 +312,21 @@ def fit(
     placement  which of rotation, translation and scale to fit
     start      a dict of the start values of scale, rotation_axis, rotation_angle and translation. Without a
                translation, the middle of the valve starts at the middle of the points. Without a scale, a free scale
-               starts from their extents. Or an object with such a dict as its placement and with a valve, for instance
-               another result. The first start then has the values of that valve
-    bounds     a dict from names in free to (low, high). The others have the bounds of valve.parameters, and lengths
-               half to twice the start value
+               starts from their extents. Instead of the dict, an object with such a dict as its placement and with a
+               valve, such as another result. The first start then has the values of that valve
+    bounds     a dict from names in free to (low, high). Other parameters have the bounds of valve.parameters, and
+               lengths have half to twice the start value
     weights    (n,) float64 >= 0, of the squares of distances. If None: the area around each vertex of a
                surface, or 1 for other points
-    whole      True: the points cover the whole valve, about evenly, so a surface that reaches beyond them is penalized.
-               False: they cover a part of it, and nothing pulls back an edge that reaches beyond them
-    n_starts   the largest number of starts; None: 20. The first start has the given values. Others, chosen by seed, have
-               random values within the bounds and, if start has no rotation, any rotation. The starts end when two of them have
-               reached the best fit, after at least four starts, or eight for a part of a valve. If this fit has doubts that a
-               wrong end explains, the other starts follow
+    True: the points cover the whole valve about evenly, so a surface that extends beyond them is penalized. False: the
+               points cover a part of it, and nothing pulls back an edge that extends beyond them
+    n_starts   the largest number of starts; None: 20. The first start has the given values. The others, by seed, have
+               random values within the bounds, and a random rotation if start has none. The starts end when two of them have
+               reached the best fit. There are at least four starts, or eight for a part of a valve. If this fit has doubts that
+               a wrong result would explain, the other starts follow
     seed       the seed of the random starts
-    noise      the standard deviation of the points from the surface, in the points' unit. Larger residuals are doubted, and
-               smaller ones do not reduce the standard errors
+    noise      the standard deviation of the points from the surface, in the points' unit. If the residuals are larger, the
+               result is doubted. If they are smaller, the standard errors stay
     thickness  the distance of both faces of a leaflet, if the points lie on both. Residuals are distances from the faces.
                None: the points lie on the surface
     unit       the points' unit. The valve's lengths are then in cm, and the placement has the scale 100 cm / m and so on.
@@ -397,7 +397,7 @@ def fit(
     n_least = min(_LEAST_STARTS if whole else _LEAST_STARTS_OF_PART, n_most)
     ends, n_done = search(rough, pose, x, middle, any_rotation, n_least, n_most, random)
     found = _finish(problem, ends, n_done, stated, len(used), random)
-    if n_done < n_most and any(doubt.startswith(_OF_ENDS) for doubt in found.doubts):  # the starts may agree in a wrong end
+    if n_done < n_most and any(doubt.startswith(_OF_ENDS) for doubt in found.doubts):  # the starts may agree on a wrong fit
         ends, n_done = search(rough, pose, x, middle, any_rotation, n_most, n_most, random)
         found = _finish(problem, ends, n_done, stated, len(used), random)
     return found
@@ -420,7 +420,7 @@ def _placement_of(pose: Pose) -> dict[str, Any]:
 
 def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_used: int,
             random: numpy.random.Generator) -> FitResult:
-    """Minimizes finely from the best ends, and judges the best of them."""
+    """Minimizes finely from the best fits, and judges the best result."""
     best, others = ends[0], ends[1:]
     problem.begin(best.pose)
     x, mixture = problem.refine(best.x, 8, 1e-4)
@@ -430,7 +430,7 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         base, cost, fine = problem.base, problem.cost(x, loss), problem.at(x)
         assert fine is not None
         here = End(cost, base, x, probes_of(problem, x, random), fine.log_area, 0, 0)
-        # The other ends are minimized once more, with the noise of the best end.
+        # The other fits are minimized once more, with the noise of the best fit.
         found: list[tuple[float, Reals, Pose]] = []
         better = None
         for end in others:
@@ -458,7 +458,7 @@ def _finish(problem: Problem, ends: list[End], n_done: int, stated: float, n_use
         x, mixture = problem.refine(judged.better, 8, 1e-4)
         there, is_near = problem.at(x), bool((numpy.abs(x - before) <= 3.0 * judged.errors).all())
         if not is_near and there is not None and not is_same(problem, x, there.log_area, here):
-            best = replace(best, n_starts=0)  # the profile found this end, and no start has reached it
+            best = replace(best, n_starts=0)  # the profile found this fit, and no start has reached it
     return _result(problem, x, mixture, judged, found, best, n_done, stated, random)
 
 
@@ -475,8 +475,8 @@ def _result(problem: Problem, x: Reals, mixture: Mixture, judged: Judged, found:
         there = problem.values(z)
         if excess < RIVAL:
             rivals.append(Rival(dict(zip(names, there.tolist())), _placement_of(problem.pose(z)), excess))
-            # Widens standard errors towards a rival: one standard error reaches a rival of the same cost, and three reach a rival
-            # whose cost is at the limit.
+            # Widens standard errors towards a rival. If the rival has the same cost, one standard error reaches it. If its cost
+            # is at the limit, three reach it.
             errors[:n_names] = numpy.maximum(errors[:n_names], numpy.abs(there - values) / span / max(1.0, excess**0.5))
     problem.begin(base)
     seen = problem.at(x)

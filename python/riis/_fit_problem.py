@@ -18,8 +18,8 @@ Reals = NDArray[numpy.float64]
 
 # Triangles lie within this distance of the smooth valve, as a fraction of the valve's size.
 FINE, ROUGH = 5e-4, 2e-3
-# A direction of the surface is the difference between two states. Their distance is this fraction of a parameter's bounds, or of
-# the value of a size that is not free.
+# A direction of the surface is the difference between two states. The difference between the states is this fraction of a
+# parameter's bounds, or of the value of a fixed size.
 _STEP = 1e-5
 # Above this number of points, several threads are used. For fewer points a surface takes a few milliseconds, and threads would
 # cost more than they gain.
@@ -28,7 +28,7 @@ _N_UNKNOWNS = {"rotation": 3, "translation": 3, "scale": 1}
 
 
 def matrix_of(vector: Reals) -> Reals:
-    """Returns the rotation for a vector, whose direction is the axis and whose length is the angle in radians (Rodrigues)."""
+    """Returns the rotation for a vector. Its direction is the axis, and its length is the angle in radians (Rodrigues)."""
     angle = float(numpy.linalg.norm(vector))
     if angle == 0.0:
         return numpy.eye(3)
@@ -88,7 +88,7 @@ class Pose:
 class Seen(NamedTuple):
     """The points' positions relative to a valve."""
 
-    residual: Reals  # (n,), distances; if there is a thickness, distances minus half of it
+    residual: Reals  # (n,), distances; with a thickness, distances minus half of it
     direction: Reals  # (n, 3), unit vectors along which the residual grows
     distance: Reals  # (n,), at least 0
     local: Reals  # (n, 3), the closest points in the valve's frame
@@ -98,8 +98,8 @@ class Seen(NamedTuple):
 
 
 class Loss(NamedTuple):
-    """The negative logarithm of the density of a residual. It is concave in the residual's square, so weighted least squares
-    never raise it."""
+    """The negative logarithm of the density of a residual. It is concave in the square of the residual, so weighted least
+    squares never raise it."""
 
     value: Callable[[Reals], Reals]
     weight: Callable[[Reals], Reals]  # the derivative by half of the residual's square
@@ -107,7 +107,7 @@ class Loss(NamedTuple):
 
 
 def wide_loss(width: float) -> Loss:
-    """Returns Cauchy's loss, whose tails let a search begin far from the points."""
+    """Returns Cauchy's loss. With it, a search may begin far from the points."""
     return Loss(
         lambda r: numpy.asarray(numpy.log1p((r / width) ** 2)), lambda r: 2.0 / width**2 / (1.0 + (r / width) ** 2), 0.0)
 
@@ -121,7 +121,7 @@ class Mixture:
     reach: float  # the largest residual of an outlier
 
     def inlier(self, r: Reals) -> Reals:
-        """Returns the probability that a point is no outlier."""
+        """Returns the probability that a point is not an outlier."""
         normal = (1.0 - self.outliers) * numpy.exp(-0.5 * (r / self.noise) ** 2) / (numpy.sqrt(2.0 * numpy.pi) * self.noise)
         return numpy.asarray(normal / (normal + 0.5 * self.outliers / self.reach))
 
@@ -132,17 +132,17 @@ class Mixture:
 
     def loss(self, whole: bool) -> Loss:
         # If points lie evenly over the whole valve, each has the probability density 1 / area. So the logarithm of their
-        # likelihood contains the term -n log(area). The rest of the likelihood is biased near an edge: noise moves points beyond
+        # likelihood contains the term -n log(area). The rest of the likelihood is biased near an edge. Noise moves points beyond
         # the edge, and these pull it outwards by n noise^2 / (4 area) per length. A quarter of the area's term pulls the edge
-        # inwards by the same amount, so edges stay where they are.
+        # inwards by the same amount, so edges stay in place.
         return Loss(self.value, lambda r: self.inlier(r) / self.noise**2, 0.25 * (1.0 - self.outliers) if whole else 0.0)
 
 
 class Problem:
-    """The unknowns x are the parameters as fractions of their bounds, then a rotation vector, a translation in units of the
+    """The unknowns x are the parameters as fractions of their bounds, a rotation vector, a translation in units of the
     valve's size, and the scale's logarithm.
 
-    The last three start at 0 and are relative to the pose with which a search begins.
+    The last three start at 0, relative to the pose with which a search begins.
     """
 
     def __init__(self, points: Reals, weights: Reals, valve: Valve, names: list[str], bounds: Reals, moves: list[str],
@@ -185,7 +185,7 @@ class Problem:
 
     def at_random(self, random: numpy.random.Generator) -> Reals:
         """Returns random parameters as fractions of their bounds. Lengths are evenly distributed by their logarithms, because
-        bounds of half and twice a value are equally far from it."""
+        the bounds are half and twice a value."""
         shares = random.uniform(0.05, 0.95, len(self.names))
         for i, (name, (low, high)) in enumerate(zip(self.names, self.bounds.tolist())):
             if self.valve.parameters[name].unit == "length" and low > 0.0:
@@ -250,7 +250,7 @@ class Problem:
                     found.barycentric)
 
     def at(self, x: Reals) -> Seen | None:
-        """Returns the points' positions relative to the valve at x, computed only once."""
+        """Returns the points' positions relative to the valve at x, which are computed only once."""
         key = x.tobytes()
         if self.last is None or self.last[0] != key:
             self.last = key, self.look(x)
@@ -260,9 +260,9 @@ class Problem:
         """Returns the derivatives of the residuals and of log(area) by parameters. An entry is None if the valve's values near x
         do not fit together.
 
-        A closest point moves with its place on the triangle, because sliding along the surface does not change the distance.
+        A closest point moves with its place on the triangle, because a shift along the surface does not change the distance.
 
-        steps  for each derivative the parameter, a small change of it, and that change in the unit of the derivative
+        steps  for each derivative the parameter, a small change of it, and this change in the unit of the derivative
         """
         seen, pose, surface = self.at(x), self.pose(x), self.set_valve(x)
         assert seen is not None and surface is not None
@@ -314,8 +314,8 @@ class Problem:
         return result, area
 
     def fixed_jacobian(self, x: Reals) -> tuple[Reals, Reals]:
-        """Returns the derivatives of the residuals and of log(area) by the sizes that are not free, for a change by the whole
-        value of a length or ratio, and by a radian of an angle."""
+        """Returns the derivatives of the residuals and of log(area) by the fixed sizes. A derivative is for a change by the
+        whole value of a length or ratio, or by a radian of an angle."""
         self.set_valve(x)
         steps = []
         for name, parameter in self.valve.parameters.items():
@@ -341,8 +341,8 @@ class Problem:
         jacobian, area = self.jacobian(x)
         weighted = (self.weights * loss.weight(seen.residual))[:, None] * jacobian
         n_area = loss.area * float(self.weights.sum())
-        # The Gauss-Newton matrix of the area's term. It is the matrix of a quarter of that term, because this fits the
-        # uncertainty of edges.
+        # The Gauss-Newton matrix of the area's term. It is the matrix of a quarter of that term, because this gives
+        # the right uncertainty of edges.
         return weighted.T @ seen.residual + n_area * area, jacobian.T @ weighted + 0.125 * n_area * numpy.outer(area, area)
 
     def solve(self, x: Reals, loss: Loss, n_steps: int, change: float, held: int | None = None) -> Reals:
@@ -404,11 +404,11 @@ class Problem:
 
     def best_pose(self, x: Reals, rotations: Reals, middle: Reals | None,
                   random: numpy.random.Generator | None) -> tuple[float, Pose] | None:
-        """Turns the base by each rotation, and returns the pose with which the points are closest, and their mean loss there.
+        """Turns the base by each rotation, and returns the mean loss and the pose that is closest to the points.
         Returns None if the values do not fit together.
 
         middle  a position for the middle of the surface; None keeps the translation
-        random  if given and the points are not those of the whole valve, the middle is a position for random points of the
+        random  if given, and if the points do not cover the whole valve, the middle is a position for random points of the
                 surface, and any of the three closest poses is returned
         """
         surface = self.set_valve(x)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The starts of riis.fit, their ends, and the standard errors of the best end."""
+"""The starts of riis.fit, the fits that they reach, and the standard errors of the best fit."""
 
 from __future__ import annotations
 
@@ -12,57 +12,57 @@ from numpy.typing import NDArray
 from riis._errors import InvalidArgumentError
 from riis._fit_problem import Mixture, Pose, Problem, Reals, matrix_of, random_rotations, wide_loss
 
-# Each start chooses a good one of this many rotations.
+# Each start chooses a good rotation among this many.
 _N_ROTATIONS = 150
-# A start for a whole valve chooses a good one of this many valves with random sizes.
+# A start for a whole valve chooses a good valve among this many with random sizes.
 _N_VALVES = 3
-# Two ends are the same surface if their areas differ by at most this fraction, and if nine tenths of one surface lie near the
-# other. Near means within this fraction of the valve's size.
+# Two fits have the same surface if their areas differ by at most this fraction, and if nine tenths of one surface lie near
+# the other. "Near" means within this fraction of the valve's size.
 _SAME = 0.02
-# A rough end whose cost for each point exceeds the least by this is not refined.
+# If the cost of a rough fit for each point exceeds the least by this, the fit is not refined.
 _HOPELESS = 0.15
-# The largest number of ends that are refined.
+# The largest number of fits that are refined.
 _N_ENDS = 4
-# An end is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is less than this, which is
-# the square of three standard errors.
+# A fit is a rival if the likelihood ratio leaves it possible: twice the difference of the logarithms is below this number, the
+# square of three standard errors.
 RIVAL = 9.0
 # An unknown is undetermined if its standard error exceeds this fraction of a reference: the width of its bounds, a radian, the
 # valve's size, or the scale.
 UNDETERMINED = 0.1
 # To find correlated residuals, the valve is divided into this many parts.
 _N_PARTS = 40
-# For an unknown, the scatter of all parts has the weight of this number of parts that determine the unknown.
+# For an unknown, the scatter of all parts counts as this number of parts that determine the unknown.
 _N_USUAL = 10.0
-# Sizes that are not free differ from the patient's by at most about this fraction of a length, or this number of radians.
+# Fixed sizes differ from the patient's by at most about this fraction of a length, or this number of radians.
 _FIXED_SPREAD = 0.1
-# A difference of a size that is not free counts if the logarithm of the ratio of likelihoods is at least this.
+# The difference of a fixed size counts if the logarithm of the ratio of likelihoods is at least this.
 _LEAST_EVIDENCE = 4.0
-# The number of simulated points that show how strongly sizes that are not free pull by chance.
+# The number of simulated points that show how strongly fixed sizes seem wrong by chance.
 _N_SIMULATED = 8000
-# If the cost hardly rises at two standard errors, the profile looks this many times as far before it believes a larger error.
+# If the cost hardly rises at two standard errors, the profile looks this many times as far before it accepts a larger error.
 _FARTHER = 2.5
-# A fit with other values is better if it gains this much, twice the logarithm of a ratio of likelihoods.
+# A fit with other values counts as better if it gains this much, as twice the logarithm of a ratio of likelihoods.
 _LEAST_GAIN = 0.1
 
 
 @dataclass
 class End:
-    """A fit at which the search from one or more starts has ended."""
+    """A fit that the search from one or more starts has reached."""
 
     cost: float
     pose: Pose
     x: Reals  # relative to the pose
     probes: Reals  # points of the surface
     log_area: float
-    n_starts: int  # starts that ended here, or at a fit from which turns led here
-    orbit: int  # ends with the same number lead to each other by turns
+    n_starts: int  # starts that reached this fit, or a fit that turns take to this fit
+    orbit: int  # turns take fits with the same number to each other
 
 
 class Judged(NamedTuple):
-    """The standard errors of the best end."""
+    """The standard errors of the best fit."""
 
     errors: Reals  # standard errors of the unknowns
-    influence: Reals  # by how much a change of an unknown by its whole range moves the points' distances (root mean square)
+    influence: Reals  # how far a change of an unknown by its whole range moves the points' distances (root mean square)
     singular_values: Reals
     misfit: float  # the scatter of parts of the valve, divided by the scatter that independent points would have
     most_misfit: float  # a misfit above this cannot be chance
@@ -101,12 +101,12 @@ def simulated(problem: Problem, x: Reals, noise: float, n: int, random: numpy.ra
 
 
 def likeliest_spread(pull: Reals, response: Reals, covariance: Reals, only_possible: bool) -> tuple[float, Reals, Reals]:
-    """Takes the likeliest variance of sizes that pull, the same for all. Returns how much likelier it is than none (the logarithm
-    of the ratio), and the expectation and the covariance of the sizes.
+    """Takes the likeliest variance of fixed sizes that seem wrong, the same for all. Returns how much likelier this variance
+    is than none (the logarithm of the ratio), and the expectation and the covariance of the sizes.
 
     response       the derivatives of the pull by the sizes
     covariance     of the pull if the sizes have no variance
-    only_possible  leaves out directions in which the pull asks for more than three times a standard deviation of 1
+    only_possible  leaves out directions in which the pull needs more than three standard deviations, each of 1
     """
     # A pull of less than 1e-3 says nothing about sizes with a spread of 1. So rounding does not count.
     chances, axes = numpy.linalg.eigh(covariance)
@@ -135,8 +135,8 @@ def is_same(problem: Problem, x: Reals, log_area: float, end: End) -> bool:
 
 
 def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | None, random: numpy.random.Generator) -> None:
-    """Adds the end x to ends, or counts it with the end that has the same surface. The end x came from a start, or from turning
-    an end of an orbit."""
+    """Adds the fit x to the fits, or counts it with the fit that has the same surface. The fit x came from a start, or from
+    a turn of a fit of an orbit."""
     seen = problem.at(x)
     if seen is None:
         return
@@ -159,7 +159,7 @@ def _add(problem: Problem, x: Reals, cost: float, ends: list[End], orbit: int | 
 
 def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any_rotation: bool, n_least: int, n_most: int,
            random: numpy.random.Generator) -> tuple[list[End], int]:
-    """Minimizes roughly from one start after the other, until two of them reach the best end. Returns the ends, the best first,
+    """Minimizes roughly from one start after the other, until two of them reach the best fit. Returns the fits, the best first,
     and the number of starts."""
     n_names = len(problem.names)
     wide = wide_loss(0.05 * problem.size)
@@ -179,7 +179,7 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         _add(problem, x, problem.cost(x, mixture.loss(problem.whole)), ends, orbit, random)
 
     def turn() -> None:
-        """Turns the best end by one cusp, and swaps front and back, because a turned valve looks similar."""
+        """Turns the best fit by one cusp, and swaps front and back, because a turned valve looks similar."""
         first, orbit = ends[0], ends[0].orbit
         for angle in numpy.radians((120.0, 240.0, 180.0)):
             rotation = first.pose.rotation @ matrix_of(numpy.array([0.0, 0.0, angle]))
@@ -187,7 +187,7 @@ def search(problem: Problem, pose: Pose, given: Reals, middle: Reals | None, any
         turned.add(orbit)
 
     def n_agreeing(one: End) -> int:
-        if not problem.whole:  # a part may fit several cusps, and each needs starts of its own
+        if not problem.whole:  # a part may fit several cusps, and each needs its own starts
             return one.n_starts
         return sum(end.n_starts for end in ends if end.orbit == one.orbit)
 
@@ -287,7 +287,7 @@ class Judge:
             most_misfit = max(2.0, 1.0 + 5.0 * (2.0 / (n_parts - problem.n)) ** 0.5)
             misfit = float((mean**2).sum() / (alone.sum() * mixture.noise**2)) * n_parts / (n_parts - problem.n)
             robust = numpy.diag(covariance @ (forces.T @ forces) @ covariance) * n_parts / (n_parts - problem.n)
-            # If few parts determine an unknown, its scatter by chance is large. Then the scatter of all parts counts as well.
+            # If few parts determine an unknown, its scatter may be large by chance. The scatter of all parts then also counts.
             pieces = numpy.zeros((n_parts, problem.n))
             numpy.add.at(pieces, part, inlier[:, None] * (jacobian @ covariance) ** 2)
             n_pieces = pieces.sum(axis=0) ** 2 / (pieces**2).sum(axis=0).clip(1e-300)
@@ -295,7 +295,7 @@ class Judge:
             variances = numpy.maximum(variances, (_N_USUAL * usual + n_pieces * robust) / (_N_USUAL + n_pieces))
         errors = numpy.where(blind, numpy.inf, numpy.sqrt(variances))
         ratio = numpy.maximum(errors**2 / numpy.diag(covariance), 1.0)
-        # The profile comes before the share of the fixed sizes. With that share, most points would count as outliers.
+        # The profile comes before the share of the fixed sizes. With this share, most points would count as outliers.
         errors, better = self._profile(errors, covariance, ratio)
         errors = numpy.sqrt(errors**2 + self._of_fixed(precision, jacobian, area, inlier, share / scatter**2, errors**2))
         influence = numpy.sqrt((rows**2).sum(axis=0) / inlier.sum())
@@ -303,8 +303,8 @@ class Judge:
 
     def _of_fixed(self, precision: Reals, jacobian: Reals, free_area: Reals, inlier: Reals, factor: float,
                   variances: Reals) -> Reals:
-        """Returns the share of the squared errors that comes from sizes that are not free. It is 0 unless other values of these
-        sizes would fit better than chance allows. It consists of the shift of the unknowns in a fit with all sizes, and of the
+        """Returns the share of the squared errors that comes from fixed sizes. It is 0 unless other values of these sizes would
+        fit better than chance allows. It consists of two parts: the shift of the unknowns in a fit with all sizes, and the
         variance that this fit adds.
 
         variances  the other share of the squared errors
@@ -322,16 +322,18 @@ class Judge:
         full[:n, :n] = precision
         shares = numpy.linalg.solve(precision, full[:n, n:])
         alone = full[n:, n:] - full[n:, :n] @ shares
-        # The free unknowns are at rest only as nearly as the search ended. A size that acts almost as they do would feel it.
+        # The free unknowns are at rest only up to the precision of the search. A size with almost the same effect would feel
+        # this.
         apart, of_area = columns - jacobian @ shares, n_area * (area - free_area @ shares)
         pull = -apart.T @ (weights * seen.residual) - of_area
 
-        # For a whole valve, a pull for far larger differences is from edges, where the area's term is right only on average.
+        # For a whole valve, a pull towards far larger differences comes from edges, where the area's term is right only on
+        # average.
         evidence, mean, covariance = likeliest_spread(pull, alone, alone, problem.whole)
         found = numpy.asarray((shares @ mean) ** 2 + numpy.einsum("ij,jk,ik->i", shares, covariance, shares))
         becomes = (variances <= UNDETERMINED**2) & (variances + found > UNDETERMINED**2)
         if evidence >= _LEAST_EVIDENCE and problem.whole and becomes[: len(problem.names)].any():
-            # Few points near edges pull strongly. Points of a valve whose sizes are right show which pull is chance.
+            # A few points near edges pull strongly. Points of a valve with right sizes show which pull is chance.
             points = simulated(problem, self.x, self.mixture.noise, _N_SIMULATED, numpy.random.default_rng(0))
             other = problem.with_points(points)
             there = other.at(self.x)
@@ -372,7 +374,7 @@ class Judge:
                         least, better = rise, x
                     wider = moved / numpy.sqrt(max(rise / ratio[i], 0.04))
                     if wider > _FARTHER * error and _FARTHER * error < UNDETERMINED and n_left and target not in (0.0, 1.0):
-                        error *= _FARTHER  # the cost is flat here, but may rise soon
+                        error *= _FARTHER  # the cost is flat here, but may rise farther out
                         continue
                     errors[i] = max(errors[i], min(wider, 1.0))
                     if wider < 1.3 * error or wider > UNDETERMINED or target in (0.0, 1.0):

@@ -35,12 +35,12 @@ class PlaceResult:
     rms: float  #: root mean square of the residuals
     worst: float  #: the largest residual
     worst_landmark: str  #: its landmark
-    noise: float  #: for the standard errors: the landmarks' noise, or more if the residuals show it
+    noise: float  #: for the standard errors: the landmarks' noise, or more if the residuals show more
     rotation_error: float  #: standard error of the rotation, degrees
-    position_error: float  #: standard error of the place of the valve's origin
-    standard_errors: dict[str, float]  #: of the parameters that the landmarks bear on
+    position_error: float  #: standard error of the position of the valve's origin
+    standard_errors: dict[str, float]  #: of the parameters on which the landmarks bear
     determined: tuple[str, ...]  #: parameters from the landmarks
-    undetermined: tuple[str, ...]  #: parameters that landmarks bear on but do not determine
+    undetermined: tuple[str, ...]  #: parameters on which landmarks bear without determining them
     in_proportion: tuple[str, ...]  #: parameters that follow from others, by the valve's proportions
     points: Reals = field(repr=False)  #: (n_landmarks, 3)
     places: Reals = field(repr=False)  #: (n_landmarks, 3), the landmarks' places on the closed valve before a warp
@@ -75,19 +75,20 @@ def place(
 
     landmarks  a mapping of names to points, such as {"nadir_left": (1, 2, 3), "annulus": [(...), ...]}, or the path of a file in
                JSON, CSV, or 3D Slicer's .mrk.json or .fcsv. docs/formats.md lists the names
-    valve      a kind, or a Valve whose proportions the result has. The default is the kind that the file names
-    unit       of the landmarks, needed for a mapping; of the result, for a file: the landmarks are converted
-    axes       of the mesh: landmarks of a file in the other axes are turned by half a turn about z
-    flow       (3,), the direction of flow; needed for bileaflet valves, and for mitral ones without commissures and saddle
+    valve      a kind, or a Valve whose proportions the result gets. The default is the kind that the file names
+    unit       of the landmarks; needed for a mapping. For a file it is the unit of the result, to which the landmarks are
+    converted
+    axes       of the mesh. If a file has the other axes, its landmarks are turned by half a turn about z
+    flow       (3,), the direction of flow; needed for bileaflet valves, and for mitral valves without commissures and saddle
     noise      standard deviation of each coordinate, in the unit; default 0.3 mm
     held       names of parameters that keep the valve's values
-    warp       "exact" warps the valve to the landmarks, and "smoothed" as near to them as their noise
-    nodes      (n, 3), of the mesh: landmarks that are more than a centimetre from them on average are refused
+    warp       "exact" warps the valve to the landmarks, and "smoothed" as near to them as their noise allows
+    nodes      (n, 3), of the mesh; landmarks are refused if their mean distance from the nodes is above a centimetre
 
     The valve is copied. Raises InvalidArgumentError naming landmarks that are missing, in one place, collinear, mirrored, or not
-    of the size of a heart valve in this unit. If landmarks are not at the nodes, the message says whether they would be with the
-    axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not go together, for a folding
-    warp, and for any warp of a bileaflet valve, which is rigid.
+    of the size of a heart valve in this unit. If landmarks are not at the nodes, the message says whether they would be there
+    with the axes LPS and RAS swapped, or in another unit. Raises InvalidParameterError for sizes that do not fit together, for
+    a folding warp, and for any warp of a bileaflet valve, which is rigid.
     """
     if warp not in ("none", "exact", "smoothed"):
         raise InvalidArgumentError(f"warp is {warp!r}; it must be none, exact or smoothed")

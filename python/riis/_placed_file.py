@@ -20,12 +20,12 @@ class PlacedValve(NamedTuple):
 
 
 def read_placed(path: str | os.PathLike[str], unit: str | None = None) -> PlacedValve:
-    """Reads a placed valve: the file of ``riis place --output``, or of the method save of place's result.
+    """Reads a placed valve from the file of ``riis place --output``, or of the method save of place's result.
 
     path  the .json file
     unit  of the placement and of the warp: "mm", "cm" or "m". None: the file's unit
 
-    Raises InvalidArgumentError naming the file and what is wrong in it, or unit; InvalidParameterError for sizes that the valve
+    Raises InvalidArgumentError naming the file and the fault in it, or the unit; InvalidParameterError for sizes that the valve
     refuses; OSError for a file that cannot be read.
     """
     name = os.fspath(path)

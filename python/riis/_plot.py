@@ -57,7 +57,7 @@ def _look(plotter: Any, zoom: float) -> None:
 
 
 def round_length(limit: float) -> float:
-    """Returns the largest length of one digit, 1, 2 or 5, that does not exceed the limit."""
+    """Returns the largest length of one digit, 1, 2 or 5, up to the limit."""
     power = 10.0 ** math.floor(math.log10(limit))
     return next((digit * power for digit in (5.0, 2.0) if digit * power <= limit), power)
 
@@ -65,8 +65,8 @@ def round_length(limit: float) -> float:
 class _ScaleBar:
     """A line of a round length at the lower left of a picture, with its length beside it, as in the program's pictures.
 
-    The length holds in the plane through the camera's focal point, at right angles to the line of sight. It is computed anew
-    before each picture, because the camera or the window may have changed.
+    The length is true in the plane through the camera's focal point at right angles to the line of sight. It is computed
+    anew before each picture, because the camera or the window may have changed.
     """
 
     def __init__(self) -> None:
@@ -85,7 +85,7 @@ class _ScaleBar:
         self._text.GetTextProperty().SetVerticalJustificationToCentered()
 
     def add_to(self, renderer: Any) -> None:
-        """Adds the bar to a renderer, again if the renderer was cleared."""
+        """Adds the bar to a renderer. If the renderer was cleared, adds the bar again."""
         self.drop_from(renderer)
         renderer.AddViewProp(self._line)
         renderer.AddViewProp(self._text)
@@ -131,7 +131,7 @@ _BARS: weakref.WeakKeyDictionary[Any, _ScaleBar] = weakref.WeakKeyDictionary()  
 
 def add_scale_bar(plotter: Any, unit: str | None, lift: float = 0.0) -> None:
     """Adds a scale bar to a plotter, or gives its scale bar another unit. None or "" stands for mesh units. The bar is lifted by
-    this part of the picture's height."""
+    this share of the picture's height."""
     bar = _BARS.setdefault(plotter, _ScaleBar())
     bar.unit, bar.lift = unit or "", lift
     bar.add_to(plotter.renderer)
@@ -192,7 +192,7 @@ def plot(
     """Draws a surface, coloured by leaflet, the marked nodes, coloured by distance, and a scale bar.
 
     mesh, marks  the mesh and the marks of a marking, both or neither. The mesh must still have the nodes of the marking
-    screenshot   a .png file to write; then no window opens
+    screenshot   a .png file to write; no window opens in this case
     plotter      a pyvista.Plotter to draw into. If None, a new one is used, and shown unless there is a screenshot
     interactive  whether to return PyVista's widget for a notebook, in which the mouse turns the scene. It has no scale bar
     unit         of the mesh, such as "mm": it follows the number at the scale bar. None stands for "mesh units"
@@ -266,15 +266,15 @@ def animate(
     """Makes a movie of a valve that moves, and returns the number of frames.
 
     path        a file .gif or .mp4 to write
-    frames      an iterable, such as a generator with a time loop. Each item is a Surface, (Surface, marks) or
-                (Surface, marks, caption), and is drawn immediately, so all may be the same objects with new content
+    frames      an iterable, such as a generator with a time loop. Each item is a Surface, (Surface, marks) or (Surface, marks,
+                caption). It is drawn immediately, so all items may be the same objects with new content
     mesh        the mesh of the marks
     frame_rate  frames per second
-    plotter     a pyvista.Plotter(off_screen=True) with your own camera and objects; it is closed afterwards
+    plotter     a pyvista.Plotter(off_screen=True) with your own camera and objects, which is closed afterwards
     unit        of the mesh, such as "mm", for the scale bar. None stands for "mesh units"
 
     Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an exception, no file is left. A
-    movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg: pip install riis[plot].
+    movie needs imageio in addition to PyVista, and .mp4 also needs imageio-ffmpeg: pip install riis[plot].
     """
     pyvista = _pyvista()
     name = os.fspath(path)

@@ -25,7 +25,7 @@ class Parameter(NamedTuple):
     maximum: float  #: of every value, inclusive
     rule: str = ""  #: value of a parameter that was not set, such as "0.5 leaflet_height"; "": the default
     other_name: str = ""  #: second name that sets it, such as "annulus"; "": none
-    other_factor: float = 0.0  #: the value of other_name is the parameter's value times this factor
+    other_factor: float = 0.0  #: the factor from the parameter's value to the value of other_name
 
 
 class SurfaceInfo(NamedTuple):
@@ -182,7 +182,7 @@ class FirstPassage(NamedTuple):
 
     state: Literal["found", "always", "never", "none"]  #: "always": open at 0; "none": the mesh itself has no path
     opening: float  #: the first opening with a passage; 0 for "always" and "none", 1 for "never"
-    closed_opening: float  #: the largest opening below that was tried
+    closed_opening: float  #: the largest tried opening below it
     node_id: int  #: the passage at the opening, as in Passage
     distance: float  #: as in Passage
     point: Reals  #: (3,), as in Passage
@@ -205,7 +205,7 @@ class Orifice(NamedTuple):
     area: float
     outline_area: float  #: area inside the outline
     perimeter: float  #: length of the orifice's edge along the triangles
-    effective_area: float  #: area that the band leaves to the flow: area - c eps perimeter to first order
+    effective_area: float  #: area that the band leaves to the flow; to first order area - c eps perimeter
     rim_reach: float  #: c
     half_thickness: float  #: eps
     radius: float  #: of the disc; 0 for other outlines

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Laws of opening: a valve's opening from the time, the pressure difference and the flow.
 
-The same arguments give the same bits, and nothing is kept between calls. Times, pressures and flows have the solver's units.
+The same arguments give the same bits, and no state is kept between calls. Times, pressures and flows have the solver's units.
 The pressure difference is upstream minus downstream pressure, and flow is positive downstream, so positive values of both open
 a valve. ``rate`` is the derivative of the opening by time. States are plain values, which can be kept in a restart file. To
 repeat a step, start from the earlier state.
@@ -56,7 +56,7 @@ class OpeningTimes(_Timed):
     """An opening from times.
 
     OpeningTimes(0.45, 0.05, 0.95, 0.05, period=1.0) begins to open at 0.45 and to close at 0.95. Both take 0.05. The ramps are of
-    fifth degree: neither the rate nor its derivative jumps.
+    fifth degree, so neither the rate nor its derivative jumps.
     """
 
     opening_start: float

@@ -12,7 +12,7 @@ namespace riis_python {
 // Refuses a masked array, such as numpy.ma's, because its buffer contains values for hidden entries.
 void refuse_mask(nb::handle value, const char *name);
 
-// Returns whether a value has entries. An array without dimensions has none, because it is a number.
+// Returns whether a value has entries. An array without dimensions has none, because it counts as a number.
 bool has_entries(nb::handle value);
 
 // Returns a number. bool and text are refused.
@@ -43,7 +43,8 @@ std::int32_t choice(nb::handle value, const char *name, std::initializer_list<Wo
 // Copies three numbers, from a sequence or an array.
 void three_numbers(nb::handle value, const char *name, double (&numbers)[3]);
 
-// Returns a number of threads, 0 for the default. A child of fork() has one thread: there 0 means 1, and more are refused.
+// Returns a number of threads, 0 for the default. A child of fork() has one thread: 0 means 1 there, and more threads are
+// refused.
 std::int32_t thread_count(nb::handle value, const char *name = "n_threads");
 
 // Returns the object of a type of this module.

@@ -18,8 +18,8 @@ namespace riis_python {
 
 enum class Access { read, write };
 
-// The caller's array, borrowed during this object's lifetime. A wrong type of entries raises TypeError, any other fault
-// InvalidArgumentError.
+// The caller's array, borrowed during this object's lifetime. A wrong type of entries raises TypeError, and any other
+// fault InvalidArgumentError.
 class Array {
  public:
   // T is double, std::int32_t, std::int64_t or std::uint8_t, which also stands for bool.
@@ -52,17 +52,17 @@ class Array {
   }
   nb::object object() const { return nb::borrow(view_.obj); }
 
-  // Refuses an array of another shape than the given one, in which -1 stands for any size. The entries must be in C order without
+  // Refuses an array unless it has the given shape, in which -1 stands for any size. The entries must be in C order without
   // gaps.
   const Array &expect(std::initializer_list<std::int64_t> shape) const;
-  // Refuses an array of another shape than the given one. The entries may have any strides.
+  // Refuses an array unless it has the given shape. The entries may have any strides.
   const Array &expect_shape(std::initializer_list<std::int64_t> shape) const;
 
  private:
   Array(nb::handle object, const char *name, Access access, const char *wanted);
 
-  // Refuses an object, and explains how to convert it. For an array that the call writes, the message proposes no conversion,
-  // since the call would write the converted copy.
+  // Refuses an object, and explains how to convert it. If the call writes an array, the message proposes no conversion,
+  // because the call would write the converted copy.
   template <class... Parts>
   [[noreturn]] void refuse_entries(nb::handle object, const char *wanted, const Parts &...parts) const;
 

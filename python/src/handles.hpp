@@ -83,7 +83,7 @@ class Inside {
   Inside &operator=(const Inside &) = delete;
 };
 
-// Refuses a call that the log function makes, because the library is then inside another call.
+// Refuses a call from the log function, because the library is then inside another call.
 void check_not_logging();
 // Returns whether the calling thread is inside the log function.
 bool is_in_log_function() noexcept;
@@ -117,12 +117,12 @@ void call_to_write(Usage &usage, const Call &call) {
   if (answer.first) raise_status(answer.first, in_python(answer.second.c_str()));
 }
 
-// Calls the library with the lock held, for calls that take less time than releasing the lock.
+// Calls the library with the lock held, for calls that take less time than it takes to release the lock.
 inline void call_shortly(riis_status status) {
   if (status) raise_status(status, in_python(riis_last_error()));
 }
 
-// A handle of riis.h. It is destroyed with this object or, if arrays show its memory, with the last of these arrays.
+// A handle of riis.h. The memory is destroyed with this object or, if arrays show it, with the last of these arrays.
 template <class C, void (*destroy)(C **)>
 struct Handle {
   Handle() = default;
@@ -148,7 +148,7 @@ struct Handle {
     return keeper_of(owner);
   }
 
-  // Returns whether anything besides this object uses the memory. In that case the memory must not be written.
+  // Returns whether anything else than this object uses the memory. In that case the memory must not be written.
   bool is_shared() const { return owner.use_count() > 1; }
 
   // Takes the memory of another handle. This handle's own memory is left to the arrays that show it.

@@ -59,7 +59,7 @@ std::int32_t field_of(const std::string &name) {
   refuse_value("fields", "'", name, "' is not a field; the fields are ", all);
 }
 
-// Returns the sum of the named fields. The argument is a text, with names separated by commas or blanks, or a sequence of names.
+// Returns the sum of the named fields. The argument is a sequence of names, or a text with names separated by commas or blanks.
 std::int32_t fields_of(nb::handle wanted) {
   if (wanted.is_none()) return 0;
   std::int32_t sum = 0;

@@ -23,7 +23,7 @@ void drop_adjacency(Mesh &mesh) {
   mesh.adjacency = nb::object();
 }
 
-// A call without arguments tells that the coordinates changed in place.
+// A call without arguments says that the coordinates have changed in place.
 void update(Mesh &self, nb::handle xyz, nb::handle y, nb::handle z) {
   const Writing writing(self.usage, "mesh");
   const bool in_place = xyz.is_none() && y.is_none() && z.is_none();
@@ -192,7 +192,7 @@ nb::object columns(nb::handle self) {
   return view_of(static_cast<const std::int64_t *>(csr.columns), {n}, adjacency.share());
 }
 
-// Returns the caller's array, or a new array made from the caller's three.
+// Returns the caller's array, or a new array from the caller's three arrays.
 nb::object coordinates(Mesh &mesh) {
   const Reading reading(mesh.usage, "mesh");
   const std::vector<Array> &arrays = mesh.points.arrays;

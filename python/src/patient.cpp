@@ -25,7 +25,7 @@ namespace program = riis::program;
 constexpr program::Reader reader = program::Reader::python;
 
 // Calls code of the program without the interpreter's lock, and throws its refusals as Python's exceptions. `subject` begins most
-// refusals; it may be a path, in which no words are replaced.
+// refusals. It may be a path, in which no words are replaced.
 template <class Call>
 void call_program(const std::string &subject, const Call &call) {
   check_not_logging();
@@ -249,7 +249,7 @@ nb::dict units() {
 
 nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handle origin, nb::handle edge,
                       nb::handle half_thickness, nb::handle is_unit_known) {
-  // A mesh that is more than 12 valves wide is doubted, because the view asks for no unit.
+  // If a mesh is more than 12 valves wide, it is doubted, because the view does not query a unit.
   program::Sizes sizes{{},
                        {},
                        number(edge, "edge"),
@@ -272,7 +272,8 @@ nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handl
 void add_patient(nb::module_ &module) {
   module.def("units", &units, nb::sig("def units() -> dict[str, tuple[float, str]]"),
              "Returns the units by name, with their lengths in a centimetre and the word for several.");
-  module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // of the largest side of the valve
+  module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // as a multiple of the largest side of
+                                                                            // the valve
   module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;
   module.def("judge_sizes", &judge_sizes, nb::arg("mesh").none(), nb::arg("surface").none(), nb::arg("origin").none(),
              nb::arg("edge").none(), nb::arg("half_thickness").none(), nb::arg("is_unit_known").none(),

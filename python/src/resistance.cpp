@@ -40,7 +40,7 @@ void add_to(Marks &result, nb::handle K_, nb::handle K_u_surface_, nb::handle R,
   call_library([&] { return riis_marks_add_resistance(result.handle, &model, &to); });
 }
 
-// Returns the caller's array (n_rows, 3), or (3,) if n_rows is -1, to which a call adds sums. None gives no array.
+// Returns the caller's array (n_rows, 3), to which a call adds sums. If n_rows is -1, the shape is (3,). None gives no array.
 std::optional<Array> sums_of(nb::handle given, const char *name, std::int64_t n_rows) {
   if (given.is_none()) return std::nullopt;
   std::optional<Array> sums(Array::of<double>(given, name, Access::write));

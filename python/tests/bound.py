@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""bound.py ROOT: every function of riis.h must be bound by the Python package, or be left out for a reason that is given here.
+"""bound.py ROOT: the Python package must bind every function of riis.h, or the list here must give a reason.
 
 Every message of the library that names a part of riis.h must have a Python name for it. The check only reads sources, so it needs
 neither the package nor numpy.
@@ -99,7 +99,7 @@ BOUND = {
     "riis_opening_switch_advance": "OpeningSwitch.advance",
     "riis_opening_angle_advance": "OpeningAngle.advance",
 }
-# Functions that are left out, with reasons. A struct of options becomes keyword arguments, or a class with defaults.
+# Functions that are left out, with reasons. If a struct holds options, it becomes keyword arguments, or a class with defaults.
 LEFT_OUT = {
     name: "keyword arguments have defaults, so nobody initialises a struct"
     for name in (

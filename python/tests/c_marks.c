@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * c_marks COORDINATES OUTPUT: marks nodes in C, for comparison in the tests of the Python package.
  * Reads xyz as doubles. Marks nodes around the mitral valve, which moves from opening 0.3 to 0.4 in 0.05 s. Writes the marks as
- * raw arrays. First come the number of marked nodes, ids, distances, triangles, leaflets, normals and velocities. K and K u of
+ * raw arrays. The number of marked nodes, ids, distances, triangles, leaflets, normals and velocities come first. K and K u of
  * all nodes follow. */
 #include <riis/riis.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_types.py FOLDER: checks the stubs of the installed package over every Python example, by mypy and by pyright.
+"""check_types.py FOLDER: checks the stubs of the installed package on every Python example, with mypy and with pyright.
 
-The programs are those of docs/python.md, the notebook, the example for dolfinx, and typed.py. FOLDER gets the programs of the
+The programs are from docs/python.md, the notebook, the example for dolfinx, and typed.py. FOLDER gets the programs of the
 document and of the notebook as files. typed.py is strict in all respects. The examples have no annotations of their own, so that
-they read well. The other rules of mypy --strict hold for them, and the bodies of their functions are checked. Packages for
+they read well. All other rules of mypy --strict hold for them, and the bodies of their functions are checked. Packages for
 pictures count as anything, and so do packages without types, such as dolfinx. The plug-in for ParaView is left out, because it
 passes options that ParaView collects at run time.
 """
@@ -15,7 +15,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# What the document's programs take from the reader's program.
+# The names that the document's programs expect from the reader's program.
 GIVEN = """import numpy
 from numpy.typing import NDArray
 

@@ -3,8 +3,8 @@
 
     python check_view.py FOLDER [PROGRAM]
 
-FOLDER gets the pictures and the files that the page writes. PROGRAM is the program riis, which runs the copied command. Each
-step ends with checks, and the first that fails ends the run. Times are measured and printed, and no check looks at them.
+FOLDER gets the pictures and the files that the page writes. PROGRAM is the program riis, which runs the copied command. Each step
+ends with checks, and the first check that fails ends the run. Times are measured and printed, but not checked.
 """
 
 import hashlib
@@ -44,7 +44,7 @@ def tube(n_across=41, n_along=61, scale=1.0):
 
 
 class Server:
-    """riis view as a process of its own."""
+    """riis view as a separate process."""
 
     def __init__(self, folder, *words):
         self.log = folder / "server.log"
@@ -132,7 +132,7 @@ class Browser:
         element.click()
 
     def unfold(self, title):
-        """Opens a folded part of the page, and leaves an open one."""
+        """Opens a folded part of the page, and leaves it open."""
         for element in self.driver.find_elements(By.CSS_SELECTOR, ".v-expansion-panel-title"):
             if title in element.text and element.get_attribute("aria-expanded") != "true":
                 element.click()
@@ -171,7 +171,7 @@ class Browser:
 
 
 def digest_of(grid):
-    """Returns the digest of the marks in a file, as the page computes it of its own."""
+    """Returns the digest of the marks in a file, computed as the page does for its own marks."""
     ids = numpy.flatnonzero(grid.point_data["riis_marked"]).astype(numpy.int64)
     distance, leaflet = (numpy.asarray(grid.point_data[f"riis_{name}"])[ids] for name in ("distance", "leaflet"))
     return hashlib.sha256(ids.tobytes() + distance.tobytes() + leaflet.astype(numpy.int32).tobytes()).hexdigest()
@@ -306,7 +306,7 @@ def write_and_reopen(browser, folder, program):
 
 
 def several_valves(browser, folder, program):
-    """Two valves beat. The copied command marks what is seen, and the saved view opens as it was, with its camera."""
+    """Two valves beat. The copied command marks what the page shows, and the saved view opens again with its camera."""
     browser.press("#add-valve")
     browser.wait(lambda: len(browser.get("valve_names")) == 2, "a second valve")
     browser.driver.execute_script("window.trame.state.set('kind', 'mitral')")

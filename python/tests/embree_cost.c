@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * embree_cost LIBRARY OTHER_LIBRARY: compares what riis does with Embree, single queries and updates, in two builds of libriis
- * that differ in their Embree (python/embree.sh cost). Both take turns in one process, on one thread, and their processor time
- * counts. Their distances must be the same bits. */
+ * that differ in their Embree (python/embree.sh cost). Both take turns in one process on one thread, and their processor time
+ * counts. Their distances must have the same bits. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <math.h>
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { n_points = 60, n_rounds = 300 }; /* so few points are queried one by one, also if the surface is coarse */
+enum { n_points = 60, n_rounds = 300 }; /* so few points are queried one by one, even if the surface is coarse */
 
 /* The functions of a library that this program calls. */
 #define FUNCTIONS(X)      \

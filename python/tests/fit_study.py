@@ -15,7 +15,7 @@ import riis
 class Studied(NamedTuple):
     """How a kind of valve is studied."""
 
-    spreads: dict  # the free sizes, and by how much of its default each varies
+    spreads: dict  # the free sizes, and how much each varies as a share of its default
     most_open: float
     known: dict  # the valve of fit_table.py
 
@@ -35,7 +35,7 @@ CASES = ("whole", "partial", "partial, said whole", "outliers", "thick", "millim
 WHOLE = ("whole", "outliers", "thick", "millimetres")  # the points cover the valve, and its shape is that of the kind
 # A size counts as found if its error is at most three standard errors, or at most these numbers, in cm, degrees and 1.
 SMALL = {"length": 0.02, "degree": 2.0, "1": 0.02}
-# The error of such a size is also at most these numbers, even if its standard error is large.
+# The error of such a size must also be at most these numbers, even if its standard error is large.
 LARGE = {"length": 0.2, "degree": 10.0, "1": 0.1}
 
 
@@ -102,7 +102,7 @@ def part_of(random, surface):
 
 
 def patient(seed):
-    """Returns the patient of a seed. Consecutive seeds take the kinds and the cases in turn."""
+    """Returns the patient of a seed. Consecutive seeds have the kinds and the cases in turn."""
     random = numpy.random.default_rng(seed)
     kind, case = list(KINDS)[seed % len(KINDS)], CASES[(seed + seed // len(KINDS)) % len(CASES)]
     spreads, most_open, _ = KINDS[kind]

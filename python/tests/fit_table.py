@@ -43,8 +43,8 @@ def any_placement(seed):
 
 
 def main(n_seeds):
-    """Prints a row per parameter and a column per case: the root mean square of the errors, and the standard error that the
-    fits report."""
+    """Prints a row per parameter and a column per case, with the root mean square of the errors, and the standard error
+    that the fits report."""
     cases = [f"{noise}" + (f", {n_gaps} gaps, {outliers:.0%} outliers" if n_gaps else "") for noise, n_gaps, outliers in CASES]
     print(f"| valve | parameter | true | {' | '.join(cases)} |")
     print("|---" * (3 + len(CASES)) + "|")

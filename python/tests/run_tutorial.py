@@ -19,7 +19,7 @@ FILES = {
 
 
 def run(name, folder):
-    """Runs a notebook, and writes its page. Returns the names of the files that it should have made and has not."""
+    """Runs a notebook, and writes its page. Returns the names of the files that the notebook should have made but has not."""
     for file in FILES[name]:
         (folder / file).unlink(missing_ok=True)
     notebook = nbformat.read(NOTEBOOKS / f"{name}.ipynb", as_version=4)
@@ -37,7 +37,7 @@ def run(name, folder):
 def main(folder, names):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    # inverse.ipynb imports inverse.py, which is beside it.
+    # inverse.ipynb imports inverse.py, which is in the same folder.
     os.environ["PYTHONPATH"] = os.pathsep.join([str(NOTEBOOKS), *filter(None, [os.environ.get("PYTHONPATH")])])
     for name in names:
         missing = run(name, folder)

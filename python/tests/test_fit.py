@@ -45,9 +45,9 @@ def test_known_valves_are_found_again(kind):
     clean = fit_table.cloud(kind, 500, 0.0, seed=1)
     surface = riis.Surface(found.valve, **found.placement)
     assert numpy.percentile(surface.closest_points(clean).distance, 90) < 0.02
-    # The distances in the result are distances to the surface, and the measures are computed from them.
+    # The distances in the result are distances to the surface, and the measures follow from them.
     assert numpy.allclose(found.distances, surface.closest_points(points).distance, atol=0.01)
-    far = found.distances[:12] > 0.05  # the first twelve points are outliers, and a few lie on the surface by chance
+    far = found.distances[:12] > 0.05  # the first twelve points are outliers, a few of which lie on the surface by chance
     assert far.sum() > 6 and found.weights[:12][far].max() < 0.5 < numpy.median(found.weights)
     assert found.doubts == () and found.n_crossings == 0 and found.covered > 0.95
     assert numpy.isclose(found.percentile95, numpy.percentile(found.distances, 95.0))
@@ -62,7 +62,7 @@ def test_a_valve_is_found_wherever_it_lies():
     found = riis.fit(fit_table.cloud("aortic", 800, 0.02, placement=placement), "aortic", free=list(true))
     for name, value in true.items():
         assert abs(found.parameters[name] - value) < 5.0 * found.standard_errors[name], name
-    # The whole valve lies where the known valve lies, each cusp at its own place.
+    # The whole valve lies where the known valve lies, with each cusp at its own place.
     known = riis.Surface(riis.Valve("aortic", **true), **placement).closest_points(numpy.zeros((1, 3))).point
     surface = riis.Surface(found.valve, **found.placement)
     assert surface.closest_points(known).distance[0] < 0.02
@@ -70,7 +70,7 @@ def test_a_valve_is_found_wherever_it_lies():
 
 
 def test_edges_are_where_the_points_end():
-    """The cost of a fit includes the area, because otherwise a disk that is too large would fit as well as the right one."""
+    """The cost of a fit includes the area, because otherwise a disk that is too large would fit as well as the right disk."""
     points = fit_table.cloud("bileaflet", 1000, 0.02)
     start = riis.Valve("bileaflet", radius=1.6, opening=0.3)
     arguments = {"free": ["radius"], "n_starts": 1, "start": fit_table.PLACEMENT}
@@ -132,9 +132,9 @@ def test_bounds_hold_and_are_told():
 
 
 def test_what_the_data_do_not_say_is_told():
-    """A closed valve is the same for any open radius, so the data do not determine it."""
+    """A closed valve is the same for any open radius, so the data do not determine this radius."""
     valve = riis.Valve("trileaflet", opening=0.0)
-    valve.update(dict(valve))  # sets all parameters, so that no other size follows the free one by a rule
+    valve.update(dict(valve))  # sets all parameters, so that no other size follows the free size by a rule
     points = numpy.array(riis.Surface(valve).vertices[::5])
     free = ["leaflet_height", "open_radius_ratio"]
     found = riis.fit(points, valve, free=free, placement=["translation"], n_starts=1, whole=False)
@@ -267,7 +267,7 @@ def test_derivatives_are_those_of_new_closest_points(kind, thickness):
             ends.append(problem.look(moved))
         difference = (ends[0].residual - ends[1].residual) / 2e-5
         close = numpy.abs(difference - jacobian[:, i]) < 1e-3 * (1.0 + numpy.abs(difference))
-        assert close.mean() > 0.97, i  # the few others change from one triangle to another
+        assert close.mean() > 0.97, i  # the few other derivatives change from one triangle to another
         assert abs((ends[0].log_area - ends[1].log_area) / 2e-5 - area[i]) < 1e-3
 
 
@@ -333,7 +333,7 @@ def test_the_likeliest_spread_is_that_of_normal_distributions():
 
 
 def test_a_surface_is_updated_after_derivatives():
-    """A jacobian at one place leaves the values of this place, whatever surface was seen last."""
+    """A jacobian at one place leaves the values of this place, whatever surface was evaluated last."""
     points = numpy.random.default_rng(7).uniform(-1.5, 1.5, (50, 3))
     problem, x = problem_of("mitral", points)
     first, area = problem.jacobian(x)
@@ -368,7 +368,7 @@ TRILEAFLET = {"root_radius": 1.15, "leaflet_height": 1.3, "opening": 0.2}
 
 @pytest.mark.parametrize("kind, whole", [("trileaflet", True), ("trileaflet", False), ("aortic", False)])
 def test_a_fit_to_one_leaflet_of_three_is_right_or_flagged(kind, whole):
-    """A case from a past fault: the height had an error of 1.1 and a standard error of 0.0025."""
+    """An earlier fault: the height had an error of 1.1 and a standard error of 0.0025."""
     true = {**TRILEAFLET} if kind == "trileaflet" else {"root_radius": 1.2, "leaflet_height": 1.1, "bending_height": 0.65}
     surface = riis.Surface(riis.Valve(kind, **true), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(numpy.random.default_rng(7), surface, 400, lambda middle, leaflet_id: leaflet_id == 0)
@@ -379,7 +379,7 @@ def test_a_fit_to_one_leaflet_of_three_is_right_or_flagged(kind, whole):
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_a_fit_to_an_attachment_is_right_or_flagged(whole):
-    """A case from a past fault: the radius was 2.27 with a standard error of 0.15, although thirty points of an edge do not
+    """An earlier fault: the radius was 2.27 with a standard error of 0.15, although thirty points of an edge do not
     determine the opening."""
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET))
     edges = surface.attachment.edges.mean(axis=1)
@@ -390,7 +390,7 @@ def test_a_fit_to_an_attachment_is_right_or_flagged(whole):
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_a_fifth_of_outliers_is_left_out(whole):
-    """A case from a past fault: a size had an error of 0.9. Since the points cover the valve, the fit must have no doubts."""
+    """An earlier fault: a size had an error of 0.9. Since the points cover the valve, the fit must have no doubts."""
     random = numpy.random.default_rng(9)
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(random, surface, 500)
@@ -421,9 +421,10 @@ def test_random_patients_are_right_or_flagged():
 
 @pytest.mark.parametrize("seed", [7020, 7039, 7053, 7254, 50047, 50249])
 def test_whole_valves_whose_sizes_were_undetermined(seed):
-    """Cases from past faults. 7020: starts with far too large roots (see also test_starts_are_near_enough). 7053: three of 26
-    parts determine a length, with large residuals there by chance. 7039 and 7254: few points near the edges of two closed
-    disks pull as if the housing had other angles. 50047: two root radii are as likely. 50249: a profile looked too far."""
+    """Cases from past faults. Patient 7020 starts with far too large roots (see also test_starts_are_near_enough). In patient
+    7053, three of 26 parts determine a length, with large residuals there by chance. In 7039 and 7254, a few points near the
+    edges of two closed disks pull as if the housing had other angles. In 50047, two root radii are equally likely. In
+    50249, a profile looked too far."""
     one = fit_study.examine(fit_study.patient(seed))
     assert one.found.doubts == () and one.found.undetermined == () and not one.wrong(), one.found.report()
 
@@ -463,8 +464,8 @@ def test_sizes_without_influence_are_named(seed):
 
 
 def test_sizes_that_trade_with_the_placement_have_an_influence():
-    """A turn of the valve moves a single disk as the opening does. So neither is determined, although each of them moves the
-    disk."""
+    """A turn of the valve moves a single disk as the opening does. The data therefore determine neither, although each of
+    them moves the disk."""
     valve = riis.Valve("bileaflet", opening=0.4)
     random, disk = numpy.random.default_rng(16), lambda middle, leaflet_id: leaflet_id == 0
     points, _ = fit_study.points_on(random, riis.Surface(valve), 400, disk)
@@ -489,7 +490,7 @@ def test_points_on_both_faces_lie_at_half_the_thickness():
     assert abs(one.parameters["opening"] - 0.3) < 3.0 * one.standard_errors["opening"] < 0.02
     assert one.noise < 0.01 and abs(numpy.median(one.distances) - 0.1) < 0.005
     without = riis.fit(points, "bileaflet", n_starts=2, **options)
-    assert without.noise > 0.08  # half of the thickness is taken for noise
+    assert without.noise > 0.08  # half of the thickness counts as noise
 
 
 def test_a_unit_scales_the_placement_and_not_the_sizes():
@@ -515,7 +516,7 @@ def test_a_larger_scatter_than_the_stated_noise_is_doubted():
 
 
 def test_a_wrong_model_is_doubted_and_widens_the_errors():
-    """The fit does not free the bending height, and the known valve has another one than the start."""
+    """The fit keeps the bending height, and the known valve has another bending height than the start."""
     true = {"root_radius": 1.2, "leaflet_height": 1.25, "opening": 0.3}
     found = []
     for height in (0.625, 0.85):  # the rule gives the first value, half of leaflet_height
@@ -530,8 +531,8 @@ def test_a_wrong_model_is_doubted_and_widens_the_errors():
 
 
 def test_two_places_that_fit_equally_are_rivals():
-    """The points lie on one of the two open disks, which are parallel. They fit both disks, so a shift by the disks' distance is
-    a rival."""
+    """The points lie on one of the two open disks, which are parallel. They fit both disks, so a shift by the distance of the
+    disks is a rival."""
     valve = riis.Valve("bileaflet", opening=1.0, open_angle=90.0)
     surface = riis.Surface(valve)
     points, _ = fit_study.points_on(numpy.random.default_rng(13), surface, 200, lambda middle, leaflet_id: leaflet_id == 0)
@@ -559,8 +560,8 @@ def test_a_start_may_be_a_valve_with_a_placement():
 
 
 def test_landmarks_may_start_a_fit():
-    """Two of three leaflets that stand on their head, in millimetres. One start from six landmarks with errors of 0.5 mm finds
-    the sizes. Without the landmarks one start is wrong and doubted."""
+    """Two of three leaflets in millimetres are upside down. One start from six landmarks with errors of 0.5 mm finds the
+    sizes. Without the landmarks, the single start is wrong and doubted."""
     random = numpy.random.default_rng(14)
     surface = riis.Surface(riis.Valve("trileaflet", **TRILEAFLET), half_thickness=0.05, tolerance=0.02)
     points, _ = fit_study.points_on(random, surface, 500, lambda middle, leaflet_id: leaflet_id < 2)
@@ -585,7 +586,7 @@ def test_landmarks_may_start_a_fit():
 
 
 def test_a_result_that_crosses_itself_says_so():
-    true = riis.Valve("trileaflet", bending_radius_in=0.1)  # the cusps then reach beyond the axis
+    true = riis.Valve("trileaflet", bending_radius_in=0.1)  # the cusps then extend beyond the axis
     surface = riis.Surface(true)
     assert riis.find_crossings(surface).n_pairs > 0
     points, _ = fit_study.points_on(numpy.random.default_rng(12), surface, 300)

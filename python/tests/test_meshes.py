@@ -116,7 +116,7 @@ def test_a_skirt_reaches_a_wall():
 
 
 def test_outlines_and_contacts_of_arrays():
-    """Two squares beside each other, a little apart, in the plane z = 0."""
+    """Two squares lie beside each other in the plane z = 0, a little apart."""
     square = numpy.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     xyz = numpy.concatenate([square, square + [1.02, 0, 0]])
     faces = numpy.array([[0, 1, 2, 3], [4, 5, 6, 7]])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""riis beside another OpenMP run-time in the same process: scikit-learn's wheel contains its own libgomp."""
+"""riis and another OpenMP run-time in the same process: scikit-learn's wheel contains its own libgomp."""
 
 import pathlib
 import subprocess
@@ -29,7 +29,7 @@ def clusters():
     return hash(KMeans(4, n_init=1, random_state=0).fit(xyz[:5000]).labels_.tobytes())
 
 def their_libgomp_for_all():
-    # Loads scikit-learn's libgomp as torch loads its own: its names come before those of later libraries.
+    # Loads scikit-learn's libgomp as torch loads its own, so its names precede those of later libraries.
     import importlib.util
     folder = pathlib.Path(importlib.util.find_spec("sklearn").origin).parent.parent / "scikit_learn.libs"
     (library,) = folder.glob("libgomp*")

@@ -48,8 +48,8 @@ def test_least_squares(seed):
     numpy.testing.assert_allclose(got, expected, rtol=1e-4)
     assert found.rms**2 * 6 == pytest.approx(squares, rel=1e-6)
     errors = found.noise * numpy.sqrt(numpy.diag(numpy.linalg.inv(jacobian.T @ jacobian)))[:3]
-    # riis and scipy linearise in different frames, the valve's and the patient's. So the standard errors differ in proportion to
-    # the residuals.
+    # riis and scipy linearise in different frames, the valve's and the patient's. The standard errors therefore differ in
+    # proportion to the residuals.
     numpy.testing.assert_allclose(list(found.standard_errors.values()), errors, rtol=1e-2)
     assert found.worst == found.residuals.max() and found.worst_landmark == NAMES[int(found.residuals.argmax())]
     # The residuals belong to the placement: the landmarks' places are where the result puts them.
@@ -180,7 +180,7 @@ def test_warps(kind, tmp_path):
     smoothed.save(tmp_path / "placed.json")
     saved = json.loads((tmp_path / "placed.json").read_text())["warp"]
     assert saved["noise"] == 0.3 and saved["targets"] == points.tolist() and saved["sources"] == smoothed.places.tolist()
-    # A point of the attachment between two landmarks is met also, and does not move the placement.
+    # The warp also meets a point of the attachment between two landmarks, which does not change the placement.
     edges = surface.attachment.edges.reshape(-1, 3)
     apart = numpy.linalg.norm(edges[:, None] - points, axis=2).min(1)
     further = {**named, "attachment": [edges[apart.argmax()] + (0.3, 0.2, -0.1)]}
@@ -268,7 +268,7 @@ def test_refused_placed_valves(tmp_path):
 def test_warps_that_fold_are_refused():
     named = dict(zip(NAMES, 10 * trileaflet(1.1, 1.05, 1.4), strict=True))
     # Two points of one cusp's attachment are far apart, across the attachment. No smooth map without folds moves the valve to
-    # them.
+    # both.
     torn = named | {"attachment_right_1": (21, 2, 1), "attachment_right_2": (1, -2, 1)}
     with pytest.raises(riis.InvalidParameterError, match='the warp folds near ".*its determinant is -'):
         riis.place(torn, "coapting", unit="mm", warp="exact")

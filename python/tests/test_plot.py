@@ -71,7 +71,7 @@ def test_a_new_picture_looks_at_the_whole_valve(surface, tmp_path):
 
 @pytest.mark.parametrize("parallel, zoom, unit", [(True, 1.0, "mm"), (False, 1.0, ""), (False, 3.7, "cm"), (True, 0.02, None)])
 def test_a_scale_bar_is_as_long_as_it_says(parallel, zoom, unit, surface, tmp_path):
-    """The line's length in the picture is the renderer's own projection of that length at the camera's focal point."""
+    """The line's length in the picture is the renderer's own projection of this length at the camera's focal point."""
     plotter = pyvista.Plotter(off_screen=True, window_size=(700, 500))
     plotter.camera_position = [(4.0, -7.0, 5.0), (0.3, 0.2, 0.1), (0.0, 0.0, 1.0)]
     plotter.camera.parallel_projection = parallel
@@ -97,7 +97,7 @@ def test_a_scale_bar_is_as_long_as_it_says(parallel, zoom, unit, surface, tmp_pa
         plotter.renderer.WorldToDisplay()
         ends.append(plotter.renderer.GetDisplayPoint()[0])
     assert max(lengths) == pytest.approx(ends[1] - ends[0], abs=3.0) and 50 < max(lengths) < 190
-    # Another picture by the same plotter has one bar, also after the plotter was cleared.
+    # Another picture by the same plotter has one bar, even after the plotter was cleared.
     riis.plot(surface, screenshot=tmp_path / "again.png", plotter=plotter, unit=unit)
     assert len([prop for prop in plotter.renderer.GetViewProps() if hasattr(prop, "GetInput")]) == 1
     plotter.clear()

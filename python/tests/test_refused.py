@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bad input is refused with an exception whose class tells the kind of fault, and whose text names the argument."""
+"""Bad input is refused with an exception. Its class tells the kind of fault, and its text names the argument."""
 
 import math
 import re
@@ -422,7 +422,7 @@ def patches(o, degree=None, control=CONTROL, curve_id=None, **rest):
 
 
 def lines(n):
-    """Rows of an adjacency in which each node has the next one for its neighbour."""
+    """Rows of an adjacency in which the only neighbour of each node is the next node."""
     ends = numpy.cumsum([0, 1, *[2] * (n - 2), 1])
     return ends, numpy.array([j for i in range(n) for j in (i - 1, i + 1) if 0 <= j < n])
 

@@ -87,8 +87,8 @@ def test_velocities_are_differences_over_the_step():
     surface = riis.Surface(before, triangulation="fixed")
     earlier = surface.vertices.copy()
     surface.update_moving(valve, before, 0.1)
-    # A vertex of fixed triangles keeps its fraction of the arc length, whereas the velocity belongs to a fixed (u, v). So the two
-    # motions are close, but not equal.
+    # A vertex of fixed triangles keeps its fraction of the arc length, whereas the velocity belongs to a fixed (u, v). The two
+    # motions are therefore close, but not equal.
     assert numpy.allclose(surface.velocities, (surface.vertices - earlier) / 0.1, atol=0.05)
     assert numpy.abs(surface.velocities).max() > 1.0
     surface.update_moving(valve, valve, 0.1, placement_before={"translation": (0, 0, -1)})

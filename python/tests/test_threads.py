@@ -64,7 +64,7 @@ def test_one_object_is_written_by_one_thread(surface, xyz):
     mesh, own = riis.Mesh(numpy.tile(xyz, (4, 1))), riis.Marks()
     found = in_threads(4, lambda i: [riis.mark(surface, mesh, into=own, n_threads=1) for _ in range(10)])
     refused = [error for error in found if isinstance(error, Exception)]
-    assert refused  # four threads that each mark 10 times into one result must collide at least once
+    assert refused  # if four threads each mark 10 times into one result, they must collide at least once
     for error in refused:
         assert isinstance(error, riis.UnavailableError) and "into: another thread is using it" in str(error)
     assert len(riis.mark(surface, mesh, into=own)) > 0

@@ -37,7 +37,7 @@ def test_a_valve_does_what_a_mapping_does():
     assert list(valve.values()) == list(same.values()) and len(valve.items()) == len(valve)
     assert ("opening", 0.3) in valve.items() and {**valve} == same
     assert valve.get("opening") == 0.3 and valve.get("height") is None and valve.get("height", 5) == valve.get(3, 5) == 5
-    # A name that stands for all cusps can be set, but not read.
+    # A name that means all cusps can be set, but not read.
     assert "leaflet_angle" not in riis.Valve("aortic") and riis.Valve("aortic").get("leaflet_angle", 7.0) == 7.0
     with pytest.raises(KeyError) as missing:
         valve["height"]

@@ -151,7 +151,8 @@ def of_second_order(points, tetrahedra):
 
 
 def test_edges_of_second_order(small):
-    """A tetrahedron of second order has the edges of its eight small ones, except for the one inside that joins two middles."""
+    """A tetrahedron of second order has the edges of its eight small tetrahedra, except for the inner edge that joins two
+    middles."""
     points, cells = of_second_order(*tube.mesh(5))
     small_ones = [(0, 4, 6, 7), (1, 4, 5, 8), (2, 5, 6, 9), (3, 7, 8, 9)]
     middles = [(4, 5, 6), (4, 7, 8), (5, 8, 9), (6, 7, 9)]
@@ -192,7 +193,7 @@ def test_another_kind(small):
 
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_near_is_the_whole(kind, random):
-    """Near the valve, the marks and cells are those of the whole mesh, also after the valve left the first cells near it."""
+    """Near the valve, the marks and cells are those of the whole mesh, even after the valve has left the first cells near it."""
     mesh = tube.mesh(9, radius=4.0, length=20.0)
     near, whole = view.Model.near(*mesh), view.Model(*mesh)
     for model in (near, whole):
@@ -216,7 +217,7 @@ def test_near_is_the_whole(kind, random):
 
 
 def test_an_orifice_is_drawn(random):
-    """The area inside the drawn outline is the orifice's, for oblique valves of each kind."""
+    """For oblique valves of each kind, the area inside the drawn outline is the orifice's area."""
     for kind in view.KINDS:
         model = view.Model(numpy.zeros((1, 3)))
         i = model.add(kind)
@@ -258,7 +259,7 @@ def test_the_placement_is_the_surface_s(small):
     frame = numpy.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])  # rows: x to z, y to y, z to x, but mirrored
     frame[1] = numpy.cross(frame[2], frame[0])
     state = model.valves[i]
-    model.set(i, "half_thickness", 0.2)  # as the scale, so that the triangles are the same
+    model.set(i, "half_thickness", 0.2)  # the same tolerance as the scale, so that the triangles are the same
     assert numpy.allclose(model.surface(i).vertices, 2.0 * before @ frame + (1.0, 2.0, 3.0), atol=1e-12)
     assert numpy.allclose(state.axis, (1.0, 0.0, 0.0)) and numpy.allclose(state.reference, (0.0, 0.0, 1.0))
 
@@ -266,7 +267,7 @@ def test_the_placement_is_the_surface_s(small):
 @pytest.mark.parametrize("kind", view.KINDS)
 @pytest.mark.parametrize("unit", ["mm", "cm", "m"])
 def test_clicks_place_the_annulus(kind, unit, random):
-    """Three clicks on the annulus of a placed, grown valve find its place again, from another place and the default size."""
+    """Three clicks on the annulus of a placed, enlarged valve find its place again, from another place and the default size."""
     size = view.UNITS[unit]
     model = view.Model(numpy.zeros((1, 3)), unit=unit)
     known, i = model.add(kind), model.add(kind)
@@ -281,7 +282,7 @@ def test_clicks_place_the_annulus(kind, unit, random):
     clicks = numpy.array(state.origin) + state.scale * at.points @ state.matrix.T
     assert numpy.ptp(numpy.linalg.norm(clicks - clicks.mean(axis=0), axis=1)) < 0.5 * size
     if kind not in ("mitral", "bileaflet") and random.uniform() < 0.7:
-        clicks = clicks[[0, 2, 1]]  # the order of the second and the third is free
+        clicks = clicks[[0, 2, 1]]  # the order of the second and the third click is free
     model.place(i, axis=axis + 0.3 * random.normal(size=3))
     model.place_by_clicks(i, clicks)
     made = model.valves[i]
@@ -293,7 +294,7 @@ def test_clicks_place_the_annulus(kind, unit, random):
 
 @pytest.mark.parametrize("kind", view.KINDS)
 def test_clicks_anywhere_on_a_circle(kind, random):
-    """The circle through any three clicks becomes the annulus, and the axis points to its given side."""
+    """The circle through any three clicks becomes the annulus, and the axis keeps its given side."""
     model = view.Model(numpy.zeros((1, 3)), unit="mm")
     i = model.add(kind)
     for _ in range(5):
@@ -341,7 +342,7 @@ def test_landmarks(random):
 
 
 def test_undo_is_exact(small, random):
-    """Random changes, undone and done again, against a list of snapshots."""
+    """Random changes are undone and made again, and compared with a list of snapshots."""
     model = view.Model(*small, unit="cm")
     history, at = [model.valves], 0
     for _ in range(60):
@@ -416,7 +417,7 @@ def test_a_valve_that_fits_is_good(kind, fine):
 
 def test_a_gap_to_the_wall_and_its_skirt(fine):
     """A valve that is 0.25 too small leaks beside the wall. The gap is the distance to the wall's polygon, and the skirt that the
-    light offers seals it."""
+    light proposes seals it."""
     model = view.Model(*fine, unit="cm")
     i = model.add("coapting")
     model.set(i, "half_thickness", 0.16)
@@ -456,7 +457,7 @@ def test_a_thin_band_and_its_cure(small):
 
 
 def test_a_mesh_in_millimetres(fine):
-    """The unit is told and cured; one undo takes scale, half thickness and unit back."""
+    """The unit is reported and corrected. One undo reverts scale, half thickness and unit."""
     model = view.Model(10.0 * fine[0], fine[1])
     i = model.add("coapting")
     found = light(model, "unit")
@@ -599,7 +600,7 @@ def test_python_lines_give_the_same_bits(unit, small, random):
 
 
 def test_the_program_gives_the_same_bits(tmp_path, small, random):
-    """riis mark, by the command for one valve and by the case for two, marks the same nodes at the same distances."""
+    """riis mark marks the same nodes at the same distances, by the command for one valve and by the case for two."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     program = program_riis()
     points = 10.0 * small[0]
@@ -637,7 +638,7 @@ def test_the_program_gives_the_same_bits(tmp_path, small, random):
 
 
 def test_the_program_marks_a_surface_from_a_file(tmp_path, small):
-    """A surface of the mesh's unit beside a valve: the case, and the command for the surface alone."""
+    """A surface in the mesh's unit is beside a valve. The case, and the command for the surface alone, are tested."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     program = program_riis()
     write_mesh(tmp_path / "tube.vtk", *small)
@@ -669,7 +670,7 @@ def test_the_program_marks_a_surface_from_a_file(tmp_path, small):
 
 
 def test_several_valves_that_move_are_what_is_seen(tmp_path, small, random):
-    """Two valves that beat, and a surface that moves by frames: case, command and Python lines at a time of the beat."""
+    """Two valves beat, and a surface moves by frames. Case, command and Python lines are tested at a time of the beat."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     program = program_riis()
     write_mesh(tmp_path / "tube.vtk", *small)
@@ -732,7 +733,7 @@ def test_several_valves_that_move_are_what_is_seen(tmp_path, small, random):
 
 
 def test_a_case_that_moves(tmp_path, small):
-    """The program plays the cycle of the case, and marks at each time what the model shows at that time."""
+    """The program plays the cycle of the case, and at each time marks the same nodes as the model at that time."""
     pyvista = pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
     program = program_riis()
     write_mesh(tmp_path / "tube.vtk", *small)

@@ -72,7 +72,7 @@ def test_the_key_opens_the_socket_and_nothing_else_does(server):
     root = f"127.0.0.1:{port}"
 
     async def hello(session, secret):
-        """Says hello by a socket that is open, and asks for the state. Returns both answers."""
+        """Sends a greeting over an open socket, and requests the state. Returns both answers."""
         async with session.ws_connect(f"http://{root}/ws?key={key}") as socket:
             parts = chunking.UnChunker()
             parts.set_max_message_size(10**9)
@@ -162,7 +162,7 @@ def test_a_page_loses_nothing(tmp_path):
             return page.state.message
 
         assert await tell_task(page._read(str(tmp_path / "box.vtu"))) == ""
-        assert tell(page._on_undo) == "" and len(page.model.valves) == 1  # the page's own first valve is no step
+        assert tell(page._on_undo) == "" and len(page.model.valves) == 1  # the page's own first valve is not a step of undo
         assert "the last valve stays" in tell(page._on_remove) and len(page.model.valves) == 1
 
         page.state.message = ""
@@ -201,7 +201,7 @@ def test_a_page_loses_nothing(tmp_path):
         page.model.add_surface([numpy.eye(3), 2 * numpy.eye(3)], [[0, 1, 2]], times=[0.0, 0.5], path="leaflet.pvd")
         assert len(json.loads(page._text("case"))["times"]) == 51
 
-        # Two valves that beat: the command marks what is seen, and a saved view opens as it was.
+        # Two valves beat. The command marks what the page shows, and a saved view opens again as it was.
         page.model.remove(1)
         page._on_add("mitral")
         page._need_cycle()
@@ -231,7 +231,7 @@ def test_a_page_loses_nothing(tmp_path):
             assert "the saved view is damaged: " in await tell_task(page._reopen(str(tmp_path / "bad.view.json")))
             assert page.model.valves == before and page._as_saved() == seen
 
-        # A person's input is refused, and a fault of the page says that it is one.
+        # A person's input is refused. A fault of the page says that it is a fault.
         for name, value in (("annulus", "1 2"), ("translation", "1"), ("half_thickness", "1 2"), ("gap", "wide")):
             page.state.current = 0
             assert "fault of riis view" not in tell(page._on_set, name, value) and name in page.state.message
@@ -288,11 +288,11 @@ def test_pictures_of_a_scene():
     drawn.cut_here((0.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     drawn.show_cut()
     closed = drawn.picture()
-    assert closed[:2] == b"\xff\xd8" and drawn.picture() == closed  # a JPEG file, and the same scene gives the same
+    assert closed[:2] == b"\xff\xd8" and drawn.picture() == closed  # a JPEG file, and the same scene gives the same bytes
     model.set(0, "opening", 0.8)
     drawn.show(model.update())
     assert drawn.picture() != closed
-    on_wall = drawn.pick(0.5, 0.5)  # the wall is the box's: one coordinate is that of a side
+    on_wall = drawn.pick(0.5, 0.5)  # the wall is the box's surface, so one coordinate is that of a side
     sides = numpy.abs(on_wall[:2]) - 2.0, [on_wall[2] + 1.5, on_wall[2] - 2.5]
     assert min(numpy.abs(numpy.concatenate(sides))) < 1e-5, on_wall
     assert drawn.pick(0.001, 0.001) is None

@@ -45,7 +45,7 @@ def test_views_keep_the_memory(surface, mesh):
     expected = ids.copy(), part.copy(), vertices.copy()
     del surface
     gc.collect()
-    riis.mark(riis.Surface(riis.Valve("aortic")), mesh)  # would reuse the memory if it had been freed
+    riis.mark(riis.Surface(riis.Valve("aortic")), mesh)  # the call would reuse the memory if it had been freed
     assert all(numpy.array_equal(a, b) for a, b in zip((ids, part, vertices), expected))
 
 
@@ -69,7 +69,7 @@ def test_a_mesh_keeps_its_coordinates(xyz):
 
 
 def test_views_outlive_the_markings_that_follow(surface, mesh, valve):
-    """An array keeps its content after later markings, and those markings are right."""
+    """An array keeps its content after later markings, and these markings are right."""
     marks, kept = riis.Marks(), []
     for opening in 0.0, 0.3, 0.6, 0.9:
         valve["opening"] = opening
@@ -151,7 +151,7 @@ def test_an_adjacency_that_is_borrowed_stays(surface, grid):
     grid.set_adjacency(adjacency)
     adjacency.close()
     gc.collect()
-    riis.Adjacency.from_grid(40, 41, 42)  # would reuse the memory if it had been freed
+    riis.Adjacency.from_grid(40, 41, 42)  # the call would reuse the memory if it had been freed
     assert numpy.array_equal(columns, copy)
     assert numpy.array_equal(riis.mark(surface, grid, search="neighbor").ids, expected)
     with pytest.raises(riis.InvalidArgumentError, match="adjacency: is closed"):

@@ -3,20 +3,20 @@
 
 import numpy
 
-# A cube in six tetrahedra around its diagonal. They fit to the tetrahedra of neighbouring cubes.
+# A cube is cut into six tetrahedra around its diagonal. They fit the tetrahedra of neighbouring cubes.
 _SIX = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
 
 
 def mesh(n, radius=1.3, length=4.0, n_z=None, middle=0.0):
     """Returns points (n_points, 3) and tetrahedra (n_cells, 4) of a tube about z: a grid of n nodes across, smoothed to a circle.
 
-    The wall is a regular polygon with 4 (n - 1) sides, whose corners are at the radius. n_z is the number of nodes along z; None
-    makes edges that are about as long as those across. The middle is at this z.
+    The wall is a regular polygon with 4 (n - 1) sides, whose corners are at the radius. n_z is the number of nodes along z. None
+    makes these edges about as long as those across. The middle is at this z.
     """
     n_z = max(3, round(n * length / (2.0 * radius))) if n_z is None else n_z
     a = numpy.linspace(-1.0, 1.0, n)
     z, y, x = numpy.meshgrid(middle + numpy.linspace(-length / 2.0, length / 2.0, n_z), a, a, indexing="ij")
-    # The square with its circles |x|, |y| <= r becomes the disc, ring by ring.
+    # The square and its squares |x|, |y| <= r become the disc and its circles.
     ring = numpy.maximum(numpy.abs(x), numpy.abs(y))
     turn = numpy.where(numpy.abs(x) >= numpy.abs(y), numpy.pi / 4 * y / numpy.where(x == 0, 1.0, x), 0.0)
     other = numpy.pi / 2 - numpy.pi / 4 * x / numpy.where(y == 0, 1.0, y)

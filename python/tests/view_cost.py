@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures the moves of riis.view.model.Model: python view_cost.py [N_NODES] [near]. Prints the median of 50 moves.
 
-A move sets the opening or the origin, and marks again. The mesh is a tube of tetrahedra around a valve of each kind. With "near"
-it is a wider and longer tube, with the size of a heart, and the model works with the cells near the valve.
+A move sets the opening or the origin, and marks again. The mesh is a tube of tetrahedra around a valve of each kind. With
+"near", it is a wider and longer tube of the size of a heart, and the model works with the cells near the valve.
 """
 
 import statistics

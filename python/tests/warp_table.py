@@ -97,8 +97,8 @@ def attachment_off(root, surface):
 
 
 def factors(n, noise, seed, n_landmarks):
-    """Tries factors of the noise. The noise times sqrt(f / 0.6) acts as a factor f of docs/theory/warp.md. A patient whose
-    warp folds counts as 99 mm away."""
+    """Tries factors of the noise. The noise times sqrt(f / 0.6) has the same effect as a factor f of docs/theory/warp.md.
+    A patient whose warp folds counts as 99 mm away."""
     random, tried = numpy.random.default_rng(seed), (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
     off = [[] for _ in tried]
     for _ in range(n):
@@ -141,8 +141,8 @@ def attachment_and_crossings(n, noise, seed):
 
 
 def mitral_annuli(n, noise, seed, n_landmarks=16):
-    """The annulus of random patients, closed and open, each with its own landmarks. The patient's annulus is the model's annulus
-    after an affine map and a bend."""
+    """The annulus of random patients, closed and open, each with separate landmarks. The patient's annulus is the model's
+    annulus after an affine map and a bend."""
     random = numpy.random.default_rng(seed)
     off, n_crossing = [], 0
     for _ in range(n):

@@ -18,7 +18,7 @@ class ArrayView {
   constexpr ArrayView(T *data, std::int64_t size) : data_(data), size_(size) {}
 
   constexpr T &operator[](std::int64_t i) const {
-#if defined(_GLIBCXX_ASSERTIONS)  // with this macro, the standard containers check positions, and so does the view
+#if defined(_GLIBCXX_ASSERTIONS)  // with this macro the standard containers check positions, and so does this view
     if (i < 0 || i >= size_) std::abort();
 #endif
     return data_[i];

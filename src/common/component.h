@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * The project's components are separate libraries, such as riis_vtk, and report errors as the core's last error. The function
- * below is exported for them, but its header is not installed, and it is not part of the public interface.
+ * below is exported for these components, but its header is not installed, and it is not part of the public interface.
  */
 #ifndef RIIS_COMMON_COMPONENT_H
 #define RIIS_COMMON_COMPONENT_H
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Records `text`, cut to the library's limit, as the calling thread's last error. Returns `status`. */
+/* Records `text` as the calling thread's last error, cut to the library's limit. Returns `status`. */
 RIIS_API riis_status riis_component_error(riis_status status, const char *text);
 
 #ifdef __cplusplus

@@ -11,8 +11,8 @@
 
 namespace riis {
 
-// A number that a message shows with n_digits significant digits. A plain double is shown with the fewest digits from which the
-// same double can be read.
+// A number that a message shows with n_digits significant digits. A plain double has the fewest digits from which the same
+// double can be read.
 struct Rounded {
   double value;
   int n_digits;
@@ -32,7 +32,7 @@ class Message {
   const char *text() const { return text_; }
 
  private:
-  // Adds words. Cuts off the end that does not fit.
+  // Adds words. Cuts off the part that does not fit.
   void add(std::string_view words) noexcept {
     const std::size_t n = std::min(words.size(), room());
     std::memcpy(text_ + size_, words.data(), n);

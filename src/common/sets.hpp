@@ -26,7 +26,7 @@ class DisjointSets {
     while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
   }
-  // Returns whether the two were in different sets.
+  // Returns whether the two numbers were in different sets.
   bool unite(std::int64_t a, std::int64_t b) {
     a = root(a);
     b = root(b);
@@ -41,7 +41,7 @@ class DisjointSets {
 };
 
 // Returns a number from 0 to n - 1 for each of n points, xyz(3, n). Two points have the same number if and only if their
-// coordinates are exactly equal. A file may contain NaN, so coordinates are compared by their bits; 0 and -0 are equal.
+// coordinates are exactly equal. A file may contain NaN, so coordinates are compared by their bits. 0 and -0 count as equal.
 inline std::vector<std::int64_t> equal_places(std::int64_t n, const double *xyz) {
   const auto place_of = [xyz](std::int64_t point) {
     std::array<std::uint64_t, 3> bits{};

@@ -5,7 +5,7 @@
 // favours the cell with less resistance, so the drop differs. Here the closed valve has a pressure of 1 upstream and 0
 // downstream. The solver's own equation of p is solved with the schemes of the case: laplacian(1/A, p) = 0. The flow from one
 // side to the other gives the drop. The pressure is given at a distance from the band (endsOf). The flow is steady, so A is K /
-// rho without rho / dt. It contains neither convection nor viscosity, which are small beside K.
+// rho, without rho / dt. It contains neither convection nor viscosity, which are small compared with K.
 #include "boundBox.H"
 #include "fvScalarMatrix.H"
 #include "fvmLaplacian.H"
@@ -22,7 +22,7 @@ namespace fv {
 
 namespace {
 
-constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band over the largest K
+constexpr scalar openShare = 1e-5;  // the resistance of blood outside the band, divided by the largest K
 constexpr scalar leastShare = 0.2;  // calibration refuses a closed valve that drops less of (R / eps) u
 
 // Returns -1 for each cell upstream of the closed band, and 1 for each cell downstream. Cells in the band, and in pockets that it
@@ -37,7 +37,7 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
     const bool beyond = face < mesh.nInternalFaces() ? band[neighbour[face]] : bandBeyond[face - mesh.nInternalFaces()];
     blocked[face] = band[owner[face]] || beyond;
   }
-  // Each cell of the band becomes a region of its own. The other regions are open blood or pockets.
+  // Each cell of the band becomes a separate region. The other regions are open blood or pockets.
   const regionSplit region(mesh, blocked, List<labelPair>(), true);
   labelList regionBeyond;
   syncTools::swapBoundaryCellList(mesh, region, regionBeyond);
@@ -75,7 +75,8 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   addOverRanks(all);
   addOverRanks(volume);
 
-  // The two sides are the largest regions that lie clearly on one side. Together they hold most of the blood, as pockets do not.
+  // The two sides are the largest regions that lie clearly on one side. Together they contain most of the blood, because pockets
+  // are small.
   label up = -1, down = -1;
   forAll(volume, i) {
     if (votes[i] < -0.5 * all[i] && (up < 0 || volume[i] > volume[up])) up = i;
@@ -87,9 +88,10 @@ labelList sidesOf(const fvMesh &mesh, const scalarField &K, const riis_mark_list
   return side;
 }
 
-// Chooses the cells of both sides that keep the pressure 1 or 0. More than four cells lie between them and the band, or fewer if
-// the mesh ends sooner. On edges that are not orthogonal to faces, the solver corrects the flow by the gradient in the cells.
-// Beside the band this gradient includes the gradient of the band, so the pressure of these cells must be free to balance it.
+// Chooses the cells of both sides that keep the pressure 1 or 0. More than four cells lie between these cells and the band, or
+// fewer if the mesh ends sooner. On edges that are not orthogonal to faces, the solver corrects the flow by the gradient in the
+// cells. Beside the band this gradient includes the gradient of the band, so the pressure of these cells must be free to balance
+// it.
 boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side) {
   constexpr label most = 4;
   labelList layer(mesh.nCells(), most + 1), beyond;
@@ -120,8 +122,9 @@ boolList endsOf(const fvMesh &mesh, const scalarField &K, const labelList &side)
   return isEnd;
 }
 
-// Returns the area of the triangles' parts that lie in this rank's cells. Triangles are cut into parts with edges below an eighth
-// of the half thickness, and the middle of a part decides. So each part counts on one rank. The leaflet leftOut does not count.
+// Returns the area of the parts of triangles that lie in this rank's cells. Triangles are cut into parts with edges below an
+// eighth of the half thickness, and the middle of a part decides. Each part therefore counts on one rank only. The leaflet
+// leftOut does not count.
 scalar areaInMesh(const polyMesh &mesh, const riis_triangles &triangles, scalar halfThickness, int32_t leftOut) {
   struct Part {
     point a, b, c;
@@ -213,8 +216,8 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
       const labelUList &cells = mesh_.boundary()[patch].faceCells();
       forAll(cells, i) diagonal[cells[i]] += equation.internalCoeffs()[patch][i];
     }
-    // setValues clears the coefficients between a fixed cell and other ranks. Without a neighbour on its own rank, the cell then
-    // has no diagonal.
+    // setValues clears the coefficients between a fixed cell and other ranks. If the cell has no neighbour on its own rank, it
+    // then has no diagonal.
     forAll(fixed, i) {
       const label cell = fixed[i];
       if (diagonal[cell] != 0) continue;
@@ -229,7 +232,7 @@ scalar riisValve::conductance(const scalarField &K, const labelList &side, const
   return flow;
 }
 
-// Logs the drop of the closed valve over (R / eps) u. With `calibrate yes` it also finds the factor of K that makes it 1.
+// Logs the drop of the closed valve over (R / eps) u. With `calibrate yes` it also finds the factor of K that makes this ratio 1.
 void riisValve::estimateDrop() {
   estimated_ = true;
   factor_ = 1;

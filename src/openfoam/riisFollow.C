@@ -18,7 +18,8 @@ namespace fv {
 
 namespace {
 
-constexpr scalar leastGap = 1e-6;  // points whose width is below about 1e-3 of their length do not fix a rotation
+constexpr scalar leastGap = 1e-6;  // if the points' width is below about 1e-3 of their length, they do not fix a
+                                   // rotation
 
 using Matrix = std::array<std::array<scalar, 4>, 4>;
 

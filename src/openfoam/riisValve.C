@@ -67,7 +67,7 @@ void riisValve::copyValve() {
 }
 
 void riisValve::readAll() {
-  // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. Keys beside the part would do nothing.
+  // If the entry has a subdictionary for the keys, OpenFOAM reads them from there. Keys beside the part would do nothing.
   const word part = modelType_ + "Coeffs";
   if (dict_.found(part)) {
     refuseOthers(dict_, {"type", "active", "libs", "selectionMode", "fields", part.c_str()});
@@ -123,7 +123,8 @@ void riisValve::readAll() {
   if (resistance_.rim == RIIS_RIM_CUT) markOptions_.fields |= RIIS_FIELD_RIM;
 }
 
-// Reads the keys by which other options choose cells and fields. The leaflets choose the cells, so only one value makes sense.
+// Reads the keys that choose cells and fields in other options. Here the leaflets choose the cells, so only one value makes
+// sense.
 void riisValve::readFields(const dictionary &dict) const {
   const word mode = dict.getOrDefault<word>("selectionMode", "all");
   if (mode != "all") {
@@ -183,8 +184,8 @@ void riisValve::setWarp(const pointField &targets, const dictionary *dict) {
   checked(riis_valve_set_warp(valve_.get(), warp_.get(), nullptr));
 }
 
-// Moves the placement to the present points of the mesh. A warp that follows points gets the part of their motion that is not
-// rigid.
+// Moves the placement to the present points of the mesh. If a warp follows points, it gets the part of their motion that is
+// not rigid.
 void riisValve::follow() {
   placement_ = placementAtRest_;
   if (!follow_) return;

@@ -134,7 +134,7 @@ bool riisValveTable::execute() {
   timeIndex_ = mesh_.time().timeIndex();
   if (mesh_.changing()) readSensors();
   const scalar dt = mesh_.time().deltaTValue();
-  // A step belongs to the beat of its middle, so rounding of the time does not matter.
+  // A step belongs to the beat of its middle, so the rounding of the time does not matter.
   const label beat = period_ > 0 ? label(std::floor((mesh_.time().value() - dt / 2) / period_)) : 0;
   if (beat != beat_) forward_ = backward_ = 0;
   beat_ = beat;

@@ -2,8 +2,8 @@
 """The plug-in for ParaView 5.11 and later: the source "Heart Valve" and the filter "Mark By Valve" (docs/paraview.md).
 
 ParaView loads this file by Tools, Manage Plugins, Load New, and pvpython loads it by LoadPlugin(path, ns=globals()). The package
-riis must be importable by ParaView's own Python. Arrays go to riis and come back as numpy arrays, so ParaView's VTK and the
-libraries of riis never meet.
+riis must be importable by ParaView's own Python. Arrays are passed to riis and back as numpy arrays, so ParaView's VTK and
+the libraries of riis never meet.
 """
 
 import atexit
@@ -38,7 +38,7 @@ FIRST_SIZES = {
 
 
 class Refused(ValueError):
-    """Bad input that riis does not see."""
+    """Bad input that riis itself does not see."""
 
 
 def shown(request):
@@ -133,7 +133,7 @@ def _setter(name):
 
 
 def _with_setters(names):
-    """Adds a method Set... for each property. The method keeps the property's value."""
+    """For each property, adds a method Set..., which stores the property's value. The method keeps the property's value."""
 
     def decorate(algorithm):
         for name in names:
@@ -257,7 +257,7 @@ def read_cycle(path):
 
 
 def _number_in(text):
-    """Returns the finite number that a text is, or None."""
+    """Returns the number in a text if it is finite, or None."""
     try:
         number = float(text)
     except ValueError:
@@ -500,7 +500,7 @@ def _adjacency_of(grid):
 
 
 class _KeptMesh:
-    """The riis.Mesh of a filter, which stays the same as long as nodes and cells do."""
+    """The riis.Mesh of a filter, which stays the same as long as nodes and cells stay the same."""
 
     def __init__(self):
         self.mesh = self.points_key = self.cells_key = None

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lets Debian 12's ParaView 5.11.0 load plug-ins in Python.
 
-That ParaView imports inspect.getargspec, which Python 3.11 no longer has. Python reads this file at its start if the file is in a
-folder of PYTHONPATH. Later versions of ParaView do not need it.
+This ParaView imports inspect.getargspec, which Python 3.11 lacks. Python reads this file at its start if the file is in a folder
+of PYTHONPATH. Later versions of ParaView do not need it.
 """
 
 import inspect

@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_layouts.sh compare DUMP DESCRIBED [LIBRARY]
-#   DESCRIBED is the library built with debug information. It must fit callers that were compiled with the dump's release. So
-#   every difference from abidiff is an error, except new functions, and fields at the end of structs. LIBRARY is the library
-#   without debug information. If it is given, DESCRIBED must export the same functions.
+#   DESCRIBED is the library built with debug information. It must fit callers that were compiled with the dump's release.
+#   Every difference that abidiff reports is therefore an error, except new functions and fields at the end of structs.
+#   LIBRARY is the library without debug information. If it is given, DESCRIBED must export the same functions.
 # check_layouts.sh write DUMP DESCRIBED
 #   Writes the dump: the exported functions and the public types, without paths of this machine.
 set -euo pipefail
@@ -19,8 +19,9 @@ describe() {
 }
 
 # without_appended_fields DUMP: prints the newer dump on the standard input, without the fields that were appended to the older
-# dump's structs. Callers pass the size of the struct that they were compiled with, so later fields do not concern them.
-# (abidiff's own suppression, has_data_member_inserted_at = end, does not serve: it also hides fields whose type changed.)
+# dump's structs. Callers pass the size of the struct for which they were compiled, so later fields do not concern them.
+# (abidiff's own suppression, has_data_member_inserted_at = end, is not suitable, because it also hides fields whose type
+# changed.)
 without_appended_fields() {
   awk '
     function value_of(attribute) {

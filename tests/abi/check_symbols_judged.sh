@@ -38,7 +38,7 @@ cp "$(dirname "$header")"/*.h "$scratch"
 sed -i 's/RIIS_SEARCH_PAPER = 3/RIIS_SEARCH_PAPER = 4/' "$scratch/marks.h"
 refused 'gone or changed: RIIS_SEARCH_PAPER = 3' "$list" "$scratch/riis.h"
 
-# The last header that riis.h includes is also read: a value and a function that are planted there are refused.
+# The last header that riis.h includes is also read, so a value and a function that are planted there are refused.
 last=$("$here/headers.sh" "$header" | tail -n 1)
 plant() { sed "s|^/\* The phases of a switch|$1\n&|" "$last" >"$scratch/$(basename "$last")"; }
 cp "$(dirname "$header")"/*.h "$scratch"

@@ -222,7 +222,7 @@ class Page(unittest.TestCase):
         one_line = " ".join(text.split())
         self.assertIn("- is missed: 2.00\n", text)
         self.assertIn("takes 400 ns here", one_line)
-        self.assertIn("a ratio of 17 to CGAL 3.7 ms.", one_line)
+        self.assertIn("at 17 times CGAL's speed 3.7 ms.", one_line)
         self.assertIn("The filter takes 1.2 of the step's 2.0 ms on one thread, with AVX9.", one_line)
         self.assertIn("Fine triangles take 3.0 times as long; if surfaces cost nothing, it would be 3.0 times.", one_line)
         self.assertNotIn("- is met", text)

@@ -35,8 +35,8 @@ def results_of(tasks, library):
 
 
 def stokes_row(scale_eps=1.0, scale_K=1.0):
-    """Compares c of a hole whose band has a round rim with c of a hole in a solid plate. An edge acts as if it lay c half
-    thicknesses farther out."""
+    """Compares the c of a hole in a band with a round rim with the c of a hole in a solid plate. An edge acts as if it
+    lay c half thicknesses farther out."""
     library, n, cells = marking.Library(PROGRAM, scale_K, scale_eps), 4, (1.5, 2, 3)
     values = [(1 - stokes.effective_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
     solid = [(1 - stokes.solid_radius(library, "hole", 1 / n, c, "round")[0]) * n for c in cells]
@@ -140,7 +140,7 @@ class Judged(unittest.TestCase):
         self.assertNotIn("solver", validate.table_of(two[:1]))
 
     def test_status(self):
-        # Makes the page of invented rows. Either one row misses its bar, or none does.
+        # Makes the page from invented rows. Either one row misses its bar, or no row does.
         def made(key, group, bar=None):
             grids = [f"b/h {n}" for n in (2, 4, 8)]
             return {**rows.row(key, group, "", 1.0, "", "", (4, 2, 1), grids, [1.2, 1.2, 1.2], bar), "c": 1.0}

@@ -17,7 +17,7 @@ enum { most_side = 33, most_nodes = most_side * most_side * most_side, most_of_c
 
 typedef struct {
   const char *name;
-  int vtk, n_nodes, n_in_brick; /* elements in a brick of the box */
+  int vtk, n_nodes, n_in_brick; /* the number of elements in a brick of the box */
 } element;
 
 static const element elements[] = {{"tet4", 10, 4, 6},   {"wedge6", 13, 6, 2}, {"hex8", 12, 8, 1},
@@ -32,7 +32,7 @@ typedef struct {
   double cell_volume;
 } mesh;
 
-/* Places in a brick, in halves of its sides, in VTK's order. */
+/* Places in a brick, in half sides, in VTK's order. */
 static const int hexahedron_places[27][3] = {
     {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0},
     {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1},
@@ -41,7 +41,7 @@ static const int wedge_places[2][3][2] = {{{0, 0}, {2, 0}, {0, 2}}, {{2, 2}, {0,
 static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
 static const int tetrahedron_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-/* The place of node a of element i of a brick. Half of the tetrahedra are inside out, and the solver turns them. */
+/* The place of node a of element i of a brick. Half of the tetrahedra are inside out, and the solver corrects them. */
 static void place_in_brick(const element *type, int i, int a, int at[3]) {
   if (type->n_in_brick == 1) {
     memcpy(at, hexahedron_places[a], 3 * sizeof *at);
@@ -74,7 +74,7 @@ static double share_of_node(const element *type, int a) {
   }
 }
 
-/* Makes a box of n bricks along its sides, whose sides are the columns of `side`. */
+/* Makes a box of n bricks along each side. The columns of `side` are the box's sides. */
 static mesh make_mesh(const element *type, const int n[3], const double corner[3], double side[3][3]) {
   mesh made = {type, 0, 0, NULL, NULL, NULL, 0};
   const int n_bricks = n[0] * n[1] * n[2], lines[3] = {2 * n[0] + 1, 2 * n[1] + 1, 2 * n[2] + 1};

@@ -30,7 +30,7 @@ for warp in none smoothed; do
   echo "C: $(< by_c.txt)"
   read -r n_triangles area lower upper < by_c.txt
   areas+=("$area")
-  # The area is that of the JSON's surface, and the surface is at the landmarks.
+  # The area equals the area of the JSON's surface, and the surface is at the landmarks.
   awk -v n="$n_triangles" -v m="$n_json" -v a="$area" -v b="$area_json" -v l="$lower" -v u="$upper" 'BEGIN {
     if (n != m || (a - b) ^ 2 > 1e-10 * a * a) { print "the JSON has " m " triangles, area " b; exit 1 }
     if (l > -8 || l < -14 || u < 114 || u > 118) { print "the surface is elsewhere: " l " " u; exit 1 }

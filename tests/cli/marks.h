@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Compares the marks that riis writes with the C interface's marks on the same mesh, in.vtu of the scratch folder. */
+ * Compares riis's marks with the C interface's marks on the same mesh, which is in.vtu of the scratch folder. */
 #ifndef RIIS_TESTS_MARKS_H
 #define RIIS_TESTS_MARKS_H
 

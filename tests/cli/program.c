@@ -73,7 +73,7 @@ static pid_t start(const char *argument, va_list rest) {
     dup2(err, STDERR_FILENO);
     if (program_stdout) close(STDOUT_FILENO);
     if (program_stdout && *program_stdout)
-      open(program_stdout, O_WRONLY); /* open returns the lowest free file number, which is the closed stdout's */
+      open(program_stdout, O_WRONLY); /* open returns the lowest free file number, which stdout had */
     execv(file, (char *const *)(uintptr_t)arguments);
     _exit(127);
   }

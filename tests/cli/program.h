@@ -13,13 +13,13 @@ enum { longest_output = 65536 };
 /* Results of the last run. */
 extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
-extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if there was none */
+extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if none */
 extern char program_crossings[longest_output]; /* the warning about crossings; "" if there was none */
 
 /* The path of a file for the program's stdout, or "" for a closed stdout. NULL, the default, keeps stdout in program_out. */
 extern const char *program_stdout;
 
-/* The program to run. NULL, the default, is riis. */
+/* The program to run. NULL, the default, means riis. */
 extern const char *program_file;
 
 /* Runs the program with these arguments; the last one is NULL. */

@@ -65,7 +65,7 @@ static void make_whole(int n, int mode) {
 }
 
 /* Keeps the cells inside a tube around the valve, so that the valve may close it. Some of the nodes outside stay without a cell,
- * and the others go. */
+ * and the others are removed. */
 static void keep_tube(double radius) {
   int n_cells = 0, n_nodes = 0, *new_id = malloc(sizeof(int) * (size_t)whole.n_nodes);
   for (int i = 0; i < whole.n_nodes; ++i) new_id[i] = below(20) == 0;
@@ -104,7 +104,7 @@ static void forget_whole(void) {
   }
 }
 
-/* Shares out the cells: each at random, or by layers with a rough boundary. Some pieces may get no cell. */
+/* Distributes the cells, either at random or in layers with a rough boundary. Some pieces may get no cell. */
 static void cut(void) {
   const int by_layers = below(2);
   n_pieces = 1 + below(most_pieces);

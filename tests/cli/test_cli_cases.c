@@ -60,8 +60,8 @@ TEST(test_ramps) {
   free(table);
 }
 
-/* Tests the example at the times 0.44 and 0.3. At 0.44 the mitral valve opens and the aortic valve is closed. At 0.3 the
- * aortic valve closes. */
+/* Tests the example at the times 0.44 and 0.3. At 0.44 the mitral valve opens, and the aortic valve is closed. At 0.3
+ * the aortic valve closes. */
 TEST(test_example) {
   static double K[n_nodes], of_mitral[n_nodes], of_aortic[n_nodes], ids[n_nodes], momentum[3 * n_nodes];
   static double u[2][3 * n_nodes];
@@ -203,7 +203,7 @@ TEST(test_surface_at_rest) {
 
 #define LANDMARKS "[[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]"
 
-/* A warp that shifts all landmarks by 0.5 along x gives the same valve as a placement that is shifted by 0.5. */
+/* A warp that shifts all landmarks by 0.5 along x gives the same valve as a placement with this shift. */
 TEST(test_warp) {
   static double one[n_box], two[n_box], velocity[3 * n_box];
   static const char *const shifted =
@@ -236,7 +236,7 @@ TEST(test_warp) {
     int n_moving = 0;
     read_array(scratch_path(step == 1 ? "w/w_0001.vtu" : "w/w_0002.vtu"), "riis_marked", one);
     read_array(scratch_path(step == 1 ? "w/w_0001.vtu" : "w/w_0002.vtu"), "riis_velocity", velocity);
-    /* The last step is from 0.15 to 0.7, which is 0.3 in the period: from a shift of 0.375 to one of 0.25. */
+    /* The last step is from 0.15 to 0.7, which is 0.3 in the period. So the shift goes from 0.375 to 0.25. */
     const double speed = step == 1 ? 2.5 : (0.25 - 0.375) / 0.55;
     for (int i = 0; i < n_box; ++i) {
       if (one[i] == 0) continue;
@@ -348,8 +348,8 @@ TEST(test_refused_options) {
   RUN_REFUSED(2, "is also the file of --case", "mark", "--case", file, "--surface-output", scratch_path("case.json"));
 }
 
-/* A case of one valve gives the statistics of the same valve on the command line, and each valve of a case has the numbers that
- * it has alone. */
+/* In a case of one valve, the statistics equal those of this valve on the command line. In other cases, each valve has the same
+ * numbers as alone. */
 TEST(test_statistics) {
   const char *mesh = scratch_path("in.vtu");
   write_case("{\"valve\": \"mitral\", \"opening\": 0.25}", "");
@@ -407,7 +407,7 @@ TEST(test_statistics_of_series) {
   free(out);
 }
 
-/* A series may have one time. Its mesh has the marks of that opening, and no velocities. */
+/* A series may have one time. The mesh of this time has the marks of that opening, and no velocities. */
 TEST(test_one_time_of_series) {
   static double one[n_box], two[n_box];
   scratch_write_text("beat.csv", "0,0\n0.2,1\n");
@@ -423,7 +423,7 @@ TEST(test_one_time_of_series) {
   assert_false(has_array(scratch_path("single/single_0000.vtu"), "riis_velocity"));
 }
 
-/* riis check takes a case. Each valve of it has its own lines. */
+/* riis check takes a case. Each valve of the case has its own lines. */
 TEST(test_checks) {
   write_case(
       "{\"name\": \"a\", \"valve\": \"mitral\"}, {\"name\": \"b\", \"valve\": \"trileaflet\", \"translate\": [0, 0, "

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * `riis export FOLDER MESH`: the forecast of what svMultiPhysics will do. The test reads the exported files as the solver does,
- * and repeats each number of the forecast. Distances come from a loop over all triangles, and shape functions from VTK. Volumes
- * of nodes have a closed form, and the drop comes from a dense matrix and elimination. */
+ * `riis export FOLDER MESH` forecasts what svMultiPhysics will do. The test reads the exported files as the solver does, and
+ * repeats each number of the forecast. Distances come from a loop over all triangles, and shape functions from VTK. Volumes of
+ * nodes have a closed form, and the drop comes from a dense matrix and elimination. */
 /* clang-format off: test_support.h checks statuses if riis.h comes before it */
 #include <riis/riis.h>
 
@@ -73,7 +73,7 @@ static void velocity_of(const uris_face *face, const double *motion, int frame, 
 
 static double length_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-/* The velocity in the plane of triangle t of a face is a linear function that has the velocities of the corners. */
+/* The velocity in the plane of triangle t of a face is the linear function with the velocities of the corners. */
 static double speed_at(const uris_face *face, const double *motion, int frame, int t, const double p[3]) {
   const int *corner = face->corner + 3 * t;
   const double *xyz = uris_frame(face, motion, frame);
@@ -207,7 +207,7 @@ static void turn(double side[3][3]) {
   }
 }
 
-/* Every kind of valve, every type of element, in boxes that are turned at random. Such a box has gaps around the valve. */
+/* Every kind of valve, every type of element, in boxes that are turned at random. Such a box leaves gaps around the valve. */
 TEST(test_frames) {
   char flap[64];
   snprintf(flap, sizeof flap, "%s", scratch_path("flap.json"));
@@ -268,8 +268,9 @@ typedef struct {
 } fluid;
 
 /* The slow steady flow through a flat plate at z = 0 that fills a tube along z, by the solver's equations. The pressure is 1 at
- * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. A tetrahedron and a wedge have
- * coordinates along a triangle. The solver's elements number them from the triangle's last node, and VTK from the first. */
+ * z = -length and 0 at z = length, and the walls hold the flow. Returns the flow times R / eps. In a tetrahedron and a wedge,
+ * some coordinates run along a triangle. The solver's elements count these from the triangle's last node, and VTK's
+ * elements from the first. */
 static double flow_through_plate(const mesh *of, const double *distance, double width, double length, double eps,
                                  const fluid *by) {
   static int local[most_nodes];
@@ -311,7 +312,7 @@ static double flow_through_plate(const mesh *of, const double *distance, double 
       /* The coordinates of the solver's reference elements, from VTK's between 0 and 1. */
       double axis[3][3];
       for (int k = 0; k < 3; ++k) {
-        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges, and that changes no sum here. */
+        /* The solver swaps nodes 0 and 1 of half of the tetrahedra and wedges, which changes no sum here. */
         for (int c = 0; c < 3; ++c)
           axis[k][c] = of->type->vtk == 10            ? gradient[k][c]
                        : of->type->vtk == 13 && k < 2 ? gradient[k][c] + gradient[k + 3][c]
@@ -373,14 +374,14 @@ static double number_after(const char *text, const char *key) {
   return strtod(at + strlen(key), NULL);
 }
 
-/* A Python with SciPy computes the drop. The tests of the drop are skipped without it. */
+/* A Python with SciPy computes the drop. Without such a Python, the tests of the drop are skipped. */
 static void need_scipy(void) {
   if (system("\"${RIIS_PYTHON:-python3}\" -c 'import scipy.sparse.linalg' 2>/dev/null") == 0) return;
   puts("skipped: Python has no SciPy (Debian: python3-scipy)");
   skip();
 }
 
-/* A plate that fills a square tube. The fluids differ in how strong the solver's stabilisation is. */
+/* A plate that fills a square tube. The fluids differ in the strength of the solver's stabilisation. */
 TEST(test_drop) {
   need_scipy();
   static double distance[most_nodes];
@@ -388,7 +389,7 @@ TEST(test_drop) {
   for (int i = 0; i < 4; ++i) {
     const element *type = &elements[i % 3];
     const fluid *by = &fluids[i / 2];
-    /* The area has more than three digits, and so must the printed one. */
+    /* The area has more than three digits, and the printed area must have them too. */
     const double z = 3, half = 0.9968, area = 4 * half * half;
     double side[3][3] = {{2 * half, 0, 0}, {0, 2 * half, 0}, {0, 0, 2 * z}}, corner[3] = {-half, -half, -z};
     const int n[3] = {4, 4, 13};
@@ -408,7 +409,8 @@ TEST(test_drop) {
     uris_state closed = uris_state_of(&exported, exported.n_faces, 1, exported.face[0].n_close - 1);
     distances_of(&tube, &closed, 1, distance);
     uris_state_free(&closed);
-    /* The region has all elements with a node within 2.5 half thicknesses, or within one of them and two median edges. */
+    /* The region consists of all elements with a node within 2.5 half thicknesses, or within one half thickness and two median
+     * edges. */
     const double reach = fmax(2.5 * eps, eps + 2 * number_after(program_out, "median edge "));
     double length = step / 2;
     while (length <= reach) length += step;
@@ -523,7 +525,7 @@ static const char *write_python(const char *name, const char *text) {
   return path;
 }
 
-/* Exports with the Python that is named, or with the one of the test. Returns the table. */
+/* Exports with the given Python, or with the test's Python. Returns the table. */
 static char *exported_with(const char *python, const char *folder) {
   char *old = getenv("RIIS_PYTHON") ? strdup(getenv("RIIS_PYTHON")) : NULL;
   char table[64];
@@ -545,7 +547,7 @@ static void other_lines(char *to) {
       to += sprintf(to, "%s\n", line);
 }
 
-/* Without SciPy only the drop is missing, and the export says so. Other faults of Python are also told. */
+/* Without SciPy only the drop is missing, and the export says so. Other faults of Python are also reported. */
 TEST(test_without_scipy) {
   static char with_lines[1 << 14], without_lines[1 << 14], python[256];
   write_tube("coarse.vtk", -3.1, 2.9);
@@ -583,7 +585,7 @@ TEST(test_without_scipy) {
   free(with);
 }
 
-/* The flap fills the tube from -1 to 1 when closed, and turns about the side y = -1. The other one jumps far away. */
+/* The flap fills the tube from -1 to 1 when closed, and turns about the side y = -1. The other flap jumps far away. */
 static int make_files(void **state) {
   const char *const flap =
       "{\"curves\": {\"a\": [[-1,-1,0],[1,-1,0]], \"b\": [[-1,1,0],[1,1,0]], \"c\": [[-1,-1,0],[-1,1,0]],"

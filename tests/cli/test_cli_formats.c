@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The program with meshes of other programs: a note on single precision, damaged files that a child process reads, .xdmf as
- * output, and fields of OpenFOAM for one time and for a series. */
+ * The program with meshes of other programs: a note on single precision; damaged files, which a child process reads; .xdmf
+ * as output; and fields of OpenFOAM for one time and for a series. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,7 +53,7 @@ TEST(test_xdmf) {
   RUN_REFUSED(2, "o.doc must end in .vtu", "mark", scratch_path("in.vtu"), "--output", scratch_path("o.doc"));
 }
 
-/* The .h5 of an .xdmf is an output, and an input of each .xdmf that names it. */
+/* The .h5 file of an .xdmf is an output, and also an input of each .xdmf that names it. */
 TEST(test_numbers_of_xdmf) {
   RUN_REFUSED(2, "o.h5 is also the file of --output", "mark", scratch_path("in.vtu"), "--half-thickness", "0.3",
               "--output", scratch_path("o.xdmf"), "--stats", scratch_path("o.h5"));
@@ -217,7 +217,7 @@ TEST(test_foam) {
   static double K[n_foam_cells], expected[n_foam_cells], Ku[3 * n_foam_cells];
   char type[32];
   int64_t n_components = 0, n = 0;
-  /* The same places as nodes of a mesh without cells. */
+  /* The same positions as nodes of a mesh without cells. */
   RUN_WITHOUT_CELLS("mark", scratch_path("centers.vtk"), "--half-thickness", "0.3", "--resistance", "2", "--output",
                     scratch_path("centers.vtu"));
   assert_true(shim_read_array(scratch_path("centers.vtu"), 'p', "riis_K", type, &n_components, &n, expected));

@@ -63,7 +63,7 @@ TEST(test_leaflets) {
   assert_non_null(strstr(program_out, "squares.stl: 6 triangles, 3 leaflets, area 12\n"));
   RUN_LEAFLETS("squares.stl", "--leaflets", "connected", "--stats", "-");
   assert_true(json_number(program_out, "n_leaflets") == 3);
-  /* The written surface keeps the leaflets. In its array riis_triangle every triangle has a number of its own. */
+  /* The written surface keeps the leaflets. In its array riis_triangle, every triangle has a different number. */
   RUN_FINE("surface", "--surface", scratch_path("squares.stl"), "--leaflets", "connected", "--output",
            scratch_path("squares.vtp"));
   RUN_LEAFLETS("squares.vtp", "--quiet");
@@ -181,7 +181,7 @@ TEST(test_exported_motion) {
               scratch_path("squares.stl"), "--time-step", "0.02");
 }
 
-/* One line each tells of faces that give other sides or areas than expected. */
+/* One line each reports faces whose sides or areas are not as expected. */
 TEST(test_face_warnings) {
   static const struct {
     const char *faces, *line;

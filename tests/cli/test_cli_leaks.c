@@ -67,7 +67,7 @@ static riis_leak_list leaks_by_c(const char *name, const riis_surface *surface) 
   return leaks;
 }
 
-/* Checks that the program reports the same leaks as the C interface, and that the advised command works when typed as printed. */
+/* Checks that the program reports the same leaks as the C interface, and that the advised command works as printed. */
 static void expect_advice(const char *name, const char *kind) {
   riis_surface *surface = make_surface(kind, 0.1);
   const riis_leak_list leaks = leaks_by_c(name, surface);
@@ -81,8 +81,8 @@ static void expect_advice(const char *name, const char *kind) {
            "riis: the surface leaks: %d edges cross it between two unmarked nodes, the longest (%.3g) at ",
            (int)leaks.n_edges, leaks.longest_length);
   assert_int_equal(strncmp(program_leaks, expected, strlen(expected)), 0);
-  /* In the coarsest meshes the half thickness is far too small for the edges. The warning about this comes first, and only
-   * this warning has advice. */
+  /* In the coarsest meshes, the half thickness is far too small for the edges. The warning about this comes first, and
+   * no other warning contains advice. */
   const char *const earlier = strstr(program_err, "the median edge of the mesh ");
   expect_place(program_leaks + strlen(expected), leaks.longest_middle, leaks.longest_length,
                earlier ? "\n" : "; --half-thickness ");
@@ -153,8 +153,8 @@ TEST(test_surface_from_file) {
   assert_non_null(strstr(program_leaks, " edge"));
 }
 
-/* The table of statistics also reports leaks. The first three searches report the same leaks. The paper's search and other
- * distances also report leaks. */
+/* The table of statistics also reports leaks. The first three searches report the same leaks. The paper's search and the
+ * other distances also report leaks. */
 TEST(test_searches_and_distances) {
   riis_surface *surface = make_surface("mitral", 0.1);
   write_mesh("coarse.vtu", surface, 0.5);
@@ -215,7 +215,7 @@ static riis_leak_list leaks_of_mitral(const char *name) {
   return leaks;
 }
 
-/* Copies 300 bytes that begin at this key in the run's output, and the run's warning about leaks. */
+/* Copies 300 bytes of the run's output from this key on, and the run's warning about leaks. */
 static void keep(const char *key, char said[1000]) {
   const char *const found = strstr(program_out, key);
   assert_non_null(found);
@@ -343,7 +343,7 @@ TEST(test_strict) {
 }
 
 /* Quadratic cells leak like the linear cells into which their nodes cut them. Each quadratic cell has one more inner edge than
- * those linear cells share. */
+ * the linear cells share. */
 TEST(test_quadratic_cells) {
   plain_mesh hexahedra = box_of_mitral(9), quadratic = plain_quadratic_tetrahedra(&hexahedra),
              cut = plain_cut(&quadratic, 8), corners = plain_cut(&quadratic, 4);

@@ -129,7 +129,7 @@ TEST(test_no_marks) {
   free(json);
   assert_int_equal(shim_read_array(scratch_path("none.vtu"), 'p', "riis_marked", NULL, NULL, NULL, NULL), 1);
   RUN_FINE("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--allow-none");
-  /* The paper's search may miss nodes, and here it finds none. The program reports both facts. */
+  /* The paper's search may miss nodes, and in this case finds none. The program reports both facts. */
   run_program("mark", scratch_path("in.vtu"), "--translate", "9,9,9", "--search", "paper", NULL);
   assert_int_equal(program_exit_code, 3);
   assert_non_null(strstr(program_err, "riis: the marks may be incomplete"));
@@ -180,7 +180,7 @@ TEST(test_refused_resistances) {
   RUN_REFUSED(2, "--resistance is nan", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "nan");
   RUN_REFUSED(2, "--resistance", "mark", scratch_path("in.vtu"), "--valve", "aortic", "--resistance", "ten");
   RUN_REFUSED(2, "--resistance is not an option", "surface", "--valve", "aortic", "--resistance", "1");
-  /* The K that another valve wrote is not replaced by accident. */
+  /* The K of another valve is not replaced by accident. */
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", "aortic", "--half-thickness", "0.3", "--resistance", "1",
            "--prefix", "a", "--output", scratch_path("a.vtu"));
   RUN_REFUSED(2, "a_marked", "mark", scratch_path("a.vtu"), "--valve", "aortic", "--half-thickness", "0.3",

@@ -65,7 +65,7 @@ TEST(test_times) {
   expect_sheet(moved, 0.25, -1, 1);
 }
 
-/* The marks equal the marks of a file that holds the surface at this time. */
+/* The marks equal the marks for a file with the surface at this time. */
 TEST(test_marks) {
   static double by_motion[n_box], by_file[n_box];
   sheet_write("now.vtp", 0.25, NULL);

@@ -124,7 +124,7 @@ TEST(test_locale) {
   assert_true(json_number(program_out, "half_thickness") == 0.25);
 }
 
-/* The program's name alone prints a few lines with commands to type, and no error message. */
+/* The program's name alone prints a few commands to type, and no error message. */
 TEST(test_no_arguments) {
   run_program(NULL);
   assert_int_equal(program_exit_code, 2);
@@ -135,7 +135,8 @@ TEST(test_no_arguments) {
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; ++i) assert_non_null(strstr(program_err, parts[i]));
 }
 
-/* riis view hands its words to Python's riis. Without that package it says how to install it. The Python here is a script. */
+/* riis view passes its arguments to Python's riis. If Python lacks this package, the program says how to install it.
+ * The Python here is a script. */
 TEST(test_view) {
   const char *python = scratch_path("python");
   FILE *file = fopen(python, "w");

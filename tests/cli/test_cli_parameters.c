@@ -264,7 +264,8 @@ TEST(test_near_names) {
   RUN_REFUSED(1, "did you mean 'root_radius'?", "params", "--params", scratch_path("p.json"));
 }
 
-/* Sizes by a surgeon's names, from options and files. Sizes that are not set follow, and the template has their values. */
+/* Sizes by a surgeon's names, from options and files. Sizes that are not set follow by their rules, and the template has their
+ * values. */
 TEST(test_named_sizes) {
   static char by_options[longest_output];
   RUN_FINE("params", "--valve", "trileaflet", "--set", "effective_height=1", "--set", "stj=2.6", "--set",

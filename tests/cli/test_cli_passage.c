@@ -133,7 +133,7 @@ TEST(test_closed_valve) {
   assert_null(strstr(program_out, "passage"));
 }
 
-/* An end of the path is nearer to the surface than any other point of the passage. */
+/* An end of the path is nearer to the surface than all other points of the passage. */
 TEST(test_end_is_the_narrowest_place) {
   RUN_FINE("check", "leaks", scratch_path("box.vtu"), "--between", "0,0,-1.2", "0.5,0,-0.1");
   assert_non_null(strstr(program_leaks, "the passage is nearest to the surface at its end at "));
@@ -219,7 +219,7 @@ static double across_of(const char *words) {
   return mean;
 }
 
-/* Two valves lie in a row. Either valve alone closes the passage. */
+/* Two valves stand in a row. Either valve alone closes the passage. */
 TEST(test_cases) {
   scratch_write_text("one.json",
                      "{\"mesh\": \"box.vtu\", \"check_leaks\": [0.01,0,-1.2, 0,0.02,0.9],\n"
@@ -279,7 +279,7 @@ TEST(test_flow_of_several_valves) {
     assert_true(across_of("") == across[i]);
     expect_orifice("", i ? &right : &left);
   }
-  /* In a series, the band is measured where the valve is least open, and the orifice where it is most open. */
+  /* In a series, the band is measured when the valve is least open, and the orifice when it is most open. */
   scratch_write_text("rises.csv", "0,0.5\n1,0\n2,0.75\n");
   scratch_write_text("falls.csv", "0,0.25\n1,0.125\n2,0\n");
   scratch_write_text(

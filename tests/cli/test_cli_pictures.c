@@ -62,7 +62,7 @@ TEST(test_pictures) {
   assert_false(scratch_is_same("1.png", "2.png"));
   assert_false(scratch_is_same("1.png", "3.png"));
   assert_false(scratch_is_same("2.png", "3.png"));
-  /* Marks are drawn in the same way if the array has another name. */
+  /* Marks are drawn in the same way if their array has another name. */
   RUN_FINE("mark", "--half-thickness", "0.3", "--picture", scratch_path("5.png"), scratch_path("in.vtu"), "--prefix",
            "left", "--output", scratch_path("left.vtu"));
   assert_true(scratch_is_same("3.png", "5.png"));
@@ -114,8 +114,8 @@ static void draw_by_c(const riis_surface_options *placement, const char *unit, i
   riis_valve_destroy(&valve);
 }
 
-/* Views by the valve's axes get the axes from --rotate. Without --unit the scale tells the unit of the mesh, if it turns
- * centimetres into one. */
+/* Views by the valve's axes get the axes from --rotate. Without --unit, the scale tells the unit of the mesh, if it is a
+ * usual factor from centimetres. */
 TEST(test_valve_views) {
   static const char *const names[4] = {"valve-side", "valve-top", "valve-oblique", "valve-three"};
   riis_surface_options placement;
@@ -151,7 +151,7 @@ TEST(test_unit) {
   assert_true(scratch_is_same("by_program.png", "by_c.png"));
 }
 
-/* Returns whether two pictures are the same in a part of 800 pixels from x0 on and 40 pixels from y0 on, upwards. */
+/* Returns whether two pictures are the same in a part of 800 pixels to the right of x0, and 40 pixels upwards from y0. */
 static int have_same_part(const char *a, const char *b, int x0, int y0) {
   int size[2];
   unsigned char *rgb[2] = {shim_read_pixels(scratch_path(a), &size[0], &size[1]),
@@ -205,7 +205,7 @@ static void draw_case_by_c(const char *title, const char *unit) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Writes two.json with these valves, and draws it by the program, which may warn of sizes. */
+/* Writes two.json with these valves, and draws it with the program, which may warn of sizes. */
 static void draw_case(const char *first, const char *second) {
   char text[512];
   snprintf(text, sizeof text, "{\"mesh\": \"in.vtu\", \"half_thickness\": 0.3, \"valves\": [\n%s,\n%s]}\n", first,
@@ -217,7 +217,7 @@ static void draw_case(const char *first, const char *second) {
 }
 
 /* A surface from a file has no opening, so neither the picture's title nor the summary shows one. Movies have the same title.
- * Any of the valves may tell the unit of the scale bar, but two valves may not contradict each other. */
+ * The unit of the scale bar may come from any of the valves, but two valves must not contradict each other. */
 TEST(test_cases) {
   static const char aortic[] = "{\"name\": \"aortic\", \"valve\": \"aortic\", \"opening\": 0.5}",
                     small[] = "{\"name\": \"small\", \"valve\": \"aortic\", \"scale\": 0.1}",

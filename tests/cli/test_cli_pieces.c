@@ -101,7 +101,7 @@ static void use_mpi(void) {
 #define RUN_RANKS(n, ...) \
   (use_mpi(), run_program("-n", n, RIIS_MPI_PROGRAM, __VA_ARGS__, NULL), (void)(program_file = NULL))
 
-/* Checks that several ranks give the same files, numbers and exit code as one process did just before. */
+/* Checks that several ranks give the same files, numbers and exit code as one process gave just before. */
 static void expect_same_by_ranks(const char *n_ranks, const char *valve, const char *opening,
                                  const char *half_thickness, const char *from, const char *to) {
   const int code = program_exit_code;
@@ -232,7 +232,7 @@ static void make_random_mesh(int mode) {
   write_pieces();
 }
 
-/* Checks that the parts of the pieces have the same values as the part of the joined mesh. */
+/* Checks that the written parts of the pieces have the same values as the written part of the joined mesh. */
 static void expect_same_parts(int step, const char *const *names, int n_names) {
   char path[64], type[32];
   int64_t n_components = 0, n = 0, n_part = 0;
@@ -283,7 +283,7 @@ static void expect_same_parts(int step, const char *const *names, int n_names) {
   free(at);
 }
 
-/* Checks that two tables are the same but for their last column, the seconds. */
+/* Checks that two tables are the same except for their last column, the seconds. */
 static void expect_same_table(const char *a, const char *b) {
   char *const first = read_text(a), *const second = read_text(b);
   const char *p = first, *q = second;
@@ -359,7 +359,7 @@ TEST(cases_are_those_of_the_joined_mesh) {
   forget_whole();
 }
 
-/* VTK's parallel writer and reader agree with riis: the pieces that VTK writes are those of the whole, and VTK reads the marked
+/* VTK's parallel writer and reader agree with riis: VTK writes the same pieces of the whole mesh, and reads the marked
  * pieces. */
 TEST(vtk_reads_and_writes_pieces) {
   rng = random_start("vtk_reads_and_writes_pieces");
@@ -409,7 +409,7 @@ static const char *const good_arrays =
     "<PPointData><PDataArray type=\"Float64\" Name=\"pressure\"/></PPointData><PPoints><PDataArray type=\"Float64\" "
     "NumberOfComponents=\"3\"/></PPoints>";
 
-/* Writes bad.pvtu with this text in place of its arrays and pieces. */
+/* Writes bad.pvtu with this text instead of its arrays and pieces. */
 static void write_bad(const char *content) {
   char text[2048];
   snprintf(text, sizeof text,
@@ -451,7 +451,7 @@ TEST(broken_pieces_are_refused) {
   scratch_write_text("bad.pvtu", "<VTKFile type=\"UnstructuredGrid\"></VTKFile>");
   RUN_REFUSED(1, "holds UnstructuredGrid, not PUnstructuredGrid", "mark", scratch_path("bad.pvtu"));
   RUN_REFUSED(1, "gone.pvtu", "mark", scratch_path("gone.pvtu"));
-  /* These pieces are refused: not a grid, cut short, and without an array that the others have. */
+  /* These pieces are refused: a file that is no grid, a truncated file, and a piece that lacks an array of the others. */
   scratch_write_text("text.vtu", "no grid");
   expect_bad("<Piece Source=\"piece0.vtu\"/><Piece Source=\"text.vtu\"/>", "text.vtu: is not a VTK XML file");
   size_t n = 0;
@@ -475,7 +475,7 @@ TEST(broken_pieces_are_refused) {
   RUN_REFUSED(1, "pressure has 1 components; ", "mark", scratch_path("bad.pvtu"));
   write_grid(scratch_path("empty.vtu"), 0, nodes, 0, cells, NULL, "");
   expect_bad("<Piece Source=\"empty.vtu\"/>", "bad.pvtu: no piece holds points");
-  /* One global id at two places. */
+  /* One global id occurs at two positions. */
   has_ids = 1;
   write_grid(scratch_path("one.vtu"), 8, nodes, 1, cells, NULL, "");
   whole.xyz[3 * nodes[3]] += 0.01;
@@ -506,7 +506,7 @@ TEST(broken_pieces_are_refused) {
               "--half-thickness", "0.4");
   RUN_REFUSED(2, "is also the file of MESH", "mark", mesh, "--output", mesh);
 #ifdef RIIS_MPIEXEC
-  /* Each rank has one piece. The second one cannot read its own, and both end. */
+  /* Each rank has one piece. The second rank cannot read its piece, and both ranks end. */
   write_bad(
       "<PPointData><PDataArray type=\"Float64\" Name=\"pressure\"/></PPointData><Piece Source=\"piece0.vtu\"/>"
       "<Piece Source=\"short.vtu\"/>");

@@ -17,13 +17,14 @@ static const double R = 1.1, Rc = 1.05, height = 1.4;
 static const char *const names[6] = {"nadir_right",         "commissure_right_left", "nadir_left",
                                      "commissure_left_non", "nadir_non_coronary",    "commissure_right_non"};
 
-/* Writes landmark i of a trileaflet valve that is turned by 90 degrees about y and moved, in units of a `scale`-th centimetre. */
+/* Writes landmark i of a trileaflet valve that is turned by 90 degrees about y and moved. The unit is a centimetre divided by
+ * `scale`. */
 static void landmark(int i, double scale, double *p) {
   const double angle = 60 * i * acos(-1.0) / 180, radius = i % 2 ? Rc : R, z = i % 2 ? height : 0;
   p[0] = scale * (z + 0.2), p[1] = scale * (radius * sin(angle) + 0.1), p[2] = scale * (-radius * cos(angle) - 0.3);
 }
 
-/* Writes a JSON of landmarks with the given unit and axes. `sign` turns x and y, and `more` has further keys or "". */
+/* Writes a JSON file of landmarks with the given unit and axes. `sign` turns x and y, and `more` has further keys or "". */
 static const char *json_of(const char *name, const char *unit, double scale, const char *axes, double sign,
                            const char *more) {
   char text[4096];
@@ -81,7 +82,7 @@ TEST(every_format_gives_the_same) {
   expect_sizes(program_out);
   RUN_FINE("place", scratch_path("d.mrk.json"), "--valve", "trileaflet", "--output", "-");
   expect_sizes(program_out);
-  /* By 3D Slicer's schema the unit may be an array that begins with it, and its default is mm. */
+  /* In 3D Slicer's schema, the unit may also be an array whose first entry is the unit. The default is mm. */
   char *unit = strstr(slicer, "\"coordinateUnits\": \"mm\", ");
   for (const char *const *other =
            (const char *const[]){"\"coordinateUnits\":[\"mm\"],", "\"description\": \"none.\",", NULL};
@@ -248,14 +249,14 @@ TEST(warps_meet_the_landmarks) {
     assert_true(strstr(program_out, "warped mm") && strstr(program_out, "warped, rms 0, worst 0"));
     RUN_FINE("surface", "--valve", placed, "--quiet", "--output", surface);
     if (farthest_landmark(surface) > 1e-9) fail_msg("%s: off by %g", kinds[kind], farthest_landmark(surface));
-    /* In another unit the placed valve is the same. */
+    /* In another unit, the placed valve is the same. */
     RUN_FINE("mark", scratch_path("in.vtu"), "--valve", placed, "--unit", "cm", "--allow-none", "--stats", "-");
     const double in_cm = json_number(program_out, "area");
     RUN_FINE("mark", scratch_path("in.vtu"), "--valve", placed, "--allow-none", "--stats", "-");
     const double in_mm = json_number(program_out, "area");
     if (fabs(in_mm - 100 * in_cm) > 1e-9 * in_mm) fail_msg("areas %g mm2, %g cm2", in_mm, in_cm);
     RUN_REFUSED(2, "which has a warp", "surface", "--valve", placed, "--warp", placed, "--output", surface);
-    /* Smoothed, the valve is as far from the landmarks as the file says. */
+    /* With smoothing, the valve is as far from the landmarks as the file says. */
     RUN_FINE("place", patient_json("w.json"), "--valve", kinds[kind], "--warp", "smoothed", "--noise", "0.3",
              "--output", "-");
     const double rms = json_number(program_out, "warped_rms"), worst = json_number(program_out, "warped_worst");
@@ -265,13 +266,13 @@ TEST(warps_meet_the_landmarks) {
     if (fabs(farthest_landmark(surface) - worst) > 0.05)
       fail_msg("off by %g, stated %g", farthest_landmark(surface), worst);
   }
-  /* OpenFOAM's dictionary has the landmarks in metres: places on the valve, then the patient's. */
+  /* OpenFOAM's dictionary has the landmarks in metres: first their places on the valve, then the patient's landmarks. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "coapting", "--warp", "smoothed", "--noise", "0.3", "--quiet",
            "--foam", "-");
   const char *const warp = strstr(program_out, "\nwarp\n{\n    sources\n    ("),
                     *at = warp ? strstr(warp, "\n    targets\n    (\n") : NULL;
   const char *const noise = at ? strstr(at, "\n    noise           ") : NULL;
-  /* The residuals show a larger noise than the stated one. */
+  /* The residuals show a larger noise than was stated. */
   if (!noise || !(strtod(noise + 11, NULL) > 2e-4 && strtod(noise + 11, NULL) < 3e-3))
     fail_msg("no warp, or no noise in metres: %s", noise ? noise : program_out);
   at = strstr(at, "        (");
@@ -282,7 +283,7 @@ TEST(warps_meet_the_landmarks) {
     for (int c = 0; c < 3; ++c)
       if (fabs(q[c] - 1e-3 * p[c]) > 1e-12) fail_msg("landmark %d: %g is not %g mm", i, q[c], p[c]);
   }
-  /* A file of pairs does the same as the key of the placed valve. Here the targets are the landmarks moved by 1 mm. */
+  /* A file of pairs has the same effect as the key of the placed valve. Here the targets are the landmarks moved by 1 mm. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "trileaflet", "--quiet", "--output", scratch_path("bare.json"));
   char text[2048] = "# noise = 0\nsx,sy,sz,tx,ty,tz\n";
   for (int i = 0; i < 6; ++i) {
@@ -482,7 +483,7 @@ static const char *json_of_points(int n, const char *const *labels, double (*poi
   return scratch_path("points.json");
 }
 
-/* These are a person's usual faults at the first try. */
+/* These are the usual faults at a person's first try. */
 TEST(wrong_landmarks_are_refused) {
   double points[6][3];
 #define CHANGED(words, ...)                                                                               \
@@ -522,7 +523,7 @@ TEST(wrong_landmarks_are_refused) {
               "--valve", "mitral", "--flow", "0,0,-1", "--quiet");
 }
 
-/* Two points of one cusp's attachment are far apart across it, so no smooth map without folds takes them there. */
+/* Two points of one cusp's attachment are far apart across it, so no smooth map without folds reaches both. */
 TEST(folds_are_refused) {
   const char *labels[8] = {0};
   memcpy(labels, names, sizeof names);
@@ -545,7 +546,7 @@ TEST(folds_are_refused) {
   RUN_FINE("place", json_of_points(6, labels, points), "--valve", "coapting", "--warp", "exact", "--quiet");
 }
 
-/* The sizes from landmarks may not go together with the other sizes. */
+/* The sizes from landmarks may not fit the other sizes. */
 TEST(sizes_that_do_not_go_together_are_named) {
   const char *path = json_of("a.json", "mm", 10, "LPS", 1, "");
   RUN_REFUSED(1,
@@ -557,7 +558,7 @@ TEST(sizes_that_do_not_go_together_are_named) {
               path, "--valve", "coapting", "--set", "effective_height=1.39");
   RUN_FINE("place", path, "--valve", "coapting", "--set", "coaptation_height=0.2", "--output", "-");
   if (fabs(json_number(program_out, "coaptation_height") - 0.2) > 1e-15) fail_msg("it is not held: %s", program_out);
-  /* Low commissures leave less room for the coaptation zone, which follows. */
+  /* Low commissures leave less room for the coaptation zone, whose height follows a rule. */
   double points[6][3];
   for (int i = 0; i < 6; ++i) {
     landmark(i, 10, points[i]);
@@ -566,13 +567,13 @@ TEST(sizes_that_do_not_go_together_are_named) {
   RUN_FINE("place", json_of_points(6, names, points), "--valve", "coapting", "--output", "-");
   const double h_e = json_number(program_out, "effective_height"), h_co = json_number(program_out, "coaptation_height");
   if (!(h_co < 0.3 * Rc && h_co <= 0.9 * h_e)) fail_msg("coaptation_height %g, effective_height %g", h_co, h_e);
-  /* These are too low for any. */
+  /* These commissures are too low for any zone. */
   for (int i = 1; i < 6; i += 2) points[i][0] -= 9;
   RUN_REFUSED(1, "and then", "place", json_of_points(6, names, points), "--valve", "coapting");
   assert_non_null(strstr(program_err, "commissure_height"));
 }
 
-/* The box is away from the axis z, so half a turn about z moves landmarks out of it. */
+/* The box is away from the axis z, so half a turn about z takes landmarks out of the box. */
 TEST(wrong_axes_are_named) {
   const double lower[3] = {8, 8, -2}, upper[3] = {12, 12, 2};
   assert_int_equal(shim_write_box(scratch_path("far.vtu"), SHIM_RAW, n_box_side, lower, upper, 1), 1);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The example of a user-defined valve exists as prosthesis.json, .c and .f90. All three define the same valve. Its leaflets
- * never cross each other, and the closed valve has no hole. */
+ * The example of a user-defined valve exists in three forms: prosthesis.json, .c and .f90. All three define the same valve.
+ * Its leaflets never cross each other, and the closed valve has no hole. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,8 +68,9 @@ static void difference(const double *a, const double *b, long double *c) {
   for (int k = 0; k < 3; ++k) c[k] = (long double)a[k] - b[k];
 }
 
-/* Returns the depth at which the segment from p to q goes through the triangle, or at most 0 if it does not. The depth is the
- * least of these distances: of each end from the triangle's plane, and of the crossing point from the triangle's edges. */
+/* Returns the depth at which the segment from p to q goes through the triangle, or a number of at most 0 if it does not. The
+ * depth is the least of these distances: from each end to the triangle's plane, and from the crossing point to the triangle's
+ * edges. */
 static long double depth_of_segment(const double *p, const double *q, double triangle[3][3]) {
   long double ab[3], ac[3], normal[3], ap[3], aq[3];
   difference(triangle[1], triangle[0], ab);
@@ -165,7 +166,7 @@ static int n_uncovered(void) {
   return n_missed;
 }
 
-static const double rounding = 1e-13; /* cm; leaflets that meet may overlap by the rounding of their coordinates */
+static const double rounding = 1e-13; /* in cm; leaflets that meet may overlap by the rounding of their coordinates */
 
 TEST(test_no_crossing) {
   const int n_steps = is_long_test() ? 100 : 20;
@@ -183,7 +184,7 @@ TEST(test_closed) {
   assert_int_equal(n_uncovered(), 0);
 }
 
-/* Writes v.json: the example with another closed end of the free edges of leaflet 0. */
+/* Writes v.json: the example, with another closed end of the free edges of leaflet 0. */
 static void write_with_end(const char *end) {
   static const char *const keys[] = {"\"edge 0a\"", "\"edge 0b\"", "\"middle 0\""};
   static const char axis[] = "[0.00, 0.00, 0.80]";
@@ -242,7 +243,7 @@ TEST(test_file_is_c) {
   riis_valve_destroy(&open);
 }
 
-/* Reads the numbers of a source's array initializers. Their lines begin with blanks and then a number or a brace. */
+/* Reads the numbers of a source's array initializers. These lines begin with blanks and then a number or a brace. */
 static int numbers_of(const char *path, double *numbers, int n_most) {
   char *text = scratch_read(path, NULL);
   int n_found = 0;

@@ -46,8 +46,8 @@ TEST(test_marks_are_equal) {
   }
 }
 
-/* The distances equal those of the C interface with the same options. They differ from distances to the triangles, and the
- * output says so. */
+/* The distances equal those of the C interface with the same options. They differ from the distances to the triangles, and
+ * the output says so. */
 TEST(test_distances) {
   const char *methods[] = {"triangles", "sampling", "minimization"};
   double n_marked[3];
@@ -99,8 +99,8 @@ static void expect_warning(void) {
   assert_ptr_equal(strchr(program_err, '\n') + 1, program_err + strlen(program_err));
 }
 
-/* If the marked nodes are connected, the paper's search also finds all of them. The search cannot know that it found all, and
- * says so. */
+/* If the marked nodes are connected, the paper's search also finds all of them. The search cannot know that it found all
+ * nodes, and says so. */
 TEST(test_paper) {
   mark_default_valve(0.3, RIIS_AUTO);
   run_program("mark", scratch_path("in.vtu"), "--half-thickness", "0.3", "--search", "paper", "--output",
@@ -142,8 +142,8 @@ TEST(test_two_pieces) {
   assert_true(n_marked[2] > 0 && n_marked[2] < n_marked[0]);
 }
 
-/* A mesh of points has no neighbours, so the nodes come from the search's check for missed nodes. The table gives their
- * number. */
+/* A mesh of points has no neighbours, so the search's check for missed nodes finds the nodes. The table gives the
+ * number of these nodes. */
 TEST(test_no_cells) {
   scratch_write_text("points.vtk",
                      "# vtk DataFile Version 3.0\npoints\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"

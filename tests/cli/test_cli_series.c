@@ -121,7 +121,7 @@ TEST(test_files) {
   expect_as_single(4, step_path("beat", 4, "vtu"));
 }
 
-/* Each cell of the part equals the input's cell with the same id, and has the same data. */
+/* Each cell of the part equals the input's cell with the same id, including its data. */
 TEST(test_cells) {
   static double node_ids[n_box], region[most_cells], part_region[most_cells], cell_ids[most_cells];
   static int64_t corners[4 * most_cells], part_corners[4 * most_cells];
@@ -144,7 +144,7 @@ TEST(test_cells) {
 }
 
 /* Compares a step's fields with the C interface's fields. The velocity is the mean since the previous time. At the first time,
- * the velocity is the mean since one step earlier. */
+ * it is the mean since one step earlier. */
 static void expect_fields(int step, const char *path) {
   static double xyz[3 * n_box], normal[3 * n_box], velocity[3 * n_box], momentum[3 * n_box], side[n_box], K[n_box];
   riis_valve *now = NULL, *before = NULL;
@@ -265,8 +265,8 @@ TEST(test_cycles) {
   assert_true(fabs(expected - 0.25) > 0.01);
 }
 
-/* The velocity at the first time is the mean since one step before. At this earlier time, a cycle with a period has another
- * opening. */
+/* The velocity at the first time is the mean since one step earlier. At this earlier time, a cycle with a period has
+ * another opening. */
 TEST(test_first_velocity) {
   double time = -1, opening = -1, n_marked = 0, speed = 0;
   scratch_write_text("cycle.csv", cycle);

@@ -210,7 +210,7 @@ static void interrupt_series(int signal_number) {
 }
 
 /* Stops the main thread of the process in the middle of a step, as if the step took very long. Returns 0 if the system does not
- * let a process stop the threads of another. */
+ * allow one process to stop the threads of another. */
 static int stop_main_thread(pid_t process, int is_seized) {
   int status = 0;
   if (!is_seized && ptrace(PTRACE_SEIZE, process, NULL, NULL) != 0) return 0;
@@ -257,9 +257,9 @@ TEST(test_interruption) {
 }
 
 /* While the main thread is stopped, the program must still list all files in the .pvd. Then the process is killed. The list may
- * lack one file, if the thread was stopped after it wrote a file and before it listed the file. In the microseconds in which
- * the thread adds a file to the list, it holds the list's lock, and nobody else can write the list. A thread stopped there goes
- * on, and is stopped once more elsewhere. */
+ * lack one file, if the thread was stopped between writing a file and listing it. For some microseconds, the thread holds the
+ * list's lock while it adds a file, and nobody else can write the list. If it was stopped there, it continues, and is
+ * stopped again elsewhere. */
 TEST(test_killed) {
   write_cycle("0,0\n1,1\n");
   const pid_t process = start_program("mark", scratch_path("in.vtu"), "--valve", "mitral", "--half-thickness", "0.3",

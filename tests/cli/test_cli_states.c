@@ -108,7 +108,7 @@ static int is_covered(int64_t n, const int64_t *vertex, const double *xyz, doubl
   return 0;
 }
 
-/* is_inside returns whether a point is in the disc, which lies within `reach` of the axis. */
+/* is_inside returns whether a point is in the disc. The disc lies within `reach` of the axis. */
 static measured measure(const riis_valve *valve, double reach, int (*is_inside)(double x, double y)) {
   enum { n_side = 120 };
   riis_surface *surface = NULL;
@@ -319,7 +319,8 @@ TEST(test_prosthesis) {
 }
 
 /* One side of this flat triangular patch is a point. The triangles at the point have no area. The end of the edge at the point
- * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted one sqrt(5). */
+ * therefore belongs to no triangle. The sides along the axes have the lengths 1 and 2, and the slanted side has the length
+ * sqrt(5). */
 static void run_flat_triangle(const char *sides) {
   char text[512];
   snprintf(text, sizeof text,
@@ -348,8 +349,8 @@ TEST(test_collapsed_sides) {
 }
 
 /* Two patches above each other share a side. The common side is the side v = 1 of one patch, but no free edge. The patches' other
- * curves bend differently, so each patch would cut the common side into different parts. The test has one straight and one curved
- * side. */
+ * curves bend differently, so each patch by itself would cut the common side into different parts. The test has one straight and
+ * one curved side. */
 TEST(test_shared_sides) {
   static const char *const middles[2] = {"[0, 1, 0], [2, 1, 0]", "[0, 1, 0], [1, 1.5, 0], [2, 1, 0]"};
   for (int i = 0; i < 2; ++i)

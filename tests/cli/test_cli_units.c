@@ -114,7 +114,7 @@ static int advised(char words[8][64]) {
   return n;
 }
 
-/* Runs the program with the last warning's advice. Then no warning may be left. surface may be NULL. */
+/* Runs the program with the advice of the last warning. Afterwards there must be no warning. surface may be NULL. */
 static void expect_cured(const char *mesh, const char *surface) {
   char words[8][64];
   const int n_words = advised(words);
@@ -184,7 +184,7 @@ TEST(test_wrong_file_units) {
   expect_warning(3, "write --scale 0.5 in place of --scale 0.005\n");
 }
 
-/* The mesh's edges suggest millimetres. It may also be a large and coarse mesh in centimetres, so a unit that the user names
+/* The mesh's edges suggest millimetres. The mesh may also be large and coarse, in centimetres, so a unit from the user
  * decides. */
 TEST(test_coarse_or_other_unit) {
   assert_int_equal(
@@ -219,7 +219,7 @@ TEST(test_half_thickness) {
   expect_warning(program_exit_code, "the half thickness is 0.001, the median edge of the mesh 0.1");
   expect_warning(program_exit_code, ": write --half-thickness 0.1\n");
   expect_cured(meshes[1], NULL);
-  /* If no power of ten suits a coarse mesh, the advice is its edge length, unless this length is also too large. */
+  /* If no power of ten suits a coarse mesh, the program advises its edge length, unless this length is also too large. */
   const double far = 1.6;
   assert_int_equal(shim_write_box(scratch_path("coarse.vtu"), SHIM_RAW, 6, (double[3]){-far, -far, -far},
                                   (double[3]){far, far, far}, 0),
@@ -237,7 +237,7 @@ TEST(test_half_thickness) {
   expect_warning(0, ": write --half-thickness 0.07\n");
 }
 
-/* If sizes do not explain why nothing is marked, the message gives the positions of mesh and surface. */
+/* If the sizes do not explain why nothing is marked, the message gives the positions of mesh and surface. */
 TEST(test_places) {
   run_program("mark", meshes[1], "--translate", "50,0,0", NULL);
   expect_warning(3,

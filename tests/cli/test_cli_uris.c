@@ -16,7 +16,7 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* A placement of the surface, twice: as options of riis_surface_create and as arguments of riis. */
+/* A placement of the surface in two forms: as options of riis_surface_create, and as arguments of riis. */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3];
@@ -62,7 +62,7 @@ static double *corners_of(const riis_surface *surface, int leaflet, int *n_found
   return corners;
 }
 
-/* Compares a frame with the library's triangles. n_more further triangles follow, which only enlarge the solver's box. */
+/* Compares a frame with the library's triangles. The n_more further triangles only enlarge the solver's box. */
 static void check_frame(const uris_face *face, const double *frame, const riis_surface *surface, int leaflet,
                         int n_more, double scale) {
   int n = 0;
@@ -87,7 +87,7 @@ static double ramp(double s) { return s * s * s * (10 + s * (-15 + 6 * s)); }
 static uris_valve exported;
 
 static void check_positions(const char *kind, const place *where, riis_valve *valve) {
-  enum { n_open = 6, n_close = 4 }; /* a frame each 0.01 s, which is 2.5 steps, and a last frame at the end */
+  enum { n_open = 6, n_close = 4 }; /* one frame each 0.01 s, which is 2.5 steps, and a last frame at the end */
   CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
   riis_surface *surface = surface_at(where, valve);
   for (int k = 0; k < n_open + n_close; ++k) {
@@ -124,7 +124,7 @@ static void turned(const double turn[4], const double from[3], double to[3]) {
   }
 }
 
-/* Blood flows along z, and in the mitral valve against z. The tolerance is 5 degrees, since the closed annulus is
+/* Blood flows along z, but in the mitral valve against z. The tolerance is 5 degrees, since the closed annulus is
  * saddle-shaped. */
 static void check_normal(const char *kind, const place *where) {
   const double along[3] = {0, 0, strcmp(kind, "mitral") == 0 ? -1 : 1};
@@ -173,7 +173,7 @@ TEST(test_positions) {
   }
 }
 
-/* From the .vtu, VTK reads the nodes of the first frame in their order. */
+/* From the .vtu file, VTK reads the nodes of the first frame in their order. */
 TEST(test_vtk) {
   EXPORT("by_vtk", RAMPS, "--valve", "mitral");
   const uris_face *face = &exported.face[1];
@@ -194,8 +194,8 @@ TEST(test_vtk) {
   uris_free(&exported);
 }
 
-/* The solver's velocity of a node, from two frames, equals the velocity of the library's vertex. Nodes of the mitral valve also
- * slide along their leaflet, with the joints of the annulus. */
+/* From two frames, the solver computes the velocity of a node, which equals the velocity of the library's vertex. Nodes of the
+ * mitral valve also slide along their leaflet with the joints of the annulus. */
 TEST(test_velocity) {
   riis_valve *valve = NULL, *before = NULL;
   EXPORT("velocity", RAMPS, "--valve", "trileaflet");
@@ -256,7 +256,8 @@ static double longest_edge_of(const uris_face *face, const double *xyz) {
   return longest;
 }
 
-/* The leaflet's outline consists of the edges that belong to only one triangle. Halving must leave no such edge inside. */
+/* The leaflet's outline consists of the edges that belong to only one triangle. When edges are halved, no such edge may arise
+ * inside. */
 static double outline_of(const uris_face *face, const double *xyz) {
   double outline = 0;
   for (int i = 0; i < 3 * face->n_triangles; ++i) {
@@ -271,8 +272,8 @@ static double outline_of(const uris_face *face, const double *xyz) {
   return outline;
 }
 
-/* In no frame is an edge longer than allowed. Area and outline of the leaflets are unchanged, and every old node is still
- * there. */
+/* In no frame is an edge longer than allowed. The area and the outline of the leaflets are unchanged, and every old node
+ * is still there. */
 TEST(test_largest_edge) {
   const char *const valves[] = {"mitral", "bileaflet"};
   for (int v = 0; v < 2; ++v) {
@@ -339,7 +340,7 @@ static rule_marks marks_of_closed(const char *kind) {
         found.delta += delta(closest.distance, eps);
         found.delta_lost += delta(closest.distance, eps) - delta(d, eps);
         if (closest.distance <= eps) found.largest_excess = fmax(found.largest_excess, d - closest.distance);
-        /* The triangles' middles lie on the surface, so no middle is nearer than the surface. */
+        /* The middles of the triangles lie on the surface, so no middle is nearer than the surface. */
         assert_true(d >= closest.distance - 1e-12);
         if (closest.distance < 0.3 * eps || closest.distance > eps || closest.side == 0) continue;
         ++found.n_sides;
@@ -368,7 +369,8 @@ TEST(test_marking_rule) {
            100 * fine.delta_lost / fine.delta);
     assert_true(coarse.n_marked > 500);
     assert_int_equal(coarse.n_more + fine.n_more, 0);
-    /* The solver marks most of these nodes, on their own side of the closed valve. With smaller triangles it marks nearly all. */
+    /* The solver marks most of these nodes, on their own side of the closed valve. With smaller triangles it marks nearly all of
+     * them. */
     assert_true(coarse.n_lost > 0 && coarse.n_lost < 0.3 * coarse.n_marked);
     assert_true(fine.largest_excess < 0.05 && fine.largest_excess < coarse.largest_excess);
     assert_true(fine.n_lost < 0.02 * fine.n_marked && fine.n_lost < coarse.n_lost);
@@ -379,7 +381,7 @@ TEST(test_marking_rule) {
 
 /* ---- The solver's box ---- */
 
-/* A frame of the solver, with and without the face that enlarges the box. */
+/* A frame of the solver, with or without the face that enlarges the box. */
 typedef struct {
   int is_closing, n_marked, n_marked_outside, n_of_side[2];
   uris_state all, leaflets; /* n_marked_outside: marked nodes outside the box of the leaflets alone */
@@ -433,12 +435,12 @@ static double check_box_of_frame(int is_closing, int k) {
   }
   assert_true(at.n_marked > 10);
   const double outside = at.n_marked_outside / (double)at.n_marked;
-  /* If no node is in a band, the solver divides 0 by 0. Then a closed valve never opens, and an open one, which needs nodes
-   * upstream of the leaflets, never closes. */
+  /* If no node is in a band, the solver divides 0 by 0. A closed valve then never opens. An open valve never closes,
+   * because it needs nodes upstream of the leaflets. */
   assert_true(at.n_of_side[0] > 10 && (!is_closing || at.n_of_side[1] > 10));
   assert_int_equal(at.all.n - at.leaflets.n, 3);
   for (int i = at.leaflets.n; i < at.all.n; ++i) look_around(&at, at.all.middle + 3 * i);
-  /* A larger box than the bands need would cost the solver time. */
+  /* A larger box than the bands need would slow the solver down. */
   for (int j = 0; j < 3; ++j)
     CHECK_AT_MOST(at.all.upper[j] - at.all.lower[j], 1.5 * (at.leaflets.upper[j] - at.leaflets.lower[j]) + 10.5 * eps);
   uris_state_free(&at.all);

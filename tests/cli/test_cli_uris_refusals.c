@@ -141,7 +141,7 @@ TEST(test_folders) {
   assert_int_equal(scratch_n_files(), n_files);
 }
 
-/* A valve that is refused, a full disk and an interruption leave nothing, not even the folder. */
+/* A refused valve, a full disk and an interruption leave nothing, not even the folder. */
 TEST(test_nothing_half_written) {
   REFUSED(1, "root_radius", EXPORT, "--time-step", "0.01", RAMPS, "--valve", "trileaflet", "--set", "root_radius=-1");
   REFUSED(1, "opening is 0.", EXPORT, "--time-step", "0.004", RAMPS, "--valve", scratch_path("patch.json"));
@@ -168,7 +168,7 @@ static void expect_openings(const char *text) {
 }
 
 TEST(test_cycles) {
-  /* The valve opens in 0.22:0.29 and closes in 0.29:0.66, from the key with the largest opening to the next key with the
+  /* The valve opens in 0.22:0.29. It closes in 0.29:0.66, from the key with the largest opening to the next key with the
    * least. */
   scratch_write_text("mitral.csv", "0,0\n0.22,0\n0.29,1\n0.40,0.62\n0.50,0.55\n0.57,0.85\n0.66,0\n");
   uris_valve valve = EXPORTED("--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"));
@@ -184,7 +184,8 @@ TEST(test_cycles) {
   assert_int_equal(valve.face[0].n_open, 7);
   assert_int_equal(valve.face[0].n_close, 3);
   uris_free(&valve);
-  /* The exported span is only a part of the closing. So the leaflets jump where it begins, and the program warns of this. */
+  /* The exported span is only a part of the closing. The leaflets therefore jump where this span begins, and the program warns of
+   * this. */
   run_program(EXPORT, "--time-step", "0.01", "--valve", "mitral", "--cycle", scratch_path("mitral.csv"),
               "--closing-span", "0.57:0.66", "--quiet", NULL);
   assert_int_equal(program_exit_code, 0);
@@ -194,7 +195,7 @@ TEST(test_cycles) {
   remove_folder();
 }
 
-/* One side of the patch shrinks to a point as it opens, and then some triangles have no area. */
+/* As it opens, one side of the patch shrinks to a point, and then some triangles have no area. */
 TEST(test_patches) {
   scratch_write_text(
       "shrinks.json",

@@ -10,8 +10,8 @@
 #include "program.h"
 #include "scratch.h"
 
-/* A flap of two patches that swings open. It has curves of every degree and one collapsed side. The file lists the curves in
- * another order, also in its "open" state. */
+/* A flap of two patches that swings open. It has curves of every degree and one collapsed side. In the file, the curves are
+ * in another order, also in its "open" state. */
 static const char *const flap =
     "{\"curves\": {\"hinge\": [[-1, 0, 0], [0, 0, 0]], \"rim\": [[0, 1.2, -0.3], [-1, 1, 0]],\n"
     "  \"left\": [[-1, 0, 0], [-1, 0.5, 0.4], [-1, 1, 0]], \"middle\": [[0, 0, 0], [0, 0.4, 0.4], [0, 0.8, 0.4], [0, "
@@ -233,7 +233,7 @@ TEST(test_changed_files) {
     write_flap(changes[i].can_open, changes[i].found, changes[i].replacement);
     RUN_REFUSED(1, changes[i].text, "mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"));
   }
-  /* A curve without length gets a length, and a curve with a length loses it. */
+  /* A curve without length gets a length, and a curve with length loses it. */
   write_flap(1, "[[1, 0.5, -1]]", "[[1, 0.5, -1], [1, 0.5, -1]]");
   RUN_FINE("mark", scratch_path("in.vtu"), "--valve", scratch_path("v.json"), "--opening", "1");
   /* An output must not replace an input. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Files are replaced as a whole or left as they were, even if the write is interrupted or fails. No input is lost, and nothing
+ * Files are replaced as a whole, or stay as they were, even if a write is interrupted or fails. No input is lost, and nothing
  * is left beside the files. */
 #include <linux/capability.h>
 #include <signal.h>
@@ -174,8 +174,8 @@ static void expect_locked(const char *mesh, const char *option, const char *outp
   free(text);
 }
 
-/* A second run with the same output is refused, whatever the option and the file's name. A run that has ended or was killed
- * blocks no other run. */
+/* A second run with the same output is refused, for every option and every name of the file. A run that has ended or was
+ * killed does not block other runs. */
 TEST(test_second_run) {
   char mesh[256], held[256];
   snprintf(mesh, sizeof mesh, "%s", scratch_path("in.vtu"));
@@ -202,7 +202,7 @@ TEST(test_second_run) {
 }
 /* A new file in the same folder replaces the old one. So the folder must be writable, not only the file. */
 TEST(test_closed_folder) {
-  /* Root may write everywhere, so the child programs must lose that right. */
+  /* Root may write everywhere, so the child processes must give up root's rights. */
   if (prctl(PR_CAPBSET_DROP, CAP_DAC_OVERRIDE) != 0 && geteuid() == 0) skip();
   const char *mesh = scratch_path("missing.vtu");
   assert_int_equal(mkdir(scratch_path("closed"), 0700), 0);
@@ -259,7 +259,7 @@ static void run_and_interrupt(int signal_number) {
 }
 
 /* A signal ends the process only after the current file is complete, so --stats is not written. On a busy machine the program
- * may end before this process sees the file; then the test tries again. */
+ * may end before this process sees the file. The test then tries again. */
 TEST(test_interruption) {
   assert_true(shim_write_box(scratch_path("large.vtu"), SHIM_RAW, 60, (double[3]){-1.7, -1.6, -1.3},
                              (double[3]){1.5, 1.6, 0.4}, 1));

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""uris_flow.py by itself: test_uris_flow.py PATH_OF_URIS_FLOW. Exits with 77 if Python lacks NumPy or SciPy.
+"""test_uris_flow.py PATH_OF_URIS_FLOW tests uris_flow.py by itself. Exits with 77 if Python lacks NumPy or SciPy.
 
 Oracles: the same equations by loops over single functions and a dense matrix, the flow through a square duct in closed form, and
-sides that are known by the shape of the mesh.
+sides that the shape of the mesh determines.
 """
 import importlib
 import importlib.util
@@ -59,7 +59,7 @@ def bricks(cells, lower, upper):
 def tetrahedra(xyz, hexahedra):
     """Cuts each hexahedron along its diagonal, so that the faces of neighbours agree."""
     cuts = [[0, *[sum(1 << k for k in order[:n]) for n in (1, 2)], 7] for order in itertools.permutations(range(3))]
-    by_bits = [0, 1, 3, 2, 4, 5, 7, 6]  # the corner whose coordinates are the bits
+    by_bits = [0, 1, 3, 2, 4, 5, 7, 6]  # the corner whose coordinates are these bits
     found = np.concatenate([hexahedra[:, [by_bits[bits] for bits in cut]] for cut in cuts])
     volumes = np.linalg.det(xyz[found[:, :3]] - xyz[found[:, 3:]])
     found[volumes < 0] = found[volumes < 0][:, [1, 0, 2, 3]]
@@ -78,7 +78,7 @@ def problem_of(xyz, elements, element, eps, numbers, reach=math.inf, height=0.0)
 
 
 def dense_flow(problem, is_wall, is_inlet):
-    """The flow by loops, without scaling of units, times R / eps."""
+    """The flow by loops, without scaled units, times R / eps."""
     R, rho, mu, dt, eps = problem.numbers
     n = len(problem.xyz)
     a, b = np.zeros((4 * n, 4 * n)), np.zeros(4 * n)
@@ -138,7 +138,7 @@ class Flow(unittest.TestCase):
                         self.assertAlmostEqual(self.flow(problem) / expected, 1, delta=1e-6)
 
     def test_duct(self):
-        """Without a valve, two lengths of a square duct differ by the resistance in closed form."""
+        """Without a valve, the resistances of two lengths of a square duct differ by the closed form."""
         R, eps, mu = 1e-3, 0.5, 0.04
         flows = []
         for n in 24, 36:
@@ -147,7 +147,7 @@ class Flow(unittest.TestCase):
             problem = problem_of(xyz, elements, hex_element(), eps, (R, 1, mu, 1), reach=length / 2 - 0.1)
             flows.append(self.flow(problem._replace(delta=0 * problem.delta)))
         series = sum(math.tanh(k * math.pi / 2) / k**5 for k in range(1, 99, 2))
-        of_length = 12 * mu / (1 - 192 / math.pi**5 * series) * eps / R  # by the side of 1
+        of_length = 12 * mu / (1 - 192 / math.pi**5 * series) * eps / R  # divided by the side, which is 1
         self.assertAlmostEqual((1 / flows[1] - 1 / flows[0]) / (12 / 6) / of_length, 1, delta=0.03)
 
     def test_sides(self):

@@ -14,7 +14,7 @@ typedef struct {
   char name[64];
   int n_nodes, n_triangles, n_open, n_close;
   int *corner; /* (3, n_triangles) */
-  /* xyz has the nodes of the .vtu, (3, n_nodes). open and close have the nodes of each frame of the two motions. */
+  /* xyz has the nodes of the .vtu file, (3, n_nodes). open and close have the nodes of each frame of the two motions. */
   double *xyz, *open, *close;
 } uris_face;
 
@@ -40,7 +40,7 @@ const double *uris_frame(const uris_face *face, const double *motion, int k);
 typedef struct {
   int n;
   double lower[3], upper[3];
-  double *middle, *normal; /* (3, n): the mean of the corners, and a normal of any length */
+  double *middle, *normal; /* (3, n): the mean of the corners; a normal of any length */
 } uris_state;
 
 /* Frame k of the closing, or of the opening, with the first n_faces faces. The caller frees it. */
@@ -49,12 +49,12 @@ uris_state uris_state_of(const uris_valve *valve, int n_faces, int is_closing, i
 uris_state uris_scaffold_of(const uris_valve *valve);
 void uris_state_free(uris_state *state);
 
-/* Returns the first of the triangles whose middle is nearest to a point, and the distance. */
+/* Returns the triangle whose middle is nearest to a point (the first of equally near ones), and the distance. */
 int uris_nearest(const uris_state *state, const double point[3], double *distance);
 /* Returns whether the point is in the box in which the solver looks for nodes. */
 int uris_is_in_box(const uris_state *state, const double point[3]);
-/* Returns the sign that the solver gives to a distance. It depends on the side of the triangle, and in a closing valve also on
- * the flow. */
+/* Returns the sign that the solver gives a distance. The sign depends on the side of the triangle, and in a closing valve
+ * also on the flow. */
 int uris_sign(const uris_valve *valve, const uris_state *state, int triangle, int is_closing, const double point[3]);
 
 #endif

@@ -4,8 +4,8 @@
 # FOLDER/root, which debootstrap makes on the first call. Every call copies the working tree's tracked files there. Packages and
 # build folders stay for the next call. If RIIS_ROOT_INPUT names a folder, its files are copied to /riis.input in the root.
 #
-# Mounts are in a namespace of their own, which ends with the last process in it. So nothing stays mounted, however this script
-# ends, and FOLDER can be removed at any time.
+# The mounts are in a separate namespace, which ends with its last process. So nothing stays mounted, however this script ends,
+# and FOLDER can be removed at any time.
 set -euo pipefail
 
 suite=$1 folder=$(realpath -m -- "$2")
@@ -24,9 +24,9 @@ if ((EUID != 0)); then
   command -v sudo >/dev/null || give_up "$suite: making a root and entering it takes root rights, and there is no sudo"
   as_root=(sudo)
 fi
-# in_namespace COMMAND...: runs the command in a namespace, where nobody else sees its mounts. All processes in the namespace end
-# with the command or with this script. Their first process waits for a lock that this script holds, so it does not matter how the
-# script ends.
+# in_namespace COMMAND...: runs the command in a namespace, where other processes do not see its mounts. All processes in the
+# namespace end with the command or with this script. The first process in it waits for a lock that this script holds, so it does
+# not matter how the script ends.
 in_namespace() {
   # shellcheck disable=SC2016
   "${as_root[@]}" unshare --mount --pid --fork --kill-child bash -c '
@@ -56,7 +56,7 @@ find_mirror() {
   host_codename=$(. /etc/os-release && [[ ${ID:-} == debian ]] && echo "${VERSION_CODENAME:-}") || host_codename=
   # Uses the first of apt's sources that has this suite, or else the source from which the host itself was installed.
   while read -r release uri entry; do
-    [[ $uri =~ ^https?:// ]] || continue # a disc or a folder is not visible inside the root
+    [[ $uri =~ ^https?:// ]] || continue # a disc or a folder of the host is not visible inside the root
     [[ $release == "$suite" || ($host_codename && $release =~ ^($host_codename|stable|oldstable|testing)$) ]] || continue
     mirror=$uri
     break
@@ -64,7 +64,7 @@ find_mirror() {
   [[ $mirror ]] || return 0
 
   file=${entry%:*} line=${entry##*:}
-  [[ $file == *.sources ]] && line='1,$' # in these files the number counts stanzas, and all stanzas share the file's key
+  [[ $file == *.sources ]] && line='1,$' # in these files the number counts stanzas, which share the file's key
   local signed_by
   signed_by=$(sed -n "${line}p" -- "$file" | grep -v '^ *#' | grep -ioPm1 'signed-by\s*[:=]\s*\K/[^], ]+' || true)
   keyring=${signed_by:-$keyring}
@@ -210,7 +210,7 @@ chroot "$root" "$@"
 mkdir -p "$folder"
 exec 9>"$folder/lock"
 flock -n 9 || give_up "$folder is in use by another call"
-((EUID == 0)) || sudo -v # so that sudo asks for the password now
+((EUID == 0)) || sudo -v # so that sudo asks for the password at once
 find_mirror
 [[ -d $root ]] || make_root
 configure_root

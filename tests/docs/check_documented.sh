@@ -58,7 +58,7 @@ documented() {
   ' | sort -u
 }
 
-# undocumented DIRECTORY HEADER...: prints the names without a description. Doxygen writes its files into the directory.
+# undocumented DIRECTORY HEADER...: prints the names without a description. Doxygen writes its files into that directory.
 undocumented() {
   local to=$1
   shift

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""check_paper.py ROOT: the paper's numbers stand in the documents that it names, its citations in its bibliography.
+"""check_paper.py ROOT: the paper's numbers must be in the documents that it names, and its citations in its bibliography.
 
-A table of numbers has the columns document and command. Each other cell with a number must be found in the document, as it is
+A table of numbers has the columns document and command. Each other cell with a number must occur in the document, as it is
 written there. Without an argument the script tests itself on invented texts.
 """
 import pathlib
@@ -32,7 +32,7 @@ def faults(paper, bibliography, read):
         if not row.get("command"):
             yield f"the row of {row['quantity']} has no command"
         value = row.get("deviation") or row.get("value")
-        # A value is a cell of its own, or the beginning of one, or it is followed by a word such as the bar.
+        # A value is a cell of its own, or the beginning of a cell, or is followed by a word such as the bar.
         if not re.search(rf"(?<![\d.,]){re.escape(value)}(?![\d.,]\d|\d)", read(row["document"])):
             yield f"{value} ({row['quantity']}) is not in {row['document']}"
     if n_rows < 10:

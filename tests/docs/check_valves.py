@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks examples/valves: its script must reproduce the file of the bicuspid valve, and the table in its README must equal the
-program's results. The table's least ratios are those at 101 openings. The check measures a fifth of these openings, where the
-least ratio can only be larger, or all with RIIS_TEST_LONG=1.
+program's results. The least ratios in the table are the ratios over 101 openings. The check measures a fifth of these
+openings, which can only give a larger least ratio. With RIIS_TEST_LONG=1 it measures all.
 
     check_valves.py EXAMPLES_VALVES PROGRAM
 """

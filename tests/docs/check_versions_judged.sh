@@ -18,7 +18,7 @@ plant() {
   tar -c -C "$source" "${names[@]}" | tar -x -C "$scratch"
 }
 
-# refuses NAME COMMAND...: the check must name the place after the command was run in the copy.
+# refuses NAME COMMAND...: after the command was run in the copy, the check must name the place.
 refuses() {
   local name=$1
   shift

@@ -3,8 +3,8 @@
 
 Every block of ```sh is run in the scratch folder, in order, and must succeed. A following block of ```text holds the commands'
 output. `check` compares it; `write` puts the new output into the tutorial. Seconds and numbers of threads are not compared.
-Another version of gmsh makes other meshes. Then only the first two words of each line are compared, without numbers: "1 edge
-crosses" may become "3 edges cross".
+Another version of gmsh makes other meshes. In this case only the first two words of each line are compared, without numbers:
+"1 edge crosses" may become "3 edges cross".
 """
 import os
 import pathlib

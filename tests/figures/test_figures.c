@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The page of figures: every figure is there with a caption. Every picture is a PNG of the size that the page gives, with more
+ * The page of figures has every figure, each with a caption. Every picture is a PNG of the size that the page gives, with more
  * than one colour. Tables of states hold the numbers of `riis states`. The page loads nothing from elsewhere. */
 #include <math.h>
 #include <riis/riis.h>
@@ -16,8 +16,8 @@
 
 enum { n_of_paper = 11, n_kinds = 4, n_figures = n_of_paper + n_kinds };
 
-/* The kinds with a table of states, and the number of openings in each. For the fifth kind, aortic, the page says that there
- * is no table. */
+/* The kinds of valves with a table of states, and the number of openings in each table. For the fifth kind, aortic, the page
+ * says that there is no table. */
 static const char *const kinds[n_kinds] = {"trileaflet", "coapting", "mitral", "bileaflet"};
 static const int n_openings[n_kinds] = {3, 2, 2, 2};
 
@@ -206,7 +206,7 @@ static int read_column(const char *kind, const char *name, double *values) {
   return n;
 }
 
-/* Expects that the row's cells are the column's numbers, and the changes of these numbers since the first. */
+/* Expects that the row's cells are the column's numbers, and the changes of these numbers since the first number. */
 static void expect_row(const char *kind, int figure, const char *row, const char *column) {
   double values[8];
   const int n = read_column(kind, column, values);
@@ -237,7 +237,7 @@ static void expect_row(const char *kind, int figure, const char *row, const char
 }
 
 TEST(test_page_stands_alone) {
-  assert_null(strstr(page, "http:")); /* encoded pictures have no colon */
+  assert_null(strstr(page, "http:")); /* colons end the encoded pictures, which contain none */
   assert_null(strstr(page, "https:"));
   assert_null(strstr(page, "<script"));
   assert_null(strstr(page, "<link"));
@@ -247,7 +247,7 @@ TEST(test_page_stands_alone) {
   assert_non_null(strstr(page, "</html>"));
 }
 
-/* Figures given by the JSON file follow the program's own figures. */
+/* Figures from the JSON file follow the program's own figures. */
 TEST(test_given_figures) {
   char start[64];
   snprintf(start, sizeof start, "<section id=\"figure-%d\">", n_figures + 1);
@@ -263,7 +263,7 @@ TEST(test_given_figures) {
   expect_picture(second, end);
 }
 
-/* Faults of the given figures are reported before anything is drawn. */
+/* Faults of these figures are reported before anything is drawn. */
 TEST(test_given_figures_refused) {
   const struct {
     const char *json, *text;

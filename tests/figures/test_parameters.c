@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The drawings that explain the parameters. Each valve's drawing names all its parameters known to riis_valve_get_parameter.
+ * The drawings that explain the parameters. Each valve's drawing names all its parameters that riis_valve_get_parameter lists.
  * So does the copy in docs/. The script refuses to draw if a parameter would be missing or have a different value. The test is
  * skipped where Python lacks matplotlib. */
 #include <ctype.h>
@@ -122,7 +122,7 @@ TEST(test_pictures_of_the_documents) {
   }
 }
 
-/* Replaces the first `old` after `mark` by `text`. Then drawing the kind must be refused with the message. */
+/* Replaces the first `old` after `mark` by `text`. A drawing of the kind must then be refused with the message. */
 static void expect_refused_drawing(const char *kind, const char *mark, const char *old, const char *text,
                                    const char *message) {
   char *json = scratch_read(scratch_path("curves.json"), NULL);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tests bench/figures/parameters: labels that overlap or leave the sheet are found, and lengths along curves are right."""
+"""Tests bench/figures/parameters: it finds labels that overlap or leave the sheet, and lengths along curves are right."""
 
 import math
 import importlib.util

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Counts the allocations of Fortran code: their caller is the program, which contains the Fortran modules, or gfortran's
- * run-time library. All allocations of the process call the functions here, since a program's symbols take precedence over
- * libraries' symbols. */
+ * run-time library. All allocations of the process call these functions, because a program's symbols precede those of
+ * libraries. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for dladdr, RTLD_DEFAULT */
 #endif

@@ -13,7 +13,7 @@ module box
   private
   public :: per_side, n_nodes, xyz, expected, expected_distance, valve, surface, make_box, free_box, get_rows, check_marking
   integer, parameter :: per_side = 21, n_nodes = per_side**3
-  real(c_double), allocatable :: xyz(:, :)             ! 2.8 cm wide, a node every 1.4 mm
+  real(c_double), allocatable :: xyz(:, :)             ! a cube of 2.8 cm with a node every 1.4 mm
   integer(int64), allocatable :: expected(:)           ! the nodes that riis_c marks, from 0
   real(c_double), allocatable :: expected_distance(:)  ! and their distances
   type(riis_valve) :: valve
@@ -37,7 +37,7 @@ contains
     call valve%destroy()
   end subroutine free_box
 
-  ! Computes the reference, if possible without module riis.
+  ! Computes the reference, without module riis if possible.
   subroutine mark_from_c()
     type(c_mark_list) :: list
     type(c_ptr) :: mesh, result

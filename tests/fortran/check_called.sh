@@ -13,7 +13,7 @@ if [ "$(wc -l <<<"$functions")" -ne "$(grep -h -v '^#define' "${headers[@]}" | g
   echo "$header has declarations that this script does not understand" >&2
   exit 1
 fi
-# The object files' undefined symbols are the functions that they call.
+# The functions that the object files call are their undefined symbols.
 called=$(nm -u "$@" | awk '$1 == "U" && $2 ~ /^riis_/ { print $2 }' | sort -u)
 uncalled=$(comm -23 <(sort <<<"$functions") <(echo "$called"))
 if [ -n "$uncalled" ]; then

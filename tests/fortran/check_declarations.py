@@ -3,8 +3,8 @@
 declarations of its types and functions (-fc-prototypes). The C compiler compares the fields of the structs, their types and
 places, and the constants. This script compares the names, order and types of the arguments. Planted faults must be refused.
 
-Other Fortran compilers do not write C declarations: the test is then skipped (77). The comparison does not depend on the
-compiler, because the types and functions are BIND(C)."""
+Other Fortran compilers do not write C declarations, so the test is skipped with them (77). The comparison does not
+depend on the compiler, because the types and functions are BIND(C)."""
 
 import os
 import re
@@ -18,7 +18,7 @@ from header import Header
 # The C types of Fortran's kinds. c_int64_t is long or long long.
 TYPES = {"int64_t": ("long", "long long"), "int32_t": ("int",), "uint8_t": ("signed char",), "double": ("double",),
          "riis_status": ("int",), "char": ("char",)}
-# Each fault is planted in riis_c.f90: the old text, the new text, and the complaint.
+# Each fault is planted in riis_c.f90, and consists of the old text, the new text and the complaint.
 SIZE = "    integer(c_int64_t) :: struct_size\n"
 PROGRESS, PRESSURE = "    real(c_double) :: progress\n", "    real(c_double) :: pressure_difference\n"
 FAULTS = (
@@ -97,8 +97,8 @@ def reader_compared(header):
 
 
 def types_of(type_, is_value):
-    """Returns the C types that gfortran may write for an argument. An address in a type(c_ptr) is passed by value; the address of
-    a type(c_ptr), which the library writes, is not. gfortran writes both as void *."""
+    """Returns the C types that gfortran may write for an argument. An address in a type(c_ptr) is passed by value. The address of
+    a type(c_ptr) that the library writes is not. gfortran writes both as void *."""
     if type_.stars == 0:
         return [f"{kind} " for kind in TYPES.get(type_.base, ())] or ["int (*"]
     bases = TYPES.get(type_.base, (type_.base,))
@@ -126,7 +126,7 @@ def functions_compared(header, text, source):
 
 
 def judge(folder, sources, compilers, source):
-    """Returns the complaints about a text of riis_c.f90, and how many things were compared."""
+    """Returns the complaints about a text of riis_c.f90, and the number of compared things."""
     path, check = os.path.join(folder, "riis_c.f90"), os.path.join(folder, "declarations.c")
     with open(path, "w", encoding="utf-8") as file:
         file.write(source)

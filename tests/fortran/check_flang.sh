@@ -16,7 +16,7 @@ for name in "${modules[@]}"; do
 done
 link=("$library" "-Wl,-rpath,$(dirname "$library")")
 tests=$source/tests/fortran
-# The interface intentionally takes pointers to arrays without the target attribute. flang warns about this.
+# The interface intentionally takes pointers to arrays without the target attribute, and flang warns about this.
 for name in checks box; do
   "$flang" -O1 -c "$tests/$name.f90"
 done

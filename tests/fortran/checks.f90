@@ -42,7 +42,7 @@ contains
       riis_c_text(riis_last_error()))
   end subroutine check_refused
 
-  ! Returns whether two numbers have the same bits. By value, -0 would be equal to 0, and NaN would differ from itself.
+  ! Returns whether two numbers have the same bits. As values, -0 would equal 0, and NaN would differ from itself.
   elemental function same(a, b)
     real(c_double), intent(in) :: a, b
     logical :: same

@@ -92,7 +92,7 @@ contains
       lbound(fields%velocity, 2) == 1 .and. size(fields%velocity, 2) == size(node_id), 'pointers count from 1')
   end subroutine one_step
 
-  ! Calls that do copy must be counted, so the count can fail.
+  ! Calls that do copy must be counted, to show that the count can fail.
   subroutine test_counting()
     integer, allocatable :: node_num(:)
     call allocations_begin()

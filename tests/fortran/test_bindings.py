@@ -268,7 +268,7 @@ class Functions(Planted):
         self.assertIn("function riis_planted(n)", self.text(MODULE))
 
     def test_what_c_leaves_open_is_asked_for(self):
-        """If riis.h leaves something open, the refusal names all gaps at once, with the lines to fill in."""
+        """If riis.h leaves something open, the refusal lists all gaps at once, with the lines to fill in."""
         line = self.plant_function("int64_t *n, const double *x,\n    const int64_t **ids, const riis_csr *csr, int32_t k")
         place = f"{self.planted}:{line}: riis_valve_planted: {TABLE} does not say of"
         pointer = "'required', or 'optional' where it may be NULL, with 'scalar', (*) or (3); or else 'borrowed'"

@@ -92,7 +92,7 @@ contains
     call check(.not. c_associated(marks) .and. .not. c_associated(valve), 'destroying sets handles to NULL')
   end subroutine test_marking
 
-  ! A triangle without area, which the options keep, is worth a warning.
+  ! A triangle without area that the options accept gives a warning.
   subroutine test_log()
     type(captured), target :: log
     type(riis_surface_arrays) :: arrays

@@ -59,5 +59,5 @@ program test_f2003
   call mesh%destroy()
   call surface%destroy()
   call valve%destroy()
-  deallocate (node_num) ! a main program's variables keep their memory, which the leak sanitizer would report
+  deallocate (node_num) ! variables of a main program keep their memory, which the leak sanitizer would report
 end program test_f2003

@@ -85,7 +85,7 @@ contains
     call surface%update_from_keyframes(keyframes, 9d0)
     call check_height(surface, 0d0, 0d0, 'at rest behind the last key')
 
-    ! The velocities have the same address as the library's own.
+    ! The velocities have the same address as the library's array.
     n = 0
     of_c = c_null_ptr
     call surface%get_triangles(all_triangles)
@@ -100,7 +100,7 @@ contains
     call others%create(time, frames, int(halves - 1, int64), [7, 8], index_base=0, interpolation=RIIS_INTERPOLATION_CUBIC)
     call surface%create_from_keyframes(others, 0.25d0, 0d0, .true., 0.2d0, 0.1d0, 1d0, [0d0, 0d0, 1d0], 0d0, &
       [0d0, 0d0, 0d0], .false., 1)
-    ! The slope is the weighted harmonic mean of the slopes on either side.
+    ! The slope is the weighted harmonic mean of the slopes on both sides.
     call check_height(surface, 0.1d0, 2 / (1 / 0.4d0 + 1 / 0.8d0), 'cubic')
     call surface%destroy()
     call surface%create_from_keyframes(keyframes, 0.25d0)
@@ -194,7 +194,7 @@ contains
     call keyframes%destroy()
   end subroutine test_bad_keyframes
 
-  ! Velocities are given by xyz or by x, y, z, with ids of either kind, when the surface is made and later. The placement turns
+  ! Velocities are given as xyz or as x, y, z, with ids of either kind, when the surface is made and later. The placement turns
   ! the velocities about z and doubles them.
 
   ! Landmarks on the attachment of a placed valve are widened and lifted. The warped valve is larger by the same factors.
@@ -272,7 +272,7 @@ contains
     call again%destroy()
   end subroutine test_warps
 
-  ! Returns whether a point differs from all others.
+  ! Returns whether a point differs from all other points.
   pure logical function is_new(others, point)
     real(c_double), intent(in) :: others(:, :), point(3)
     integer :: k

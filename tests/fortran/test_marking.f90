@@ -50,7 +50,7 @@ contains
     call check(all(node_id == expected) .and. all(same(distance, expected_distance)), 'its pointers')
     call check(minval(triangle_id) >= 0 .and. any(leaflet_id == RIIS_LEAFLET_NON_CORONARY), 'its triangles and leaflets')
 
-    ! Copies into arrays that are unallocated, too short, too long, or of the right size.
+    ! Copies into arrays that are not allocated, too short, too long, or of the right size.
     call result%marked_nodes(node_num, distances, triangles, leaflets)
     call check(all(node_num == expected + 1) .and. all(same(distances, distance)) .and. all(triangles == triangle_id) &
       .and. all(leaflets == leaflet_id), 'its copies, counted from 1')
@@ -66,7 +66,7 @@ contains
     call result%marked_nodes(node_num, distances, triangles, leaflets)
     call check(all(node_num == expected + 1) .and. all(same(distances, distance)), 'copies over copies')
 
-    ! The distance limit is wider than the half thickness. The options that are integers may be of either kind.
+    ! The distance limit is wider than the half thickness. Options that are integers may be of either kind.
     call riis_mark_nodes(surface, mesh, result, distance_limit=0.3d0, search=int(RIIS_SEARCH_EXHAUSTIVE, int64), &
       n_threads=1_int64)
     n = result%n_within_limit()
@@ -259,7 +259,7 @@ contains
     n = list%n_edges
   end function n_of
 
-  ! Passages in the box, with masks and numbers of every kind. A lone node is a region of its own.
+  ! Passages in the box, with masks, and with numbers of every kind. A lone node is a region of its own.
   subroutine test_passages()
     type(riis_surface) :: thin
     type(riis_mesh) :: joined
@@ -397,7 +397,7 @@ contains
     call check(.not. (a%is_created() .or. c%is_created() .or. e%is_created()), 'an empty copy is empty')
   end subroutine test_assignment
 
-  ! All threads read one surface and one mesh. Each has a result and an error message of its own.
+  ! All threads read one surface and one mesh. Each has its own result and its own error message.
   subroutine test_threads()
     integer, parameter :: n_parts = 8
     logical :: is_right(n_parts)

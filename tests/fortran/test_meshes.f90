@@ -372,7 +372,7 @@ contains
     type(riis_mark_stats) :: stats
     call mesh%set_adjacency(adjacency)
     call check_marking(mesh, what, RIIS_SEARCH_NEIGHBOR)
-    ! Neighbours were used: the walk along them reaches all nodes, except the nodes that the search's final check finds.
+    ! The walk along neighbours reached all nodes, except the nodes that the search's final check finds.
     call riis_mark_nodes(surface, mesh, result, search=RIIS_SEARCH_NEIGHBOR)
     call result%get_stats(stats)
     call check(stats%search == RIIS_SEARCH_NEIGHBOR .and. stats%complete == 1 .and. &

@@ -342,7 +342,7 @@ contains
     call surface%destroy()
   end subroutine test_patches
 
-  ! Some options may be of either integer kind, others of one kind only.
+  ! Some options may be of either integer kind, other options only of one kind.
   subroutine test_options()
     type(riis_valve) :: valve
     type(riis_surface) :: surface
@@ -404,7 +404,7 @@ contains
     call check_address(xyz, c_xyz, 'the vertices are the library''s own')
     call check(size(vertex_id, 2) == n .and. minval(vertex_id) == 0, 'the corners count from 0')
 
-    ! Options that are left out stay as they were. Options that are given replace the surface's.
+    ! Options that a call leaves out stay as they were. Options that a call gives replace the surface's options.
     call surface%update(valve)
     call surface%get_info(again)
     call check(same(again%half_thickness, info%half_thickness) .and. all(same(again%lower, info%lower)), 'all options stay')
@@ -430,7 +430,7 @@ contains
     call valve%destroy()
   end subroutine test_surface
 
-  ! Another method of measuring distances is chosen when a surface is made, or later. The surface keeps it.
+  ! Another method for distances is chosen when a surface is made, or later. The surface keeps it.
   subroutine test_distances()
     type(riis_valve) :: valve
     type(riis_surface) :: by_triangles, by_other

@@ -103,7 +103,7 @@ contains
     call test_wrong_landmarks()
   end subroutine test_refusals
 
-  ! These are a person's usual faults at the first try.
+  ! These are the usual faults at a person's first try.
   subroutine test_wrong_landmarks()
     type(riis_valve) :: valve
     type(riis_placement) :: placement

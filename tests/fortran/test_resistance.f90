@@ -39,7 +39,7 @@ program test_resistance
 
 contains
 
-  ! Makes the square from -1 to 1 at z = 0. It came from z = -0.01 in 2 ms, so u = 5 upwards.
+  ! Makes the square from -1 to 1 at z = 0. It comes from z = -0.01 in 2 ms, so u is 5 upwards.
   subroutine make_plate()
     type(riis_valve) :: square
     real(c_double) :: corners(3, 4)
@@ -90,7 +90,8 @@ contains
     call still%get_triangles(all_triangles)
     from => all_triangles%xyz
     call check(size(velocity, 2) == size(to, 2) .and. size(from, 2) == size(to, 2), 'a velocity for every vertex')
-    ! The parameters u and v of a vertex depend on the opening. So the displacements follow the same vertex only to second order.
+    ! The parameters u and v of a vertex depend on the opening. The displacements therefore follow the same vertex only to second
+    ! order.
     call check(maxval(abs(velocity - (to - from) / 0.25d0)) < 0.02d0 * maxval(abs(velocity)), 'the way by the time')
     allocate (forth, source=velocity)
     call moving%update_moving(now, before, -0.25d0)
@@ -211,7 +212,7 @@ contains
     call moving%destroy()
   end subroutine test_motion_errors
 
-  ! The derivatives in two directions of the placement follow from closest points on a rigid body.
+  ! Derivatives in two directions of the placement follow from closest points on a rigid body.
   subroutine test_directions()
     type(riis_surface) :: moving
     type(riis_valve) :: mitral, none

@@ -45,7 +45,7 @@ void expect_part(const std::vector<Found> &found, const std::vector<Found> &whol
            static_cast<long long>(one.node), one.distance);
 }
 
-// Returns every node within the limit, found by a query for each node's closest point.
+// Returns every node within the limit, by a query for each node's closest point.
 std::vector<Found> expected_of(const riis_surface *surface, const Nodes &nodes, double limit,
                                const std::uint8_t *mask) {
   const riis_triangles t = triangles_of(surface);
@@ -78,7 +78,7 @@ void check_dense(const riis_marks *result, std::int64_t n_nodes, const std::vect
     expected_distance[static_cast<std::size_t>(one.node)] = one.distance;
     expected_triangle[static_cast<std::size_t>(one.node)] = one.triangle_id;
   }
-  // The far distance is -1, because a far distance within the limit would be refused, and limits go up to 1e60.
+  // The far distance is -1, because limits go up to 1e60, and a far distance within the limit would be refused.
   if (dense_of(result, n_nodes, -1, mark.data(), distance.data(), triangle.data(), nullptr) != RIIS_OK)
     EXPECT(false, "%s", riis_last_error());
   std::replace(expected_distance.begin(), expected_distance.end(), RIIS_FAR_DISTANCE, -1.0);
@@ -139,7 +139,7 @@ void check_marking(Input &in, const riis_surface *surface, const MeshSlot &mesh,
   for (std::size_t i = 0; i < marked.size(); ++i) EXPECT(marked[i].distance <= info.half_thickness, "%zu", i);
   if (mesh.was_told) check_fields(surface, *mesh.nodes, options.fields, slot.handle);
 
-  // The node moved without an update, so there is nothing to compare with.
+  // The node moved without an update, so no result can be compared.
   for (std::int64_t i = 0; i < mesh.nodes->n; ++i)
     for (const double x : (*mesh.nodes)[i])
       if (!(std::abs(x) <= 1e60)) return;

@@ -9,7 +9,7 @@
 namespace fuzz {
 namespace {
 
-// Returns a struct of bytes 0x5a, which a refused call must leave as they are.
+// Returns a struct of bytes 0x5a. A refused call must not change it.
 template <class Struct>
 Struct filled() {
   Struct made;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The handles of a sequence of calls, the memory that the handles borrow, and the functions that make the calls. Each call runs
-// in some floating-point environment, and the promises that hold after any call are checked.
+// in some floating-point environment. After each call, the promises that hold for all calls are checked.
 #pragma once
 
 #include <riis/riis.h>
@@ -82,7 +82,7 @@ riis_status call(Input &in, const Call &make_call) {
     EXPECT(status_ == RIIS_OK, "%s: %s", riis_status_name(status_), riis_last_error()); \
   } while (0)
 
-// Makes a call that creates an object. It must write the handle if it succeeds, and only then.
+// Makes a call that creates an object. If it succeeds, it must write the handle, otherwise not.
 template <class Handle, class Make>
 Handle *made_by(Input &in, const Make &make) {
   auto *const untouched = reinterpret_cast<Handle *>(0x5a5a5a5a5a5a5a50);
@@ -155,7 +155,7 @@ struct State {
   State &operator=(const State &) = delete;
   ~State();
 
-  // Returns a handle of another kind than the given one, to be passed where it does not belong. Returns NULL if there is none.
+  // Returns a handle of another kind than the given handle, to be passed in the wrong place. Returns NULL if there is none.
   enum Kind { valve, surface, mesh, adjacency, result, leak, crossing, n_kinds };
   void *handle_of_another_kind(Input &in, Kind but) const;
 };

@@ -55,7 +55,7 @@ riis_surface_options options_of(Input &in) {
   return options;
 }
 
-// Makes a fine sampling of distances coarse, because it takes as much time as fine triangles.
+// Makes a fine sampling of distances coarse, because it takes as long as fine triangles do.
 void make_distance_coarse(double size, riis_surface_options &options) {
   if (options.measure == RIIS_MEASURE_TRIANGLES || options.measure_tolerance == RIIS_AUTO) return;
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
@@ -76,7 +76,8 @@ double size_of(const ValveSlot &slot) {
   return size > 0 ? size : slot.size;
 }
 
-// Millions of triangles would waste the fuzzer's time. So the tolerance is made coarse, or so fine that it must be refused.
+// Millions of triangles would waste the fuzzer's time. The tolerance is therefore made coarse, or so fine that it must be
+// refused.
 void make_coarse(Input &in, double size, riis_surface_options &options) {
   const double half_thickness = options.half_thickness == RIIS_AUTO ? 0.1 * options.scale : options.half_thickness;
   const double ratio = options.tolerance * half_thickness / options.scale / size;
@@ -86,7 +87,7 @@ void make_coarse(Input &in, double size, riis_surface_options &options) {
   options.half_thickness = 0.03 * size * options.scale;
 }
 
-// Returns all data of a surface that can be read, without times.
+// Returns all data of a surface that can be read, except times.
 std::vector<double> picture_of(const riis_surface *surface) {
   riis_surface_info info;
   EXPECT_OK(riis_surface_get_info(surface, &info, sizeof info));

@@ -69,7 +69,7 @@ std::vector<double> values_of(const riis_valve *valve) {
     std::int32_t is_set = -1;
     EXPECT_OK(riis_valve_is_set(valve, parameter.name, &is_set));
     EXPECT(is_set == 0 || is_set == 1, "%s: is_set is %d", parameter.name, is_set);
-    // A value by a rule may be outside the range. Then no surface can be made.
+    // A value that follows a rule may be out of range. No surface can then be made.
     for (std::int64_t k = 0; k < parameter.n_values && (is_set || !*parameter.rule); ++k)
       EXPECT(values[k] >= parameter.minimum && values[k] <= parameter.maximum, "%s is %g", parameter.name, values[k]);
     all.insert(all.end(), values, values + 3);

@@ -3,7 +3,7 @@
 # Runs the fuzzing harnesses.
 #   fuzz.sh test BUILD_DIR HARNESS             runs one harness for RIIS_FUZZ_TEST_SECONDS (9) and keeps only findings
 #   fuzz.sh all BUILD_DIR SECONDS N_JOBS OUT   runs all harnesses for SECONDS altogether, N_JOBS at a time, and prints a table.
-#                                              OUT keeps their corpora for the next time, their logs and their findings.
+#                                              OUT keeps their corpora for the next run, their logs and their findings.
 # RIIS_FUZZ_SEED is the seed of the mutations: 1 by default; "random" draws one. The seed is printed. The script fails if there is
 # a finding.
 set -euo pipefail
@@ -18,8 +18,8 @@ declare -A shares=([api]=8 [vtk]=4 [vtu]=3 [vtp]=3 [pvd]=1 [pvtu]=1 [json]=3 [st
   [msh]=2 [xdmf]=1 [foam]=2)
 harnesses=(api vtk vtu vtp pvd pvtu json stl obj ply command_line cycle msh xdmf foam)
 
-# options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input and the
-# memory, most of which the address sanitizer keeps for itself. No input of the allowed size should reach these limits.
+# options HARNESS SECONDS: prints the options for every run of a harness. They limit the seconds for a single input, and
+# the memory, most of which the address sanitizer needs itself. No input of the allowed size should reach these limits.
 options() {
   local max_len=4096 dictionary=$1
   case $1 in
@@ -33,15 +33,15 @@ options() {
       ;;
     vtu | vtp | pvd | pvtu | xdmf) dictionary=xml ;;
   esac
-  # VTK's readers leak on inputs that they refuse. A check for leaks after each such input would take all the time, so leaks are
-  # checked only at the end.
+  # VTK's readers leak on inputs that they refuse. A check for leaks after each such input would take all of the time, so leaks
+  # are checked only at the end.
   [[ $1 != vt? && $1 != pvd && $1 != pvtu && $1 != stl ]] || echo -detect_leaks=0
   printf '%s\n' -max_total_time="$2" -max_len=$max_len -timeout=300 -rss_limit_mb=4000 -malloc_limit_mb=4000 -print_final_stats=1
   [[ ! -f $here/$dictionary.dict ]] || echo -dict="$here/$dictionary.dict"
 }
 
 # fuzz HARNESS SECONDS FINDINGS CORPUS...: runs a harness and adds new inputs to the first corpus. The run is split into several
-# processes, each with a seed of its own, because VTK's leaks add up.
+# processes, each with its own seed, because VTK's leaks add up.
 fuzz() {
   local name=$1 left=$2 findings=$3 arguments now number=0
   shift 3
@@ -83,7 +83,7 @@ run_all() {
     ((mine >= 1)) || mine=1
     given[$name]=$mine
     mkdir -p "$out/$name/corpus" "$out/$name/findings"
-    # The run begins with the earlier findings. It reports them again unless they were fixed.
+    # The run begins with the earlier findings. It reports them again, unless their faults were corrected.
     find "$out/$name/findings" -type f -exec mv -t "$out/$name/corpus" {} +
     echo "$name: $mine s"
     fuzz "$name" "$mine" "$out/$name/findings" "$out/$name/corpus" "$here/corpus/$name" >"$out/$name/log" 2>&1 </dev/null &

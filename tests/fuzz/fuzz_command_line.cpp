@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the program's command line. Each line of the input is an argument. No file is opened. Parameters of --set are set.
+// Fuzzes the program's command line. Each line of the input is an argument. No file is opened. The parameters of --set are set.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes files of meshes, surfaces and motions in the format RIIS_FUZZ_ENDING. A file is read whole, or refused with the file's
-// name and a reason. The content must be usable: nodes make a mesh or are refused for their coordinates, cells make an adjacency,
-// faces make a surface, frames make keyframes.
+// Fuzzes files of meshes, surfaces and motions in the format RIIS_FUZZ_ENDING. A file is read completely, or refused with the
+// file's name and a reason. The content must be usable: nodes make a mesh or are refused because of their coordinates, cells
+// make an adjacency, faces make a surface, and frames make keyframes.
 #include <riis/riis_vtk.h>
 
 #include <cstddef>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes cases of OpenFOAM. The input has the files of a case one after the other. Each begins with a line such as
-//   === points                 the file constant/polyMesh/points
-//   === 0.5/points             the file 0.5/polyMesh/points
-//   === processor1/owner.gz    the file processor1/constant/polyMesh/owner.gz, which the harness compresses
-//   === faces.gz as it is      the file constant/polyMesh/faces.gz, compressed in the input
-// The case and its time 0.5 are read whole, or refused with the case's name and a reason. A mesh that is read takes fields at its
-// cells' centres, or is refused.
+// Fuzzes cases of OpenFOAM. The input contains the files of a case one after the other. Each begins with
+//   a line such as === points the file constant/polyMesh/points === 0.5/points the file
+//   0.5/polyMesh/points === processor1/owner.gz the file processor1/constant/polyMesh/owner.gz, which
+//   the harness compresses === faces.gz as it is the file constant/polyMesh/faces.gz, compressed in the
+//   input
+// The case and its time 0.5 are read completely, or refused with the case's name and a reason. A mesh that was read takes
+// fields at the centres of its cells, or is refused.
 #include <riis/riis_vtk.h>
 #include <vtk_zlib.h>
 
@@ -81,7 +81,7 @@ std::string compressed(std::string_view content) {
   return packed;
 }
 
-// Removes the end of a text if the text has it.
+// Removes this end of a text, if the text has it.
 bool take_end(std::string_view &text, std::string_view end) {
   if (text.size() < end.size() || text.substr(text.size() - end.size()) != end) return false;
   text.remove_suffix(end.size());
@@ -140,7 +140,7 @@ void write_field(riis_vtk_mesh *mesh) {
   const std::vector<double> values(static_cast<std::size_t>(n_cells), 0.5);
   EXPECT(riis_vtk_mesh_set_point_array(mesh, "K", n_cells, 1, values.data()) == RIIS_OK, "%s", riis_last_error());
   const std::string time = the_case().path("0.25");
-  // If the whole mesh is missing, this is no time of a case, and would be written as a .vtu file.
+  // If the whole mesh is missing, the folder is no time of a case, and the field would be written as a .vtu file.
   if (!fs::exists(the_case().path("constant"))) return;
   fuzz::is_fine(riis_vtk_mesh_write(mesh, time.c_str()), RIIS_FILE_ERROR, name);
 }

@@ -43,7 +43,8 @@ class Input {
 
   bool one_in(int n) { return below(n) == n - 1; }
 
-  // Chooses one of three handles. Most choices are the first handle, so that handles of the same slot are used together.
+  // Chooses one of three handles. The first handle is the most frequent choice, so that handles of the same slot are used
+  // together.
   std::size_t slot() {
     const int k = byte();
     return static_cast<std::size_t>(k < 208 ? 0 : k % 3);

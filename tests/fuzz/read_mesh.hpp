@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh. A mesh is read whole, or refused with its name and a reason. The content must be usable: nodes make a mesh or are
-// refused for their coordinates, and cells make an adjacency.
+// Reads a mesh. A mesh is read completely, or refused with its name and a reason. The content must be usable: nodes make a mesh
+// or are refused because of their coordinates, and cells make an adjacency.
 #pragma once
 
 #include <riis/riis_vtk.h>
@@ -13,7 +13,7 @@
 
 namespace fuzz {
 
-// Returns whether the status is RIIS_OK. Any other status must be a refusal of one of two kinds, with a message. A refused file
+// Returns whether the status is RIIS_OK. Any other status must be one of two kinds of refusal, with a message. A refused file
 // must be `named` in the message.
 inline bool is_fine(riis_status status, riis_status refusal, const char *named) {
   if (status == RIIS_OK) return true;

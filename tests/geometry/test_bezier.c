@@ -58,7 +58,8 @@ TEST(arc_length_of_known_curves) {
   /* The length of y = x^2 on [0,1] is (2 sqrt 5 + asinh 2) / 4. */
   const double parabola[9] = {0, 0, 0, 0.5, 0, 0, 1, 1, 0};
   CHECK_NEAR(bezier_arc_length(2, parabola, 0, 1), (2 * sqrt(5.0) + asinh(2.0)) / 4, 1e-12);
-  /* A curve that goes out and back on a line. The speed is zero at the turning point, so the length is twice the distance to it.
+  /* A curve that goes out and back on a line. The speed is zero at the turning point, so the length is twice the distance to this
+   * point.
    * */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   CHECK_NEAR(bezier_arc_length(2, there_and_back, 0, 1), 1, 1e-11);
@@ -184,7 +185,7 @@ TEST(flattening_takes_few_points) {
   const double k = 0.5522847498, quarter[12] = {1, 0, 0, 1, k, 0, k, 1, 0, 0, 1, 0};
   assert_int_equal(n_flattened(3, quarter, 0.0055), 9);
   assert_int_equal(n_flattened(3, quarter, 0.0014), 17);
-  /* A curve that turns on the spot, where curvature gives no bound. */
+  /* A curve may turn on the spot, where curvature gives no bound. */
   const double there_and_back[9] = {0, 0, 0, 1, 0, 0, 0, 0, 0};
   assert_true(n_flattened(2, there_and_back, 1e-3) < 100);
   double *points, *t, *errors;

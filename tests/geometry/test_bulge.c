@@ -45,8 +45,8 @@ TEST(is_nothing_where_base_and_edge_touch) {
 }
 
 /* Edges have any shape, even single points, and bases have joints. Some edges run so near the base that W is parallel to the base
- * in places, or nearly so. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. On short
- * ranges the bound is not much too large, except for edges near the base. */
+ * in places, or nearly parallel. Units range from 1e-6 to 1e6. O never deviates from a linear function by more than the bound. On
+ * short ranges the bound is not much too large, except for edges near the base. */
 TEST(stays_within_the_bound) {
   double sum_of_ratios = 0, sum_without_points = 0;
   int n_ranges = 0, n_without_points = 0;

@@ -75,7 +75,7 @@ TEST(nearly_equal_parameters_share_a_line) {
   const double *const points[4] = {v0, v1, u0, u1};
   quad_grid apart = coons_grid(n, points, 1e-6), together = coons_grid(n, points, 1e-3);
   const int64_t n_apart = apart.n_u, n_together = together.n_u;
-  /* Both vertices are still there, to the last bit: a neighbour that shares the side also has both. */
+  /* Both vertices are still there, to the last bit, because a neighbour on this side also has both. */
   const int kept = memcmp(together.points + 3, v0 + 3, 3 * sizeof(double)) == 0 &&
                    memcmp(together.points + 3 * (n_together + 1), v1 + 3, 3 * sizeof(double)) == 0;
   quad_grid_free(&apart);
@@ -125,7 +125,7 @@ static double distance_to_line_of_quad(const double (*q)[3], double t, const dou
 }
 
 /* Returns the distance to the bilinear quad, at most 2e-7 above the true value and never below it. Between t and t', no point
- * of a segment moves by more than |t - t'| times the longer side along t. So the distance at an interval's middle shows
+ * of a segment moves by more than |t - t'| times the longer side along t. So the distance at the middle of an interval shows
  * whether the interval can contain the nearest point. If it can, the interval is halved. (A search that follows only its best
  * point can end in another minimum.) */
 static double distance_to_bilinear(const double (*q)[3], const double *p) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Compares the library's test of whether a segment meets a triangle with exact integer arithmetic. Segments are in general
- * position, pass through corners or sides, miss them by less than doubles resolve, or lie in the triangle's plane. Units vary. */
+ * position, pass through corners or sides, miss them by less than doubles can resolve, or lie in the triangle's plane. Units
+ * vary. */
 #include "crossing_oracle.h"
 #include "internals.h"
 #include "test_support.h"
@@ -42,7 +43,7 @@ static void random_triangle(sample *s, int64_t largest) {
   while (!has_area(s->abc));
 }
 
-/* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are barely large enough not to count
+/* Returns the exponent of a random unit 2^exponent. With the smallest exponent, coordinates are just large enough not to count
  * as 0. With the largest exponent they reach 1e60. */
 static int random_exponent(int bits) { return -298 + (int)(random_bits(&rng) % (uint64_t)(298 + 199 - bits)); }
 
@@ -63,7 +64,7 @@ TEST(small_numbers_meet_in_every_way) {
   assert_true(n_met > n / 10 && n_met < n * 9 / 10 && n_in_plane > n / 10);
 }
 
-/* A segment passes through a triangle's corner, a point of its side, or an inner point. That point is rounded to whole
+/* A segment passes through a triangle's corner, a point of its side, or an inner point. This point is rounded to whole
  * numbers, and one end of the segment is off by at most 1. */
 TEST(numbers_of_38_bits_are_told_apart) {
   int n_met = 0;
@@ -88,7 +89,7 @@ TEST(numbers_of_38_bits_are_told_apart) {
   assert_true(n_met > n / 5 && n_met < n * 4 / 5);
 }
 
-/* A fan of triangles around a corner has no hole: a segment through a point inside the fan meets at least one triangle. */
+/* A fan of triangles around a corner has no hole, so a segment through a point inside the fan meets at least one triangle. */
 TEST(a_fan_has_no_hole) {
   enum { n_sides = 7 };
   for (int trial = 0; trial < 20000; ++trial) {
@@ -98,7 +99,7 @@ TEST(a_fan_has_no_hole) {
       corners[k][0] = cos(angle), corners[k][1] = sin(angle), corners[k][2] = random_between(&rng, -0.1, 0.1);
     }
     for (int i = 0; i < 3; ++i) centre[i] = random_between(&rng, -0.01, 0.01);
-    /* One end of the segment is above and one below the fan's centre, or a point of a spoke, up to rounding. */
+    /* One end of the segment is above the fan's centre or a point of a spoke, and the other end is below, up to rounding. */
     const int spoke = trial % n_sides;
     const double share = trial % 3 ? 0 : random_between(&rng, 0, 0.3), tilt = random_between(&rng, -0.1, 0.1);
     for (int i = 0; i < 3; ++i) {

@@ -85,7 +85,7 @@ TEST(parts_are_parts) {
       CHECK_AT_MOST(distance(of_part, of_whole), 1e-10);
     }
   }
-  /* If a cut is at a joint, the part contains nothing of the neighbouring piece. */
+  /* If a cut is at a joint, the part contains nothing of the next piece. */
   double control[12 * max_pieces], part[12 * max_pieces], first = 0;
   int64_t n = 0;
   while (n < 3) n = random_chain(control);

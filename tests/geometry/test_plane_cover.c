@@ -19,7 +19,7 @@ TEST(test_circle) {
   for (int n = 64; n <= n_lines; n *= 2) {
     const double error = fabs(shim_circle_area(radius, centre, n) / area - 1);
     CHECK_AT_MOST(error, pow(n, -1.5));
-    CHECK_AT_MOST(error, last / 2.5); /* doubling the lines divides the error by nearly 2 to the power of 1.5 */
+    CHECK_AT_MOST(error, last / 2.5); /* twice as many lines divide the error by nearly 2 to the power of 1.5 */
     last = error;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 0, NULL, n), shim_circle_area(radius, centre, n), 1e-13);
   }
@@ -46,7 +46,7 @@ TEST(test_ring) {
     }
     const double area = 0.5 * m * hole * hole * sin(step), spacing = 2 * radius / n_lines;
     /* The first tolerance is for a round hole, whose edge crosses all lines. Two edges of the hole may be parallel to the lines.
-     * The place of each then has an error of half a spacing. */
+     * The place of such an edge then has an error of half a spacing. */
     const double bound = area * pow(2 * hole / spacing, -1.5) + spacing * hole * step;
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 2 * m, corners[0], n_lines), area, bound);
   }
@@ -65,7 +65,7 @@ TEST(test_half) {
     rotated(20, up, angle, centre, corners + 2);
     rotated(0, 40, angle, centre, corners + 4);
     const double part = radius * radius * acos(-up / radius) + up * sqrt(radius * radius - up * up);
-    const double strip = 2 * radius * radius / n_lines; /* area of a strip of half a spacing by twice the radius */
+    const double strip = 2 * radius * radius / n_lines; /* area of a strip, half a spacing by twice the radius */
     CHECK_NEAR(shim_uncovered_circle(radius, centre, 1, corners, n_lines), part, strip + 1e-5);
   }
 }
@@ -120,7 +120,7 @@ TEST(test_open_lines) {
   assert_true(shim_uncovered_inside(3, near_y[0], 0, NULL, n_lines) == -1);
 }
 
-/* A round plate in the circle grows, so that the ring around it shrinks. Or a plate with a round hole grows, so that the hole
+/* A round plate in the circle grows, so the ring around it shrinks. Or a plate with a round hole grows, so the hole
  * shrinks. */
 TEST(test_growing) {
   enum { m = 720 };
@@ -146,7 +146,7 @@ TEST(test_growing) {
     const double area = is_plate ? pi * (radius * radius - edge * edge) : pi * edge * edge;
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), area, 2e-4 * pi * radius * radius);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, reach), 2 * pi * edge,
-               16 * radius / n_edge_lines); /* one spacing for the end of each of eight arcs */
+               16 * radius / n_edge_lines); /* one spacing for each end of eight arcs */
     CHECK_NEAR(shim_area_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
     CHECK_NEAR(shim_edge_beyond(radius, centre, 2 * m, xy, 2 * m, ids, 2 * radius), 0, 0);
   }

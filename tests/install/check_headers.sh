@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_headers.sh WORK_DIR CC CXX INCLUDE_DIR HEADER...
-# Every public header must compile alone, and also if it is included twice. Headers *.h must compile as strict C99 and as C++17,
-# and be usable from both. Headers *.hpp must compile as C++17.
+# Every public header must compile alone, even if it is included twice. Headers *.h must compile as strict C99 and as C++17, and
+# be usable from both. Headers *.hpp must compile as C++17.
 set -euo pipefail
 work=$1 cc=$2 cxx=$3 include=$4
 shift 4

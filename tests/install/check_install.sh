@@ -1,12 +1,12 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # check_install.sh SOURCE_DIR BUILD_DIR WORK_DIR shared|static [VTK] [Fortran] [program]
-# Installs a build tree to a fresh prefix and uses it as an outside project would. Examples are built outside the tree by CMake
-# and by pkg-config, and run. Each example must print the same in C and in Fortran. The prefix is then moved, and the examples are
-# built again. After the last move all examples are built, before that only two. A staged (DESTDIR) install must hold the same
-# files and no path of its stage. The programs of stranger/, one in each language, must mark the same bits as the C program that
-# the build tree has. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the program test_plugin, and STRANGER,
-# the path of that C program
+# Installs a build tree to a fresh prefix and uses it as an outside project would. CMake and pkg-config build examples outside the
+# tree, and the examples are run. Each example must print the same in C and in Fortran. The prefix is then moved, and the examples
+# are built again. After the last move all examples are built, and before it only two. A staged (DESTDIR) install must hold the
+# same files and no path of its stage. The programs of stranger/, one in each language, must mark the same bits as the C program
+# of the build tree. Environment: CMAKE, PKG_CONFIG, CC, CXX, FC, TEST_PLUGIN, the path of the program test_plugin, and
+# STRANGER, the path of that C program
 set -euo pipefail
 source=$1 build=$2 work=$3 kind=$4
 shift 4
@@ -26,8 +26,8 @@ quietly() {
 c_flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
 fortran_flags=(-std=f2018 -Wall -Wextra -Werror)
 
-# All examples except the examples of MPI, which check_mpi_example.sh runs. After them come the flags that a compiler needs for
-# them besides riis.
+# All examples except the examples of MPI, which check_mpi_example.sh runs. The flags that a compiler needs for them besides
+# riis's flags follow.
 all_examples=(first_marking prosthesis opening_valve pressure_opens cell_centres quadrature_points csr_from_elements
   single_precision openmp_caller overlap)
 few_examples=(first_marking openmp_caller)
@@ -38,8 +38,8 @@ fortran_sources=(riis_c riis_support riis_calls riis_warping riis_valves riis_fr
   riis_marking riis_leaking riis_passages riis_measures riis_crossing riis_laws riis_placing riis riis_f77 riisf)
 
 
-# Empties a consumer's build directory, except for CMake's knowledge of the compilers. To find out about three compilers takes
-# longer than to build a consumer.
+# Empties a consumer's build directory, except for CMake's knowledge of the compilers. To examine three compilers takes longer
+# than to build a consumer.
 empty_but_compilers() { # argument: build directory
   mkdir -p "$1/CMakeFiles"
   find "$1" -mindepth 1 -maxdepth 1 ! -name CMakeFiles -exec rm -rf {} +
@@ -59,7 +59,7 @@ library_dir() { # argument: prefix
   dirname "$(dirname "$(find "$1" -name riis.pc)")"
 }
 
-# Whether an example also has a program in Fortran, and Fortran was built.
+# Whether an example also has a program in Fortran, and whether Fortran was built.
 has_fortran_of() { # argument: name
   has Fortran && [ -e "$source/examples/$1.f90" ]
 }
@@ -69,7 +69,7 @@ expected_of() { # argument: name
   awk -v name="$1" '/^== / { inside = $2 == name; next } inside' "$source/tests/install/expected.txt"
 }
 
-# An example must print the same however it was built, and in C and in Fortran.
+# An example must print the same text in C and in Fortran, however it was built.
 check_example() { # arguments: name, program
   "$2" >"$work/printed.txt" || problem "$2 failed"
   expected_of "$1" | diff - "$work/printed.txt" || problem "$2 does not print what it should"
@@ -153,7 +153,7 @@ check_by_pkg_config() { # arguments: prefix, all|few, more pkg-config options
   rm -rf "$out"
   mkdir -p "$out"
   local example file more source_name
-  # A compiler that cannot read the module files uses the installed sources. They contain no paths, so one test is enough.
+  # A compiler that cannot read the module files uses the installed sources instead. They contain no paths, so one test is enough.
   if has Fortran && [ ! -d "$work/fortran" ]; then
     mkdir "$work/fortran"
     file=$(dirname "$(find "$1" -name riis_c.f90)")
@@ -289,7 +289,8 @@ while read -r file; do
   fi
 done < <(binaries "$prefix")
 
-# A global symbol without riis's name may clash with a symbol of the host. Linkers join weak symbols, which come from templates.
+# A global symbol without riis's name may clash with a symbol of the host program. Weak symbols, which come from templates,
+# do not clash, because linkers merge them.
 while read -r file; do
   symbols=(nm -g --defined-only)
   [[ $file == *.a ]] || symbols=(nm -D --defined-only)
@@ -301,7 +302,7 @@ done < <(find "$prefix" -type f \( -name '*.so.*' -o -name '*.a' \))
 
 # A library directory given as an absolute path does not move with the prefix, but everything must still be found. The check
 # configures the build tree again. Only the static test does so, because it has a build tree of its own. The test's fixture
-# restores the build tree.
+# restores the build tree afterwards.
 is_configured_anew='' examples_of_moved=all
 if [ "$kind" = static ] && [[ $build == "$(dirname "$work")"/* ]]; then
   is_configured_anew=1 examples_of_moved=few

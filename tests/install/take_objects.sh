@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # take_objects.sh BUILD_DIR COMPILER...
 # A compiler launcher for a build tree of static libraries. BUILD_DIR is the tree of shared libraries that was compiled from the
-# same sources. Most objects of both trees do the same, because all code is position independent and hidden. Only an object that
-# exports a name differs (RIIS_STATIC in riis/base.h). The script copies an object that exports nothing, and compiles the others.
+# same sources. Most objects of both trees are equivalent, because all code is position independent and hidden. Only an object
+# that exports a name differs (RIIS_STATIC in riis/base.h). The script copies an object that exports nothing, and compiles the
+# others.
 set -euo pipefail
 build=$1
 shift
@@ -19,7 +20,7 @@ taken=$build/$object
 if [[ $object != *.o || ! -f $taken ]] || grep -q -E 'GLOBAL +DEFAULT +[0-9]+ riis_' < <(readelf -sW "$taken"); then
   exec "$@"
 fi
-# Another source than the one of the build tree must be compiled. The object is younger than its source after a build.
+# If the build tree had another source, the source must be compiled. After a build, the object is younger than its source.
 if [[ ${!#} -nt $taken ]]; then
   exec "$@"
 fi

@@ -38,7 +38,7 @@ static int compare_pairs(const void *a, const void *b) {
   return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* Sorts the pairs and removes repeats. The rows, read in order, should equal the result. */
+/* Sorts the pairs and removes repeats. The result should equal the rows, read in order. */
 static void tidy_pairs(pair_list *list) {
   if (list->n == 0) return;
   qsort(list->ends, (size_t)list->n, 2 * sizeof *list->ends, compare_pairs);

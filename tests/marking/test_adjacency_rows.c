@@ -28,7 +28,7 @@ TEST(handles_of_adjacencies) {
                 riis_mesh_set_adjacency((riis_mesh *)(void *)adjacency, &csr));
   riis_adjacency *wrong = (riis_adjacency *)(void *)mesh;
   riis_adjacency_destroy(&wrong);
-  assert_non_null(wrong); /* a refused call leaves the handle alone */
+  assert_non_null(wrong); /* a refused call does not change the handle */
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   riis_mesh_destroy(&mesh);
   riis_adjacency_destroy(&adjacency);
@@ -104,7 +104,7 @@ TEST(rows_that_are_refused) {
     columns[4] = 3;
     offsets[3] = 2;
     REFUSED(RIIS_INVALID_MESH, "row 2|ends at 2|begins, at 3");
-    offsets[3] = 1000; /* exceeds the last offset, which gives the number of columns; nothing is read there */
+    offsets[3] = 1000; /* exceeds the last offset, which gives the number of columns, so nothing is read there */
     REFUSED(RIIS_INVALID_MESH, "row 3|ends at 7|begins, at 1000");
     offsets[3] = 5;
     offsets[0] = 1;
@@ -145,7 +145,8 @@ TEST(when_an_adjacency_goes) {
   csr.n_all = n + 2;
   CHECK_OK(riis_mesh_set_adjacency(mesh, &csr));
   assert_int_equal(has_adjacency(surface, mesh), 1);
-  /* The adjacency stays if the number of nodes stays or if an update is refused. It is dropped if the number changes. */
+  /* If the number of nodes stays the same, or if an update is refused, the adjacency stays. If the number changes, the
+   * adjacency is removed. */
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   assert_int_equal(has_adjacency(surface, mesh), 1);
   xyz[3 * n] = NAN;

@@ -13,7 +13,7 @@
 
 static random_source rng;
 
-/* Each kind of cells has the same number of meshes. */
+/* For each kind of cells there are equally many meshes. */
 enum { n_kinds = 5, n_meshes = 150 * n_kinds, most_cells = 300, most_corners = 8 };
 
 static int64_t below(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
@@ -98,7 +98,7 @@ TEST(rows_are_those_of_a_set) {
     else
       cells.offsets = offsets;
     for (int width = 0; width < 3; ++width) {
-      /* Tests the library's own limits first, then limits below the mesh's numbers. */
+      /* Tests the library's own limits first, and then limits below the numbers of the mesh. */
       const int64_t n_entries = width == 1 ? mesh.offsets[mesh.n_cells] - 1 : -1, n_nodes = width == 2 ? 0 : -1;
       const int n_threads = below(20) ? 1 + (int)below(3) : 9;
       wide_rows rows = {0};
@@ -131,7 +131,7 @@ TEST(nothing_makes_empty_rows_in_each_width) {
       }
 }
 
-/* The message names the first wrong cell, whichever block of cells a thread checks first. */
+/* The message names the first wrong cell, in whatever order threads check the blocks of cells. */
 TEST(the_first_wrong_cell_is_named) {
   enum { n_cells = 20000 };
   int32_t *nodes = own(calloc(4 * n_cells, sizeof *nodes)), *offsets = own(calloc(n_cells + 1, sizeof *offsets));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The search over clusters finds the same nodes as the exhaustive search, to the last bit. This holds for every mesh, surface,
- * limit, mask, instruction set and number of threads, also if the limit leaves out nothing. If clusters cannot be used, the
+ * limit, mask, instruction set and number of threads, even if the limit leaves out nothing. If clusters cannot be used, the
  * exhaustive search runs, and the statistics say so. */
 #include <omp.h>
 #include <riis/riis.h>
@@ -56,8 +56,8 @@ TEST(meshes_of_few_nodes) {
   assert_true(most_within > 20);
 }
 
-/* All nodes are at one point, at few points, on a line or in a plane. Their number is near the size of a leaf, a cluster or a
- * region. */
+/* All nodes are at one point, at few points, on a line or in a plane. The number of nodes is near the size of a leaf, a
+ * cluster or a region. */
 TEST(nodes_without_extent) {
   static const int counts[] = {1, 2, 31, 33, 100, 511, 513, 1025, 8191, 8193, 20000};
   riis_surface *surface = aortic_surface(NULL);
@@ -154,8 +154,8 @@ TEST(masked_nodes_are_left_out) {
   }
 }
 
-/* Each mesh is one node, so only the allowance for single precision gives its box a size. The limit is the node's distance, or
- * one bit less. */
+/* Each mesh is one node, so its box has a size only because of the allowance for single precision. The limit is the node's
+ * distance, or one bit less. */
 TEST(nodes_at_the_limit_are_found) {
   riis_surface_options options = surface_options();
   options.half_thickness = 1e-4;
@@ -211,9 +211,9 @@ static riis_surface *sphere(int n, double radius, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* Every point of the surface is equally far from its middle, so the filter leaves far more pairs than its buffer holds. The
- * test counts the pairs that the filter must leave: triangles whose distance is within single precision's error of the
- * smallest. */
+/* Every point of the surface is equally far from its middle, so the filter leaves far more pairs than its buffer can hold.
+ * The test counts the pairs that the filter must leave: triangles whose distance exceeds the smallest one by at most the
+ * error of single precision. */
 TEST(more_pairs_than_room) {
   enum { n = 40, room = 4096 };
   riis_surface *surface = sphere(40, 0.9, 0.1);
@@ -226,14 +226,14 @@ TEST(more_pairs_than_room) {
     n_equal += oracle_point_triangle(middle, abc) <= smallest + error;
   }
   printf("%lld of %lld triangles are as near\n", (long long)n_equal, (long long)all.n_triangles);
-  assert_true(32 * n_equal > 2 * room); /* one leaf has this many pairs */
+  assert_true(32 * n_equal > 2 * room); /* the number of pairs of one leaf */
   for (int spread = 0; spread < 3; ++spread) {
     for (int i = 0; i < 3 * n; ++i)
       xyz[i] = spread == 0 ? 0 : (spread == 1 ? 1e-7 : 1e-3) * random_between(&rng, -1, 1);
     most_within = 0;
     check(surface, n, xyz, 1);
     assert_int_equal(most_within, n);
-    check(surface, n, xyz, smallest); /* a limit at which only triangles at exactly this distance, or nearer, count */
+    check(surface, n, xyz, smallest); /* a limit up to which only triangles at exactly this distance count */
   }
 }
 
@@ -272,12 +272,12 @@ TEST(surfaces_from_arrays) {
     options.half_thickness = unit * random_power_of_ten(&rng, -4, -1);
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create_from_arrays(&arrays, &options, &surface);
-    if (status == RIIS_INVALID_SURFACE) continue; /* all its triangles are without area */
+    if (status == RIIS_INVALID_SURFACE) continue; /* none of its triangles has an area */
     CHECK_OK(status);
     own(surface);
     const double off = unit * random_power_of_ten(&rng, -6, 0.5);
     for (int i = 0; i < n; ++i) point_near(surface, i % 3 ? off : 0, xyz + 3 * i);
-    for (int i = 0; i < n; i += 50) /* some are far away, so that the mesh is as large as the surface or larger */
+    for (int i = 0; i < n; i += 50) /* some nodes are far away, so the mesh is at least as large as the surface */
       for (int c = 0; c < 3 && trial % 4 == 0; ++c) xyz[3 * i + c] += 300 * unit * random_between(&rng, -1, 1);
     check(surface, n, xyz, RIIS_AUTO);
     check_also(surface, n, xyz, fmax(options.half_thickness, off * random_power_of_ten(&rng, -1, 1)), !every_distance);
@@ -286,7 +286,7 @@ TEST(surfaces_from_arrays) {
   assert_int_equal(most_within, n);
 }
 
-/* Needles lie along a diagonal. If the surface's middle is subtracted from their corners, their heights round to 0. */
+/* Needles lie along a diagonal. If the surface's middle is subtracted from their corners, their heights are rounded to 0. */
 TEST(needles_that_are_lines_in_the_frame) {
   enum { n_triangles = 64, n = 2000 };
   double corners[9 * n_triangles];
@@ -317,7 +317,7 @@ TEST(needles_that_are_lines_in_the_frame) {
   }
 }
 
-/* The valve lies far from the origin, as in a scanner's coordinates, or so far that coordinates round. */
+/* The valve lies far from the origin, as in a scanner's coordinates, or so far that its coordinates are rounded. */
 TEST(valves_far_from_the_origin) {
   static const double far[] = {300, 1e4, 1e6};
   for (size_t k = 0; k < sizeof far / sizeof far[0]; ++k) {
@@ -338,8 +338,8 @@ TEST(valves_far_from_the_origin) {
 
 /* --- Every distance --------------------------------------------------------------------------------------------------- */
 
-/* Sets point i of some: on the surface, near it, at a vertex, anywhere in its box, on the axis of its box, or far away. Some
- * points are equal. */
+/* Sets the i-th of some points: on the surface, near it, at a vertex, anywhere in its box, on the axis of its box, or far
+ * away. Some points are equal. */
 static void any_point(const riis_surface *surface, int i) {
   const riis_surface_info info = info_of(surface);
   const riis_triangles all = triangles_of(surface);

@@ -86,7 +86,7 @@ TEST(non_finite_coordinates) {
           free_one_owned(mesh);
           mesh = mesh_of(n, xyz);
         }
-        /* The next marking must make clusters, or give new positions to clusters from before. */
+        /* The next marking must make clusters, or must update the positions in earlier clusters. */
         if (made_before == 1) {
           CHECK_OK(riis_mesh_prepare(mesh, threads));
           CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
@@ -208,7 +208,7 @@ TEST(several_callers_of_one_mesh) {
   omp_set_max_active_levels(levels);
 }
 
-/* The mesh has so many nodes that threads share the sorting. */
+/* The mesh has so many nodes that several threads sort it together. */
 TEST(a_mesh_that_threads_sort_together) {
   const int64_t n = 300000;
   riis_surface *surface = aortic_surface(NULL);

@@ -190,7 +190,7 @@ TEST(other_distances_find_nothing_too) {
   }
 }
 
-/* The same result and mesh have nodes, then none, then nodes again. */
+/* First the result and the mesh have nodes, then none, then nodes again. */
 TEST(nodes_come_and_go) {
   riis_surface *surface = moving_surface();
   test_mesh nodes = lattice_around(surface, 0.2, 0.2);
@@ -247,7 +247,7 @@ TEST(nothing_leaks) {
   riis_passage passage;
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "ends.from[0] is 0|0 nodes",
                 find_passage_between(surface, mesh, NULL, 1, &node, 1, &node, &passage, sizeof passage));
-  /* This result has never been marked. */
+  /* No marking has filled this result. */
   riis_marks *empty = new_result();
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "marks are empty", find_leaks_in(surface, mesh, empty, NULL, &leaks));
 }

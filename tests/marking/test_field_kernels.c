@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the kernels that compute fields of closest points. Every instruction set gives the bits of plain C in the same
- * order of operations. */
+ * Tests the kernels that compute fields of closest points. Every instruction set gives the same bits as plain C in the
+ * same order of operations. */
 #include "internals.h"
 #include "test_support.h"
 

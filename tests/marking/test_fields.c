@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the fields of closest points that a marking keeps. They equal those of single queries to the last bit, for any
- * search, threads and instructions. The rim is compared with the numbering of patches and with a count of edges. Wrong
- * requests are refused. */
+ * Tests the fields of closest points that a marking keeps. For any search, threads and instructions, the fields equal
+ * those of single queries to the last bit. The rim is compared with the numbering of patches and with a count of
+ * edges. Wrong requests are refused. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -81,8 +81,8 @@ static void check_part(const riis_marks *result) {
 
 /* --- The rim, counted independently ---------------------------------------------------------------------------------- */
 
-/* The edges and corners on the rim, three flags of each kind for each triangle. Edge k runs from corner k to the next. A
- * corner is on the rim if it is an end of a rim edge. */
+/* The edges and corners on the rim, three flags of each kind for each triangle. Edge k runs from corner k to the next
+ * corner. A corner is on the rim if it is an end of a rim edge. */
 typedef struct rims {
   riis_triangles c;
   const int64_t *triangle_id;
@@ -111,8 +111,8 @@ static void mark_corners(rims *r) {
 }
 
 /* Marks the rim by the numbers of patches. On aortic valves the rim is u = 1 (the sinus) of all patches and v = 1 (the free
- * edge) of the upper ones. On mitral valves it is v = 0 (the annulus) of all patches, and v = 1 (the free edge) unless the
- * leaflets meet there. */
+ * edge) of the upper ones. On mitral valves the rim consists of v = 0 (the annulus) of all patches, and of v = 1 (the free
+ * edge) unless the leaflets meet there. */
 static rims rims_of_valve(const riis_surface *surface, int is_mitral, double opening) {
   rims r = new_rims(surface);
   for (int64_t e = 0; e < 3 * r.c.n_triangles; ++e) {
@@ -158,8 +158,8 @@ static int is_rim(const rims *r, int64_t triangle, const double *w) {
 
 /* --- Against single queries ------------------------------------------------------------------------------------------ */
 
-/* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities must be the closest
- * triangle's, unless several points of the surface are equally near. */
+/* Compares all fields of the nodes within the limit with single queries and with the rim. Velocities must be those of
+ * the closest triangle, unless several points of the surface are equally near. */
 static void check_fields(const riis_surface *surface, const double *xyz, const rims *r, const riis_marks *result) {
   const riis_mark_list f = within_fields(result);
   const found_nodes nodes = within_in(result);
@@ -250,7 +250,7 @@ static void check_all_ways(const riis_surface *surface, const rims *r, int32_t f
       assert_true(same_fields(within_fields(result), within_fields(expected)));
       assert_true(same_fields(marked_fields(result), marked_fields(expected)));
     }
-  options.search = RIIS_SEARCH_PAPER; /* this search finds fewer nodes, but with their fields */
+  options.search = RIIS_SEARCH_PAPER; /* this search finds fewer nodes, but with all their fields */
   options.instructions = RIIS_INSTRUCTIONS_AUTO;
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, result));
   check_fields(surface, nodes.xyz, r, result);
@@ -284,8 +284,8 @@ TEST(fields_of_valves_are_those_of_single_queries) {
   }
 }
 
-/* The surface is a crumpled sheet with holes and with triangles without area. Triangles have corners of their own or share
- * them. */
+/* The surface is a crumpled sheet with holes and with triangles without area. Each triangle has its own corners, or
+ * triangles share corners. */
 TEST(fields_of_arrays_are_those_of_single_queries) {
   enum { side = 9, max_vertices = 6 * side * side };
   riis_surface *surface = surface_of_kind("mitral", NULL); /* updates from arrays must replace the mitral valve's rim */
@@ -353,8 +353,8 @@ static double *beyond_edges(const riis_triangles *c, double off) {
   return xyz;
 }
 
-/* No valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has none
- * along its free edges. */
+/* No valve has a rim along the bending curve, along the symmetry planes or between patches. The closed mitral valve has no
+ * rim along its free edges. */
 TEST(valves_have_a_rim_all_around_and_none_inside) {
   const int step = is_sanitized() ? 4 : 1;
   for (int is_mitral = 0; is_mitral < 2; ++is_mitral) {
@@ -390,7 +390,7 @@ TEST(valves_have_a_rim_all_around_and_none_inside) {
                    f.uv[2 * k + 1], f.patch_id[k]);
         n_rim += expected;
         const int64_t e = k / 3;
-        /* The node's closest edge is the edge beyond which the node was put. */
+        /* The node's closest edge is the edge beyond which the node lies. */
         if (t == e / 3 && expected && r.edge[e]) ++n_free;
         if (!r.edge[e]) ++n_inside;
         if (f.uv[2 * k + 1] > 1 - 1e-9 && is_mitral && i == 0) {
@@ -585,7 +585,7 @@ TEST(fields_are_refused_by_name) {
   }
 }
 
-/* Arrays that were not requested are NULL, even if the marking before had them. A result without nodes has no arrays. */
+/* Arrays that were not requested are NULL, even if the previous marking had them. A result without nodes has no arrays. */
 TEST(what_is_not_asked_for_is_null) {
   riis_surface *surface = aortic_surface(NULL);
   test_mesh nodes = nodes_near(surface, 300, 0.1);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests riis_find_first_passage. The opening that it finds is compared with riis_find_passage at many openings, and with a slit
- * of known width. */
+ * Tests riis_find_first_passage. The opening that the call finds is compared with riis_find_passage at many openings, and with
+ * a slit of known width. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -52,7 +52,7 @@ static riis_passage passage_at(riis_valve *valve, double opening, const riis_mes
   return passage;
 }
 
-/* The valve fills a tube, so that a path can only lead through the valve. */
+/* The valve fills a tube, so each path leads through the valve. */
 TEST(valves_first_open_where_a_ladder_says) {
   static const char *const kinds[4] = {"trileaflet", "bileaflet", "mitral", "coapting"};
   for (int trial = 0; trial < 8; ++trial) {
@@ -129,7 +129,7 @@ TEST(slits_open_at_their_width) {
   riis_first_passage first;
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state|riis_valve_set_open_state",
                 riis_find_first_passage(valve, mesh, &ends, NULL, &first, sizeof first));
-  /* A valve that is open in its one state is also refused. */
+  /* A valve with only one state is refused, even if this state is open. */
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "valve has only one state",
                 riis_find_first_passage(opened, mesh, &ends, NULL, &first, sizeof first));
   CHECK_OK(riis_valve_set_open_state(valve, opened));
@@ -149,12 +149,12 @@ TEST(slits_open_at_their_width) {
     CHECK_NEAR(found.point[0], 0, 1e-12);
     CHECK_NEAR(found.point[2], 0, 1e-12);
   }
-  /* With a half thickness above 1 the slit never opens. If one node is masked, the mesh has no path at all. */
+  /* With a half thickness above 1 the slit never opens. If one node is masked, the mesh has no path. */
   riis_surface_options surface = surface_options();
   surface.half_thickness = 0.9;
   riis_first_passage_options options = first_options();
   options.surface = &surface;
-  surface.translation[2] = -0.05; /* the ends are 0.95 and 1.05 away; the wide slit stays within the tube's reach */
+  surface.translation[2] = -0.05; /* the ends are 0.95 and 1.05 away; the wide slit stays within the tube */
   surface.scale = 0.85;
   const riis_first_passage never = first_of(valve, mesh, &e, &options);
   assert_int_equal(never.state, RIIS_FIRST_PASSAGE_NEVER);

@@ -125,7 +125,7 @@ static placed_valve random_valve(int kind, int fixed, double *shifts) {
       for (int64_t k = 0; k < parameter.n_values; ++k) values[k] *= between(0.96, 1.04);
       riis_valve_set(made.valve, parameter.name, parameter.n_values, values);
     }
-    /* Closed leaflets touch. At the end of its range, the opening is no direction of this test. */
+    /* Closed leaflets touch. At the ends of its range, the opening is not a direction of this test. */
     CHECK_OK(riis_valve_set_scalar(made.valve, "opening", one_in(4) ? 0 : between(0.03, 0.97)));
     if (kind != 3 && kind != 5 && one_in(3)) CHECK_OK(riis_valve_set_scalar(made.valve, "skirt_length", 0.3));
     memcpy(shifts, no_shifts, sizeof no_shifts);
@@ -190,9 +190,10 @@ static slopes slopes_of(double before, double now, double after, double step) {
   return (slopes){(now - before) / step, (after - now) / step, (after - before) / (2 * step)};
 }
 
-/* Tells whether a derivative that differs from the central difference is right beside a tie. At a tie within the step, the
- * distance changes from one place of the surface to another. It has a kink there, where its slope falls, and the central
- * difference is off by up to half the kink. The derivative is then the slope on the side without the tie. */
+/* Tells whether a derivative that differs from the central difference is nevertheless right, beside a tie. If there is a tie
+ * within the step, the distance changes there from one place of the surface to another. The slope then falls at a kink,
+ * and the central difference is off by up to half the kink. The derivative must be the slope on the side without the
+ * tie. */
 static int is_beside_tie(slopes s, double gradient, double speed) {
   return s.right < s.left && fmin(fabs(gradient - s.left), fabs(gradient - s.right)) <= 1e-5 * speed;
 }
@@ -403,7 +404,7 @@ static int compare_reals(const void *a, const void *b) {
 }
 
 typedef struct spread {
-  double median, percentile99, most, above; /* `above` is the share above 1e-5 */
+  double median, percentile99, most, above; /* `above` is the share of differences above 1e-5 */
 } spread;
 
 static spread spread_of(int n, double *values) {
@@ -448,7 +449,7 @@ TEST(derivatives_approach_those_of_the_smooth_valve) {
   static double xyz[3 * n_points], distance[3][n_points], off[3][n_points];
   static const double tolerances[] = {0.05, 0.01, 0.003};
   const double fine = is_long_test() ? 0.0005 : 0.002;
-  rng = random_start("the smooth valve"); /* so that the table does not depend on the test before */
+  rng = random_start("the smooth valve"); /* so that the table does not depend on the test before it */
   for (int kind = 0; kind < (is_long_test() ? 5 : 1); ++kind)
     for (int i = 0; i < (is_long_test() ? 3 : 1); ++i) {
       const int owned_before = n_owned();
@@ -635,7 +636,7 @@ TEST(bits_and_updates) {
     options.search = i % 2 ? RIIS_SEARCH_CLUSTERS : RIIS_SEARCH_EXHAUSTIVE;
     options.instructions = i < 4 ? RIIS_INSTRUCTIONS_BASELINE : RIIS_INSTRUCTIONS_AUTO;
     options.fields = i % 4 ? RIIS_FIELD_GRADIENT : RIIS_FIELD_GRADIENT | RIIS_FIELD_POINT | RIIS_FIELD_SIDE;
-    /* Back in the opening: with a step of the other sign, the second direction has the same derivatives. */
+    /* Back at the earlier opening, with a step of the other sign, the second direction has the same derivatives. */
     if (i == 4) CHECK_OK(riis_surface_add_direction(surface, before, after, -2e-3, NULL, NULL));
     CHECK_OK(riis_mark_nodes(surface, mesh, &options, marks));
     const riis_mark_list all = within_list(marks), some = marked_list(marks);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests the kernels, which are compiled for several instruction sets. Decisions and located points have the bits of the
- * scalar kernel. Single precision is off by no more than the library allows for (docs/theory/clusters.md). No pair that
- * matters is left out, however small the buffer for pairs is. */
+ * scalar kernel. Single precision is off by no more than the library allows (docs/theory/clusters.md). No pair that
+ * matters is left out, even if the buffer for pairs is small. */
 #include "internals.h"
 #include "test_support.h"
 
@@ -232,7 +232,7 @@ static framed random_framed(void) {
   return f;
 }
 
-/* Computes the numbers that the mesh stores for a point p of the surface's frame. as_float gets that stored point in the
+/* Computes the numbers that the mesh stores for a point p of the surface's frame. as_float gets the stored point in the
  * surface's frame, in single precision. Returns 0 if p is not in the mesh. */
 static int store(const framed *f, const double *p, float *stored, float *as_float) {
   for (int c = 0; c < 3; ++c) {
@@ -244,8 +244,8 @@ static int store(const framed *f, const double *p, float *stored, float *as_floa
   return 1;
 }
 
-/* Compares filtered distances with decided ones, as fractions of the allowed error. Too small distances and too large ones are
- * checked separately, because the margin makes most distances too large. */
+/* Compares filtered distances with decided ones, as fractions of the allowed error. Distances that are too small and too large
+ * are checked separately, because the margin makes most distances too large. */
 TEST(single_precision_is_right_to_its_error) {
   enum { n_lanes = 16 };
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -310,8 +310,8 @@ typedef struct leaf_case {
   double error;
 } leaf_case;
 
-/* The first triangle has an edge across the other triangles, which are parallel. There the quantity that chooses a group's
- * axes is nearly 0. */
+/* The first triangle has an edge perpendicular to the other triangles, which are parallel. The quantity that chooses a
+ * group's axes is then nearly 0. */
 static void first_edge_across(int n, double *corners) {
   double axis[3][3], origin[3];
   random_frame(axis);
@@ -461,7 +461,7 @@ TEST(lower_bounds_and_boxes_lose_nothing) {
 }
 
 /* The pairs contain the closest triangle of every node within the limit, and all closest triangles if several are equally
- * near. This holds with a buffer for all pairs, and with one so small that the filter must stop and continue. */
+ * near. This holds with a buffer for all pairs, and with a buffer so small that the filter must stop and continue. */
 TEST(no_pair_that_matters_is_lost) {
   static const int32_t rooms[] = {100000, 16, 64, 65, 79, 200};
   for (int set = 0; set < n_kernel_sets; ++set) {
@@ -526,7 +526,7 @@ TEST(no_pair_that_matters_is_lost) {
   }
 }
 
-/* --- What goes into groups ------------------------------------------------------------------------------------------- */
+/* --- The content of groups ------------------------------------------------------------------------------------------- */
 
 TEST(corners_are_bounded_and_framed) {
   enum { most = 100, n_lanes = 16 };
@@ -599,8 +599,8 @@ TEST(leaves_are_framed) {
   }
 }
 
-/* Triangles have heights around the least height. A triangle without area never passes. A triangle of a hundred times the
- * least height always passes. */
+/* Triangles have heights around the least height. A triangle without area never passes. A triangle with a hundred times
+ * the least height always passes. */
 TEST(triangles_without_area_are_noticed) {
   for (int set = 0; set < n_kernel_sets; ++set) {
     if (!kernels_there(set)) continue;
@@ -796,7 +796,7 @@ TEST(keys_are_ranked) {
   for (int trial = 0; trial < trials_of(5000); ++trial) {
     int32_t key[n_keys], n_less[n_keys];
     const int32_t n = (int32_t)(random_bits(&rng) % (n_keys + 1));
-    const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many keys are equal, or few */
+    const uint64_t n_values = trial % 2 ? 10 : UINT64_C(1) << 32; /* many keys are equal, or only a few */
     for (int i = 0; i < n_keys; ++i)
       key[i] = (int32_t)((int64_t)(random_bits(&rng) % n_values) - (trial % 2 ? 5 : INT64_C(1) << 31));
     for (int set = 0; set < n_kernel_sets; ++set) {

@@ -130,7 +130,7 @@ TEST(wider_limit_lists_more_and_marks_the_same) {
     assert_int_equal(mark[i], listed && c.distance[at] <= 0.1);
     at += listed;
   }
-  /* Any of the arrays may be requested alone. A far value is accepted unless it could be a distance within the limit. */
+  /* Each of the arrays may also be requested alone. A far value is accepted unless it could be a distance within the limit. */
   CHECK_OK(dense_of(wide, n, NAN, NULL, distance, NULL, NULL));
   assert_true(isnan(distance[0]) || within_in(wide).node_id[0] == 0);
   CHECK_OK(dense_of(wide, n, -1, mark, NULL, NULL, NULL));
@@ -162,7 +162,7 @@ TEST(mask_leaves_nodes_out) {
   }
   assert_int_equal(b.n, at);
   assert_true(at > 0 && at < a.n);
-  memset(mask, 0, sizeof mask); /* an empty mask finds nothing and is no error */
+  memset(mask, 0, sizeof mask); /* an empty mask finds nothing, which is no error */
   CHECK_OK(riis_mark_nodes(surface, mesh, &options, some));
   const int64_t *node_id = (const int64_t *)&options;
   const int64_t n_marked = marked_list(some).n_nodes;
@@ -215,8 +215,8 @@ TEST(coordinates_may_move_and_results_are_reused) {
   CHECK_OK(riis_mesh_update(mesh, n, xyz, xyz + 1, xyz + 2, 3));
   CHECK_OK(riis_mark_nodes(surface, mesh, NULL, result));
   assert_true(llabs(marked_in(result).n - n_before) <= 2); /* z + 10 - 10 rounds, so a few marks may differ */
-  /* A coordinate becomes non-finite without an update of the handle. A search that reads it refuses it by name, and the result
-   * stays as it was. The search over clusters uses the coordinates that it copied earlier. */
+  /* A coordinate becomes non-finite without an update of the handle. A search that reads it refuses it with its name, and the
+   * result stays as it was. The search over clusters uses the coordinates that it copied earlier. */
   const found_nodes kept = marked_in(result);
   const int64_t spoilt = kept.node_id[kept.n / 2];
   char text[64];

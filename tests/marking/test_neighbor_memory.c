@@ -15,7 +15,7 @@
 
 /* All allocations of the process call these functions, because an executable's symbols take precedence over those of
  * libraries. They count the allocations of the object that contains riis_mark_nodes, including the C++ library's allocations for
- * it. Sanitizers are left out, because their allocator must be the only one. */
+ * it. Sanitizers are left out, because their allocator must be the only allocator. */
 #if defined(__GLIBC__) && defined(__x86_64__) && !defined(IS_SANITIZED)
 #define COUNTS_ALLOCATIONS 1
 void *__libc_malloc(size_t size);
@@ -74,8 +74,8 @@ void *new_many_aligned(size_t size, size_t alignment) {
   return counted(or_abort(__libc_memalign(alignment, size ? size : 1)), __builtin_return_address(0));
 }
 
-/* Returns the object that contains the function. A static library exports nothing; its functions are in the same object as
- * this one. */
+/* Returns the object that contains the function. A static library exports nothing, so its functions are in the same object
+ * as this function. */
 static const void *object_of(const char *name) {
   const void *function = dlsym(RTLD_DEFAULT, name);
   return object_at(function ? function : (const void *)(intptr_t)object_of);
@@ -84,7 +84,7 @@ static const void *object_of(const char *name) {
 static void begin_to_count(void) {
   n_counted = 0;
   cxx_library = object_of("_ZSt9terminatev");
-  object_behind_cxx(); /* the first call allocates, so it comes before counting */
+  object_behind_cxx(); /* the first call allocates, so it is made before the count */
   __atomic_store_n(&counted_object, object_of("riis_mark_nodes"), __ATOMIC_RELEASE);
 }
 
@@ -178,7 +178,7 @@ TEST(a_steady_step_allocates_nothing) {
       options.search = search;
       options.n_threads = 1;
       if (kind % 2) options.distance_limit = 0.2;
-      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all fields but velocity, which the surface lacks */
+      if (kind / 2) options.fields = 255 - RIIS_FIELD_VELOCITY; /* all but the velocity, which the surface lacks */
       /* The first step allocates memory. This shows that allocations are counted, including those of vectors and aligned ones. */
       assert_true(allocations_of_a_step(surface, mesh, &options, result) > 5);
       allocations_of_a_step(surface, mesh, &options, result);
@@ -210,9 +210,9 @@ TEST(a_steady_moving_step_allocates_nothing) {
 #endif
 }
 
-/* An annulus that moves: new targets for 200 landmarks in each step, for two valves in turn. Each valve has its memory after
- * two steps. The adapted triangulation needs more triangles at some time of the beat, so its surface has its memory after one
- * beat. */
+/* The annulus moves: each step has new targets for 200 landmarks, for two valves in turn. Each valve has its memory after two
+ * steps. At some time of the beat, the adapted triangulation needs more triangles, so its surface has its memory only
+ * after one beat. */
 TEST(a_steady_warped_step_allocates_nothing) {
 #if defined(COUNTS_ALLOCATIONS)
   static const char *const kinds[4] = {"trileaflet", "aortic", "mitral", "coapting"};
@@ -267,7 +267,7 @@ TEST(a_steady_warped_step_allocates_nothing) {
 #endif
 }
 
-/* Several threads may need more blocks at once than ever before, but the number of blocks is limited. */
+/* At some moment, threads may need more blocks at once than ever before, but the number of blocks is limited. */
 TEST(allocations_of_several_threads_do_not_grow) {
 #if defined(COUNTS_ALLOCATIONS)
   for (int32_t n_threads = 2; n_threads <= 4; n_threads += 2) {

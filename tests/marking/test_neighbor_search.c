@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * The neighbour search gives the same result as the exhaustive search, to the last bit. This holds for any mesh, adjacency,
  * mask, limit, number of threads and earlier marking. The paper's own algorithm finds only the connected piece of the band
- * that it starts in, and reports that nodes may be missing. */
+ * where it starts, and reports that nodes may be missing. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -53,7 +53,8 @@ TEST(three_separate_cusps) {
   assert_int_equal(check_same_as_exhaustive(surface, mesh, options, paper).n_unreached, 0);
 }
 
-/* The mesh consists of slabs that no edge joins. It has the same region twice, and the second copy is shifted by half a spacing.
+/* The mesh consists of slabs that no edge joins. It contains the same region twice, with the second copy shifted by half a
+ * spacing.
    */
 TEST(mesh_of_several_components) {
   riis_surface *surface = aortic_surface(NULL);
@@ -106,7 +107,7 @@ TEST(valve_that_sticks_out_of_the_mesh) {
       const double b = random_between(&rng, info.lower[c] - 0.3, info.upper[c] + 0.3);
       lower[c] = fmin(a, b), upper[c] = fmax(a, b);
     }
-    if (trial == 0) /* this box certainly contains half of the valve */
+    if (trial == 0) /* this box contains half of the valve in any case */
       for (int c = 0; c < 3; ++c) lower[c] = info.lower[c], upper[c] = c ? info.upper[c] : 0;
     test_mesh nodes = lattice(counts, lower, upper);
     riis_mesh *mesh = mesh_from(&nodes);
@@ -236,7 +237,8 @@ TEST(degenerate_meshes) {
 }
 
 /* A column of nodes stands over a triangle of any size. The limit is the distance that the library computes for the first node.
- * Up to rounding, all other distances in the search's check equal this limit. Rounding must not lose the node. */
+ * Up to rounding, the search's check compares all other distances with this limit at equality. Rounding must not lose a
+ * node. */
 TEST(nodes_at_the_limit_are_found) {
   static const int32_t ids[3] = {0, 1, 2};
   for (int trial = 0; trial < 3000; ++trial) {
@@ -295,7 +297,7 @@ TEST(needles_lose_no_node) {
     riis_surface_arrays arrays = triangle_arrays(3, corners, 1, ids);
     riis_surface_options options = surface_options();
     riis_surface *surface = NULL;
-    /* A triangle this thin may count as having no area. */
+    /* A triangle as thin as this may count as having no area. */
     if (riis_surface_create_from_arrays(&arrays, NULL, &surface) != RIIS_OK) continue;
     own(surface);
     options.half_thickness = fmax(closest_to(surface, xyz[0], xyz[1], xyz[2]).distance, 1e-40);
@@ -386,8 +388,8 @@ TEST(limits_wider_than_the_half_thickness) {
 
 /* --- The paper's algorithm ------------------------------------------------------------------------------------------- */
 
-/* The paper's algorithm must find exactly the marked nodes that are connected, by marked neighbours, to the node nearest to
- * the first vertex. */
+/* The paper's algorithm must find exactly the marked nodes that marked neighbours connect to the node nearest to the first
+ * vertex. */
 TEST(paper_finds_the_piece_that_it_starts_in) {
   static const double half_thickness[4] = {0.03, 0.06, 0.1, 0.3};
   for (int k = 0; k < 4; ++k) {

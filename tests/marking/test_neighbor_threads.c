@@ -62,7 +62,7 @@ TEST(any_number_of_threads_gives_the_same_bits) {
   }
 }
 
-/* Returns 1 if any of several markings, each into a result of its own, differs from the expected one. */
+/* Returns 1 if any of several markings, each with its own result, differs from the expected one. */
 static int marks_wrong(const riis_surface *surface, const riis_mesh *mesh, const riis_marks *expected, int n_threads) {
   riis_mark_options options = {0};
   riis_marks *result = NULL;
@@ -90,8 +90,8 @@ static void *mark_with_own_result(void *of) {
   return NULL;
 }
 
-/* The numbers of threads that a search of a mesh reports: by default, and if two are requested. Both searches find the same
- * nodes. */
+/* The numbers of threads that a search of a mesh reports, first by default and then if two are requested. Both searches
+ * find the same nodes. */
 typedef struct reported_threads {
   int32_t by_default, if_two;
 } reported_threads;

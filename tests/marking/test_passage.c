@@ -20,7 +20,7 @@ typedef struct near_node {
   int64_t node;
 } near_node;
 
-/* Compares two nodes: the nearer comes first. At equal distances the node with the higher id comes first. */
+/* Compares two nodes. The nearer node comes first. At equal distances the node with the higher id comes first. */
 static int nearer(const void *a, const void *b) {
   const near_node *p = a, *q = b;
   if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
@@ -43,7 +43,7 @@ static void open_nodes_of(const uint8_t *mask, int64_t n, uint8_t *is_open) {
   for (int64_t i = 0; i < n; ++i) is_open[i] = mask[i];
 }
 
-/* Nodes are closed in the order of their distances. Finds, by bisection, the node whose closing separates the two ends. */
+/* Nodes are closed in the order of their distances. By bisection, finds the node whose closing separates the two ends. */
 static riis_passage expected_passage(const test_mesh *rows, const riis_surface *surface, const uint8_t *mask,
                                      const ends *e) {
   const size_t n = (size_t)rows->n;
@@ -278,7 +278,7 @@ TEST(the_papers_aortic_valve_leaks_along_its_axis) {
     assert_true(open.distance > 0.3 && open.distance < 0.33 && hypot(open.point[0], open.point[1]) < 0.2);
     const riis_passage closed = passage_of(new_surface(aortic_with_free_edges_at(0.02), &options), mesh, NULL, &e);
     assert_int_equal(closed.state, RIIS_PASSAGE_CLOSED);
-    /* The expected distance lies between a node on the axis and the corners of three free edges. */
+    /* The expected distance lies between two distances: of a node on the axis, and of the corners of three free edges. */
     CHECK_NEAR(closed.distance, 0.02 * sqrt(2), 1e-3);
     assert_true(hypot(closed.point[0], closed.point[1]) < 0.01);
   }
@@ -288,8 +288,8 @@ static double distance_of(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the distance of the farthest corner of
- * these triangles from the ball's centre. */
+/* Copies the surface without the triangles that have a vertex in the ball. *reach gets the distance of these triangles'
+ * farthest corner from the ball's centre. */
 static riis_surface *without_ball(const riis_surface *surface, const double *centre, double radius, double *reach) {
   const riis_triangles all = triangles_of(surface);
   int32_t *ids = own(malloc((size_t)all.n_triangles * 3 * sizeof *ids));
@@ -331,7 +331,7 @@ TEST(a_pierced_leaflet_is_found_where_it_is) {
   riis_mesh *mesh = mesh_from(&nodes);
   const ends e = {1, 1, {node_at(&nodes, 0, 0, -1)}, {node_at(&nodes, 0, 0, 1.5)}};
   riis_surface_options options = surface_options();
-  options.tolerance = 0.01; /* small triangles, so that the hole is hardly larger than the ball */
+  options.tolerance = 0.01; /* the triangles are small, so the hole is hardly larger than the ball */
   riis_surface *valve = new_surface(aortic_with_free_edges_at(0.02), &options);
   const riis_triangles all = triangles_of(valve);
   for (int trial = 0; trial < fewer_if_sanitized(8); ++trial) {

@@ -99,7 +99,7 @@ TEST_WITH(sizes_that_do_not_fit_are_told, start_listening, stop_listening) {
               "half thickness is 0.001");
   assert_int_equal(n_warnings(1, RIIS_AUTO, 0, 4e4), 1);
   expect_text("the mesh is more than 50 times as large as the surface", "40000 (mesh", "half thickness is 0.1");
-  /* The half thickness is in centimetres, and other sizes are not. */
+  /* The half thickness is in centimetres, and the other sizes are not. */
   assert_int_equal(n_warnings(0.01, 0.1, 0, 0.04), 1);
   expect_text("the half thickness is larger than the surface", "0.04 (mesh", "half thickness is 0.1");
   assert_int_equal(n_warnings(0.3, 0.5, 0, 0.4), 1);
@@ -121,8 +121,8 @@ TEST_WITH(one_warning_a_mesh_and_surface, start_listening, stop_listening) {
   mark(first, other);
   mark(first, other);
   assert_int_equal(warnings.n, 3);
-  /* Surfaces are created and destroyed. Each surface counts as new, even if it has the address of the last one. The library's
-   * list of warned surfaces eventually fills up. */
+  /* Surfaces are created and destroyed. Each surface counts as new, even if it has the address of an earlier surface. The
+   * library's list of warned surfaces eventually fills up. */
   for (int i = 0; i < 20; ++i) {
     free_one_owned(second);
     second = aortic_surface(NULL);
@@ -131,7 +131,7 @@ TEST_WITH(one_warning_a_mesh_and_surface, start_listening, stop_listening) {
   }
 }
 
-/* If no log function is set, a warning does not count as given. */
+/* Without a log function, a warning does not count as given. */
 TEST_WITH(a_late_listener_is_told, start_listening, stop_listening) {
   riis_surface *surface = aortic_surface(NULL);
   riis_mesh *mesh = cube(0, 0.01);
@@ -178,7 +178,7 @@ TEST_WITH(threads_share_the_one_warning, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 1);
 }
 
-/* A layout of nodes with a stride, with x first or last. */
+/* A layout of nodes with a stride, in which x is first or last. */
 typedef struct layout {
   int64_t stride;
   int first[3]; /* the index of the first x, y and z */

@@ -93,8 +93,8 @@ static riis_reaction reaction_to(sums *to, const double *about, int64_t n_leafle
 /* --- Plates ---------------------------------------------------------------------------------------------------------- */
 
 /* A plate 0 <= a <= 2, 0 <= b <= 1 in a frame. It has the leaflet 0 for a < 1 and the leaflet 3 for a > 1. Nodes are the centres
- * of cells with the side h. On each side of the plate lie n_layers layers of nodes. So the sum of h K over the layers is exactly
- * R / eps. The sum over the cells of a layer integrates a linear function exactly. */
+ * of cells with the side h. On each side of the plate lie n_layers layers of nodes. The sum of h K over the layers is therefore
+ * exactly R / eps. The sum over the cells of a layer integrates a linear function exactly. */
 enum { n_layers = 5, n_long = 32, n_wide = 16 };
 static const double plate_length = 2, plate_width = 1, plate_h = 1.0 / 16, plate_eps = 5.0 / 16;
 
@@ -141,8 +141,8 @@ static plate new_plate(double spin, const double *along) {
   return made;
 }
 
-/* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. The same formula with the area of a
- * leaflet or of a strip along an edge gives the force on this part. */
+/* In a flow u the force on the plate is (R / eps) u A, and it acts at the plate's centre. For a leaflet, or for a strip along
+ * an edge, the formula holds with its area. */
 TEST(a_closed_plate_takes_the_drop) {
   for (int trial = 0; trial < fewer_if_sanitized(6); ++trial) {
     const double u[3] = {between(-1, 1), between(-1, 1), between(-2, 2)}, r = pow(10, between(-2, 4));
@@ -197,8 +197,8 @@ TEST(a_hinged_plate_has_its_moment) {
     const riis_resistance resistance = resistance_of(r);
     const riis_flow_arrays flow = flow_of(p.n, p.velocity, p.weight);
     sums got = {.all = {0}};
-    /* The edges are quarters of the hinge, and each gets a strip along a. The moment of a strip about the middle of its edge is
-     * parallel to the hinge. */
+    /* The edges are the quarters of the hinge, and each gets a strip along a. The moment of a strip about the middle of its
+     * edge is parallel to the hinge. */
     double hinge[4][2][3];
     for (int k = 0; k < 4; ++k)
       for (int end = 0; end < 2; ++end) place(&p.frame, 0, 0.25 * (k + end), 0, hinge[k][end]);
@@ -232,7 +232,7 @@ TEST(a_hinged_plate_has_its_moment) {
   }
 }
 
-/* If two edges have the same distance from a node, the first edge gets the whole force of the node. */
+/* If two edges are equally far from a node, the first edge gets the whole force of the node. */
 TEST(the_first_of_equally_near_edges_gets_the_share) {
   static const double u[3] = {0, 0, 1}, about[3] = {0, 0, 0};
   const plate p = new_plate(0, u);
@@ -377,7 +377,7 @@ static int64_t nearest_edge(int64_t n, const double (*edges)[2][3], const int32_
   for (int64_t k = 0; k < n; ++k) {
     if (leaflet_of && leaflet_of[k] != leaflet) continue;
     const long double here = edge_distance_sq(edges[k], p);
-    if (here == least) continue; /* of two equally near edges, the result is the first */
+    if (here == least) continue; /* if two edges are equally near, the result is the first */
     if (here < least)
       next = least, least = here, nearest = k;
     else if (here < next)
@@ -546,9 +546,9 @@ TEST(sums_are_those_of_plain_loops) {
 
 /* --- Symmetric valves ------------------------------------------------------------------------------------------------ */
 
-/* A symmetric valve stands in a flow along its axis. Turned about the axis, the force on one leaflet is the force on the next
- * leaflet. The same holds for moments. The axis is oblique to the rows of nodes. If a node is nearest to the line where two
- * closed leaflets touch, it belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
+/* A symmetric valve stands in a flow along its axis. After a turn about the axis, the force on one leaflet is the force on the
+ * next leaflet. The same holds for moments. The axis is oblique to the rows of nodes. A node that is nearest to the line where
+ * two closed leaflets touch belongs to the leaflet with the lower id. This makes a difference of up to 2.5 percent here. */
 TEST(leaflets_of_symmetric_valves_share_alike) {
   const struct {
     const char *kind;

@@ -39,7 +39,7 @@ static void into_frame(double a, double b, double c, double *p) {
 static void disc(double s, double t, double *p) {
   into_frame(disc_radius * t * cos(2 * pi * s), disc_radius * t * sin(2 * pi * s), 0, p);
 }
-/* A cylinder. Its angle is a bit wider than half a radian. */
+/* A cylinder. Its angle is slightly wider than half a radian. */
 static void cylinder(double s, double t, double *p) {
   const double angle = 0.9 * (s - 0.5);
   into_frame(cylinder_radius * cos(angle), cylinder_radius * sin(angle), 0.7 * t, p);
@@ -51,7 +51,7 @@ static void cap(double s, double t, double *p) {
              sphere_radius * cos(polar), p);
 }
 
-/* Makes a frame whose axes are far from the grid's directions. Otherwise an edge of the band would jump over a whole row of
+/* Makes a frame whose axes are far from the grid's directions. Otherwise an edge of the band would move past a whole row of
  * nodes at once. */
 static void random_frame(void) {
   const double a = between(0.3, 0.6), b = between(0.3, 0.6);
@@ -91,7 +91,7 @@ static double integral_of(const riis_surface *surface, const riis_resistance *re
   const int owned_before = n_owned();
   test_mesh nodes = lattice_around(surface, spacing, info_of(surface).half_thickness + spacing);
   double volume = 1, sum = 0;
-  for (int c = 0; c < 3; ++c) { /* the step from one node to the next */
+  for (int c = 0; c < 3; ++c) { /* the step from one node to the next node */
     int64_t i = 1;
     while (nodes.xyz[3 * i + c] == nodes.xyz[c]) ++i;
     volume *= nodes.xyz[3 * i + c] - nodes.xyz[c];
@@ -197,7 +197,7 @@ TEST(sums_are_those_of_plain_loops) {
     const int64_t n = f.nodes.n;
     double *k = own(malloc((size_t)n * 4 * sizeof *k)), *momentum = k + n;
     double *expected = own(malloc((size_t)n * 4 * sizeof *k));
-    /* Initial values, which the calls add to. */
+    /* Initial values, to which the calls add. */
     for (int64_t i = 0; i < 4 * n; ++i) k[i] = expected[i] = between(-1, 1);
     double force[3], expected_force[3], scale = 0;
     for (int c = 0; c < 3; ++c) force[c] = expected_force[c] = between(-1, 1);
@@ -246,8 +246,8 @@ TEST(sums_are_those_of_plain_loops) {
   }
 }
 
-/* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and with gaps get the same
- * bits. Both lists have K and K u, and the marking does not need the field of velocities for them. */
+/* The result's lists and the arrays have the same K and K u, to the last bit. Arrays by component and arrays with gaps get
+ * the same bits. Both lists contain K and K u, and the marking does not need the field of velocities for this. */
 TEST(lists_and_layouts_have_the_same_bits) {
   for (int trial = 0; trial < 12; ++trial) {
     const int owned_before = n_owned();
@@ -284,7 +284,7 @@ TEST(lists_and_layouts_have_the_same_bits) {
           CHECK_SAME(list.K_u_surface[3 * j + c] + 0.0, momentum[3 * list.node_id[j] + c] + 0.0);
       }
     }
-    /* K is every fifth number of its array. Each component of K u has a block of its own, with a stride of two. */
+    /* K is every fifth number of its array. Each component of K u has its own block, with a stride of two. */
     double *gaps = own(calloc((size_t)n * 11, sizeof *gaps));
     riis_resistance_arrays arrays;
     CHECK_OK(riis_resistance_arrays_init(&arrays, sizeof arrays));
@@ -384,7 +384,7 @@ TEST(band_sums_are_those_of_a_plain_loop) {
     const riis_mark_list fields = fields_of(&f);
     for (int i = 0; i < 5; ++i) {
       double inner = i ? between(0, 0.25) : 0, outer = i > 1 ? between(inner, 0.25) : 0.25;
-      /* A band from a distance to the same distance contains the node at this distance. */
+      /* A band from a distance to the same distance contains a node at exactly this distance. */
       if (i == 4) inner = outer = within.distance[random_bits(&rng) % (uint64_t)within.n];
       riis_band_sums expected = {{0, 0}, {0, 0}, {0, 0}}, sums;
       double scale = 0;

@@ -64,7 +64,7 @@ static double to_box_sq(const double *p, const double *box) {
   return sum;
 }
 
-/* Returns the distance to the closest triangle if it is at most `reach`, or else any number above `reach`. */
+/* Returns the distance to the closest triangle if it is at most `reach`, otherwise any number above `reach`. */
 static long double brute_force_distance(const brute_force *b, const double *p, double reach) {
   long double least = INFINITY;
   double least_sq = reach * reach * (1 + 1e-9);
@@ -162,7 +162,7 @@ static struct totals {
   int64_t different_bits, different_distances, different_marks, incomplete;
   int64_t unreached, most_threads;
   int64_t by_instructions[RIIS_INSTRUCTIONS_AVX512 + 1]; /* number of markings over clusters */
-  double largest;                                        /* largest error, relative to the coordinates */
+  double largest;                                        /* the largest error, relative to the coordinates */
 } totals;
 
 /* Compares some of the nodes with brute force. */
@@ -240,7 +240,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   shape s = random_shape();
   riis_surface *surface = NULL;
   update_surface(&surface, &s, NULL);
-  /* The box is around the surface, or the surface sticks out of it. */
+  /* The box is around the surface, or the surface extends beyond the box. */
   riis_surface_info info = info_of(surface);
   double lower[3], upper[3], spacing;
   for (int c = 0; c < 3; ++c) {
@@ -262,7 +262,7 @@ static void one_case(int kind, int64_t n_nodes, int64_t n_compared) {
   uint8_t *mask = NULL;
   for (int64_t step = 0, n_steps = random_integer(1, 4); step < n_steps; ++step) {
     update_surface(&surface, &s, &options);
-    if (step > 0 && one_in(4)) { /* here the mesh moves too */
+    if (step > 0 && one_in(4)) { /* here the mesh also moves */
       for (int64_t i = 0; i < 3 * nodes.n; ++i) nodes.xyz[i] += random_between(&rng, -0.1, 0.1) * spacing;
       CHECK_OK(riis_mesh_update(mesh, nodes.n, nodes.xyz, nodes.xyz + 1, nodes.xyz + 2, 3));
     }

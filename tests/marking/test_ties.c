@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests velocities of nodes that are equally near to several leaflets, or to several patches of one leaflet. Such a node
- * gets the mean velocity, as a loop over all triangles gives it, with the same bits from any search. The sums of K and K u
+ * gets the mean velocity that a loop over all triangles gives, with the same bits from any search. The sums of K and K u
  * over symmetric meshes stay the same if the mesh moves by a rounding error or is split into parts. Nodes without ties have
  * the velocity of their closest triangle. */
 #include <riis/riis.h>
@@ -225,8 +225,8 @@ typedef struct term {
   double *k, *ku; /* k: (n), ku: (3, n) */
 } term;
 
-/* Computes K and K u of the whole mesh, marked in parts with coordinates of their own. Each node is moved by `shift` along
- * each axis. */
+/* Computes K and K u of the whole mesh, which is marked in parts with separate coordinates. Each node is moved by `shift`
+ * along each axis. */
 static term term_of(const riis_surface *surface, const test_mesh *mesh, int n_parts, double shift) {
   const size_t n = (size_t)mesh->n;
   term made = {own(calloc(n, sizeof(double))), own(calloc(3 * n, sizeof(double)))};
@@ -304,7 +304,7 @@ TEST(reaction_takes_the_means) {
 
 /* --- Nodes without ties ---------------------------------------------------------------------------------------------- */
 
-/* If the same triangles are one leaflet from arrays, there are no ties. Each node has the velocity of its closest triangle. */
+/* If the same triangles form one leaflet from arrays, there are no ties. Each node has the velocity of its closest triangle. */
 TEST(other_nodes_have_the_closest_triangle_s) {
   int64_t n_single = 0, n_other = 0;
   for (int trial = 0; trial < fewer_if_sanitized(2 * n_kinds); ++trial) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests leaks, the edges that cross the surface between unmarked nodes. For valves they are compared with a loop in
- * extended precision; for plates they are known. */
+ * extended precision. For plates they are known. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -111,7 +111,7 @@ TEST(valves_leak_where_the_loop_says) {
   for (int i = 0; i < 3; ++i) assert_true(n_leaking[i] > 0);
 }
 
-/* Edges of at most two half thicknesses cannot leak, even if a plane cuts an edge of exactly that length in half. */
+/* Edges of at most two half thicknesses cannot leak, even if a plane halves an edge of exactly that length. */
 TEST(short_edges_do_not_leak) {
   for (int trial = 0; trial < 4; ++trial) {
     const int owned_before = n_owned();

@@ -52,7 +52,7 @@ TEST_WITH(the_callers_limit_is_kept, keep, let_go) {
   for (int repeat = 0; repeat < 20; ++repeat)
     for (int i = 0; i < 6; ++i) {
       expect_walk(walk_under_limit(limits[i], 4), limits[i]);
-      expect_walk(walk_once(4), 4); /* as many threads as requested, even on fewer processors */
+      expect_walk(walk_once(4), 4); /* as many threads as requested, even with fewer processors */
     }
   assert_int_equal(arenas_made(), 4); /* with 1, 2, 3 and 4 threads */
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the handles, exceptions, structs and spans of riis.hpp through C wrappers. The sanitized build finds leaks. */
+ * Tests the handles, exceptions, structs and spans of riis.hpp through C wrappers. The sanitized build finds leaks of memory. */
 #include <riis/riis.h>
 
 #include "test_support.h"

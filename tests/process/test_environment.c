@@ -131,7 +131,7 @@ TEST(errors_belong_to_their_thread) {
     snprintf(part, sizeof part, "n_nodes is %d;", -1 - t);
     assert_non_null(strstr(texts[t], part));
   }
-  /* A call that succeeds leaves the message alone. */
+  /* A call that succeeds does not change the message. */
   riis_valve *valve = NULL;
   assert_true(riis_valve_create("none", &valve) != RIIS_OK);
   valve = new_valve("aortic");

@@ -119,7 +119,7 @@ TEST(null_arguments_are_named) {
   NULL_IS_NAMED("surface", find_passage_between(NULL, mesh, NULL, 1, &n, 1, &n, NULL, 56));
   NULL_IS_NAMED("mesh", find_passage_between(surface, NULL, NULL, 1, &n, 1, &n, NULL, 56));
   NULL_IS_NAMED("passage", find_passage_between(surface, mesh, NULL, 1, &n, 1, &n, NULL, 56));
-  /* Destroying accepts NULL, a NULL handle, and a handle, which becomes NULL. */
+  /* Destroy functions accept NULL, a NULL handle, and a handle, which becomes NULL. */
   riis_valve_destroy(NULL);
   riis_surface_destroy(NULL);
   riis_mesh_destroy(NULL);
@@ -258,7 +258,7 @@ TEST(surface_options_are_refused_by_name) {
   options = surface_options();
   options.tolerance = 1e-6;
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "16777216 triangles|tolerance", riis_surface_create(valve, &options, &surface));
-  options.half_thickness = 1e-50; /* each value is in range, but the combination is absurd */
+  options.half_thickness = 1e-50; /* each value is in range, but the combination makes no sense */
   CHECK_REFUSED(RIIS_LIMIT_EXCEEDED, "tolerance", riis_surface_create(valve, &options, &surface));
 }
 
@@ -393,7 +393,7 @@ TEST(struct_sizes_are_checked) {
   assert_int_equal(options.zero_area, 0x5a5a5a5a); /* a field that the caller's struct lacks is untouched */
   riis_surface *surface = NULL;
   riis_valve *valve = new_valve("aortic");
-  options.struct_size = 0; /* as if the struct had never been initialized */
+  options.struct_size = 0; /* as if no init function had filled the struct */
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is 0|init function", riis_surface_create(valve, &options, &surface));
   options.struct_size = -8;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "options is -8", riis_surface_create(valve, &options, &surface));

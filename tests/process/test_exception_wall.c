@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests failures inside the library that a caller cannot provoke. They become a status and a message. If memory runs out,
- * everything stays as it was. */
+ * Tests failures inside the library that a caller cannot provoke. Exceptions become a status and a message. If memory
+ * runs out, everything stays as it was. */
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include "sanitized.h"
 
 /* Updates a surface in a child process with little address space left. An update that needs much more is refused, and the
- * surface stays. Returns 0 if this holds. */
+ * surface stays as it was. Returns 0 if this holds. */
 static int update_without_memory(void) {
   riis_valve *valve = NULL;
   riis_surface *surface = NULL;
@@ -33,7 +33,7 @@ static int update_without_memory(void) {
   setrlimit(RLIMIT_AS, &limit);
   if (riis_surface_update(surface, valve, &options) != RIIS_OUT_OF_MEMORY) return 4;
   if (strcmp(riis_last_error(), "out of memory") != 0) return 5;
-  limit.rlim_cur = unlimited; /* the checks below may need memory that other threads took meanwhile */
+  limit.rlim_cur = unlimited; /* the checks below may need memory that other threads have taken meanwhile */
   setrlimit(RLIMIT_AS, &limit);
   riis_surface_get_info(surface, &after, sizeof after);
   if (memcmp(&before, &after, sizeof before) != 0) return 6;
@@ -45,7 +45,7 @@ static int update_without_memory(void) {
   return 0;
 }
 
-/* A check that also runs in a child process. The valve has many patches, and the first one already has too many quads. The
+/* A check that also runs in a child process. The valve has many patches, and the first patch already has too many quads. The
  * library makes the curves of a few patches before it counts the quads. It must not make all curves, which would take a gigabyte.
  * Returns 0 if this holds. */
 static int refusal_with_little_memory(void) {

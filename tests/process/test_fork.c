@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A process may be forked while another thread is inside the library. In the child, the memory pools and locks are free.
  * This child makes no surface, because TBB would wait for threads that the child lacks. If the parent used several threads,
- * the library runs on one thread in the child: one is the default, and a request for more is refused. */
+ * the library runs on one thread in the child. One is the default, and a request for more threads is refused. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* for fork */
 #endif
@@ -84,8 +84,8 @@ static int child_goes_on(const riis_valve *valve) {
 }
 
 /* The other thread holds a lock part of the time, so some forks happen while a lock is held. The address sanitizer of gcc 12 does
- * not unlock its own allocator in a child. There a child waits for ever if the other thread was allocating an object of the same
- * size, so these tests are left out. */
+ * not unlock its own allocator in a child. With it, a child waits for ever if the other thread was allocating an object of the
+ * same size, so these tests are left out. */
 static void children_go_on_beside(void *(*other)(void *)) {
   if (is_sanitized()) skip();
   pthread_t thread;
@@ -185,7 +185,7 @@ static int with_status(const scene *s, int32_t n_threads, riis_status expected, 
   return n_as_expected;
 }
 
-/* Copies the parent's marks to arrays, whether or not the marking used several threads. */
+/* Copies the parent's marks to arrays, whether the marking used one thread or several. */
 static riis_status use_result(const scene *s) {
   riis_resistance resistance;
   riis_status status = riis_resistance_init(&resistance, sizeof resistance);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
- * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run on a team for a while, which
- * does not wait for a thread that does not come. The calling thread calls a team late if teams were waited for. In a process
- * whose user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a caller's parallel region, the threads are always
- * OpenMP's. */
+ * The loops of a time step run on OpenMP's threads until one of them is waited for. Then they run for a while on a team, which
+ * does not wait for a thread that does not come. If teams were waited for, the calling thread calls a team late. The
+ * threads are always OpenMP's in two cases: if the user binds OpenMP's threads to places (OMP_PROC_BIND), and inside a
+ * caller's parallel region. */
 #include "loops.h"
 #include "sanitized.h"
 #include "test_support.h"
@@ -11,13 +11,13 @@
 
 static int is_bound(void) { return omp_get_proc_bind() != omp_proc_bind_false; }
 
-/* First, while a team has one worker. */
+/* This case comes first, while a team has one worker. */
 TEST(loops_end_while_a_thread_is_held) {
   assert_true(loops_while_a_thread_is_held(200));
   for (int i = 0; i < 2000 && !is_sanitized(); ++i) assert_true(loops_while_a_thread_is_held(10));
 }
 
-/* Before all loops of OpenMP. One of them may wait long, and then all loops are on teams for a while. */
+/* This case comes before all loops of OpenMP. One of these may wait long, and then all loops run on teams for a while. */
 TEST(more_threads_than_processors_are_a_team) { assert_int_equal(too_many_threads_are_a_team(), !is_bound()); }
 
 TEST(each_block_runs_once) {
@@ -73,9 +73,9 @@ TEST(the_threads_leave_signals_to_the_caller) {
   assert_true(seen.takes_error_signals);
 }
 
-/* This would wait for ever if a loop waited for all of its threads, or for a lock that a held thread has. The thread has to be
- * held at many points to show the latter. A sanitizer's own locks must not be held, so there the thread is held once, asleep. It
- * is the first test, so the team has only one more thread. */
+/* If a loop waited for all of its threads, or for a lock that a held thread has, this would wait for ever. To show the case of
+ * the lock, the thread has to be held at many points. A sanitizer's own locks must not be held, so with a sanitizer the
+ * thread is held once, asleep. This is the first test, so the team has only one more thread. */
 TEST(a_long_wait_chooses_a_team) {
   if (is_bound())
     assert_false(wait_long_for_a_thread());
@@ -112,8 +112,8 @@ TEST(the_choice_lasts_for_a_while) {
   assert_false(takes_team_at(12401, 8, waits, ends));
 }
 
-/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait, and last a loop with a
- * wait. All of these end at 1000 ms. */
+/* Two waits double the pause to 500 ms. Then come n_calm loops without a wait, and at the end a loop
+ * with a wait. All of these end at 1000 ms. */
 static int takes_team_after_calm(double now, int n_calm) {
   double waits[40] = {10, 5}, ended[40] = {100, 400};
   for (int i = 0; i <= n_calm; ++i) ended[2 + i] = 1000;
@@ -121,7 +121,7 @@ static int takes_team_after_calm(double now, int n_calm) {
   return takes_team_at(now, 3 + n_calm, waits, ended);
 }
 
-/* Also on a quiet machine, a loop sometimes waits long. */
+/* Even on a quiet machine, a loop sometimes waits long. */
 TEST(rare_waits_do_not_prolong_the_choice) {
   assert_true(takes_team_after_calm(1999, 31));
   assert_false(takes_team_after_calm(2001, 31));
@@ -143,7 +143,7 @@ TEST(a_loop_is_alone_for_the_mean_loss) {
   double lost[64] = {4}, ended[64] = {0};
   for (int i = 0; i < 64; ++i) ended[i] = 100;
   assert_true(alone_at(1, 0, NULL, NULL) == 0);
-  /* A sixteenth of a loss counts, and half of it after each second. */
+  /* A sixteenth of a loss counts, and half of this after each second. */
   CHECK_NEAR(alone_at(100, 1, lost, ended), 4.0 / 16, 1e-5);
   CHECK_NEAR(alone_at(1100, 1, lost, ended), 4.0 / 32, 1e-5);
   CHECK_NEAR(alone_at(3100, 1, lost, ended), 4.0 / 128, 1e-5);

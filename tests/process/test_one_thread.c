@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * n_threads = 1 starts no thread: after each call the process has as many threads as before the first. The default, 0, also
- * starts no thread if there is little work. With 2 the process has more threads, which shows that the count works. Calls on
- * one thread come first, because OpenMP and TBB keep the threads that they start. */
+ * starts no thread if there is little work. With 2 threads requested, the process has more threads, which shows that the
+ * count works. Calls on one thread come first, because OpenMP and TBB keep the threads that they start. */
 #include <riis/riis.h>
 
 #include "test_support.h"

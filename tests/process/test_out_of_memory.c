@@ -93,7 +93,7 @@ static inline uint64_t add_mesh(uint64_t digest, const riis_mesh *mesh) {
 
 static random_source rng;
 
-static int64_t n_injected[4], n_calls_failed[4]; /* one for each owner whose memory can fail */
+static int64_t n_injected[4], n_calls_failed[4]; /* one for each owner of memory that can fail */
 
 /* The state of all objects before and after the call. */
 typedef struct reference {
@@ -117,7 +117,7 @@ static void check_digest(const scenario *s, const world *w, uint64_t expected, c
   if (digest_of(w) != expected) fail_msg("%s, allocation %lld: something else %s", s->name, (long long)n, when);
 }
 
-static int n_grown; /* how many calls have kept memory because they were the first of their kind */
+static int n_grown; /* how many calls have kept memory because they were the first calls of their kind */
 
 /* Makes allocation n fail in a new process state. Returns how many allocations failed, or 0 if there are fewer than n. */
 static int64_t try_one(const scenario *s, const reference *expected, int whose, int64_t n, int and_all_after,
@@ -133,12 +133,12 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   if (n_failed > 0) {
     n_injected[whose] += n_failed;
   }
-  /* A call that went on is checked below. */
+  /* A call that continued is checked below. */
   if (n_failed > 0 && !((s->flags & MAY_GO_ON) && status == RIIS_OK)) {
     ++n_calls_failed[whose];
     check_status(s, status, n);
-    /* There are two variants of a failure at n. One checks everything before it repeats the call; the other repeats it
-     * immediately. */
+    /* There are two variants of a failure at allocation n. One variant checks everything before it repeats the call.
+     * The other repeats it immediately. */
     if ((n + and_all_after) % 2 == 0 || (s->flags & IS_FIRST))
       check_digest(s, &w, expected->before, "after the failure", n);
     if (!(s->flags & IS_FIRST)) status = s->call(&w);
@@ -149,8 +149,8 @@ static int64_t try_one(const scenario *s, const reference *expected, int whose, 
   }
   destroy(&w);
   const live after = live_now();
-  /* Embree allocates memory for each thread when the thread first works for it, and keeps that memory. TBB's threads may begin
-   * such work at any time. So memory is a leak only if it remains after each of several attempts. */
+  /* When a thread first works for Embree, Embree allocates memory for it, and keeps this memory. TBB's threads may begin such
+   * work at any time. So memory is a leak only if it remains after each of several attempts. */
   if (after.embree == before.embree + 1 && after.library == before.library &&
       after.embree_bytes == before.embree_bytes && attempt < 5)
     return try_one(s, expected, whose, n, and_all_after, attempt + 1);
@@ -178,8 +178,8 @@ static reference reference_of(const scenario *s) {
   return made;
 }
 
-/* Each of the first allocations of a call fails, then some at random. After allocation n, at most n / share are skipped. A
- * call that samples a surface makes more than a thousand allocations, and with a sanitizer each trial is slow. */
+/* Each of the first allocations of a call fails, and then some random ones. After allocation n, at most n / share are skipped. A
+ * call that samples a surface makes more than a thousand allocations, and each trial is slow with a sanitizer. */
 #if defined(IS_SANITIZED)
 enum { n_first = 8, share = 1 };
 #else

@@ -22,7 +22,7 @@ typedef struct work {
   int is_wrong[n_tasks];
 } work;
 
-/* Marks twice into a result of its own. This function asserts nothing, because it may run on any thread. */
+/* Marks twice into a separate result. This function asserts nothing, because it may run on any thread. */
 static void mark(void *data, int task) {
   work *w = data;
   riis_mark_options options = {0};
@@ -78,7 +78,7 @@ TEST(in_the_callers_arena_of_one) { expect_same_as_outside(TBB_ARENA_OF_ONE); }
 TEST(under_the_callers_limit_of_one) { expect_same_as_outside(TBB_LIMIT_OF_ONE); }
 
 int main(void) {
-  /* Nothing may be printed. TBB reports on stderr if more threads are requested than it can give. */
+  /* Nothing may be printed. If more threads are requested than TBB can give, it reports this on stderr. */
   FILE *captured = tmpfile();
   const int terminal = dup(STDERR_FILENO);
   if (!captured || terminal < 0 || dup2(fileno(captured), STDERR_FILENO) < 0) return 1;

@@ -50,7 +50,7 @@ class Checks(unittest.TestCase):
         return folder
 
     def said(self, call, *arguments):
-        """What a check prints, or the text with which it refuses."""
+        """The text that a check prints, or the text of its refusal."""
         with contextlib.redirect_stdout(io.StringIO()) as text:
             try:
                 call(*arguments)

@@ -38,7 +38,7 @@ def square(n, velocity):
 
 class Vortex(unittest.TestCase):
     def test_rigid_rotation(self):
-        """Around a disc of rigid rotation the circulation is twice its area times the angular velocity."""
+        """Around a disc in rigid rotation, the circulation is twice its area times the angular velocity."""
         for turn in (7.0, -7.0):
             circulation, _, radius = clinic.vortex(*square(81, lambda y, z: np.column_stack([-turn * z, turn * y])))
             self.assertEqual(radius, 18)
@@ -83,9 +83,11 @@ class Tables(unittest.TestCase):
             self.assertTrue(orifice.is_open(0.31))
 
     def test_displaced_volume(self):
-        """Without a pressure difference and inertia, leaflets that open push the blood that they displace in the steps in space.
+        """Without a pressure difference and inertia, opening leaflets push the blood that they displace, step by step, in the
+        heart in space.
 
-        In each step they are at their place at the step's end. So they move half a step later than in the heart without space.
+        At the end of each step, they are in that step's position. They therefore move half a step later than in the heart without
+        space.
         """
         orifice = self.read(WELL)
         valve = zero_d.Valve("aortic", orifice)
@@ -99,7 +101,7 @@ class Tables(unittest.TestCase):
         in_space = np.interp(np.arange(26) * zero_d.STEP_IN_SPACE - zero_d.STEP_IN_SPACE / 2,
                              np.arange(len(openings)) * zero_d.STEP, openings)
         displaced = np.interp(in_space[1:], orifice.openings, orifice.displaced) @ np.diff(in_space)
-        self.assertAlmostEqual(pushed, displaced, delta=1e-2)  # 4.0 without the place of the end
+        self.assertAlmostEqual(pushed, displaced, delta=1e-2)  # 4.0 without the position at the end
 
     def test_refusals(self):
         self.refused("a,b\n1,2\n", "has no column opening")
@@ -125,7 +127,7 @@ class Tables(unittest.TestCase):
         self.assertAlmostEqual(flow / (area * np.sqrt(2 * 100 * zero_d.MMHG / zero_d.RHO)), 1, delta=1e-3)
 
     def test_run_that_was_cut_off(self):
-        """The later table counts from its start on."""
+        """The later table counts from its own start."""
         for start, rows in (("0", "1 10\n2 20\n3 30\n"), ("2", "3 31\n4 41\n")):
             folder = self.folder / "postProcessing/inflow" / start
             folder.mkdir(parents=True)
@@ -134,12 +136,12 @@ class Tables(unittest.TestCase):
 
 
 class Search(unittest.TestCase):
-    """The search for a volume in blood whose pressure echoes: p = (1 - c) (A - Z q) + c p_before, from trial to trial."""
+    """The search for a volume, in blood whose pressure echoes from trial to trial: p = (1 - c) (A - Z q) + c p_before."""
 
     INERTANCE, TIME_STEP, ELASTANCE = 7e7, 2e-3, 1.5e8  # Z in Pa s/m3, s, Pa/m3
 
     def steps(self, echo):
-        """Returns the residual in Pa and the number of trials of each step, and the Z and c that were found."""
+        """Returns the residual in Pa and the number of trials for each step, and the Z and c that were found."""
         search = study.library(os.environ["RIIS_VOLUME_SEARCH"])
         volume, pressure, flow = 120e-6, 1.5e4, 0.0
         state = search.search_new(1e7, 3e9, 2000, volume, pressure, 1)
@@ -167,7 +169,7 @@ class Search(unittest.TestCase):
             self.assertLess(residuals.max(), 66, f"echo {echo}")  # 0.5 mmHg
             self.assertLessEqual(trials[10:].max(), 9, f"echo {echo}")
             self.assertAlmostEqual(found, echo, delta=0.02)
-            # The second trial of a step does not know the change before, so Z is too large, which is safe.
+            # The second trial of a step does not know the change before it, so Z is too large, which is safe.
             self.assertTrue(0.99 <= slope / self.INERTANCE <= 2, f"echo {echo}: {slope}")
 
 

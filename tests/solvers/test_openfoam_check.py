@@ -34,7 +34,7 @@ def text_of(values, binary):
 
 
 class Files(unittest.TestCase):
-    """Writes cases into a folder of their own, and compares a check's output."""
+    """Writes cases into a separate folder, and compares a check's output."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -98,7 +98,7 @@ class Marks(Files):
     def setUp(self):
         super().setUp()
         self.centres = self.random.random((N, 3))
-        # In each step more cells have K, as for a valve that opens.
+        # In each step, more cells have K, as in a valve that opens.
         self.k = [numpy.where(numpy.arange(N) < 150 + 10 * i, self.random.random(N) + 1, 0) for i in range(len(self.TIMES))]
 
     def case(self, name, parts, binary, change=lambda part_ids, k, centres, i: None):
@@ -244,8 +244,8 @@ class Marks(Files):
 
 
 class Drops(Files):
-    FLOW = 4e-5  # m3/s; through 8 cm2, (R / eps) u is 50,000 Pa
-    share = None  # what the log expects, for nine tenths of the area
+    FLOW = 4e-5  # m3/s; (R / eps) u through 8 cm2 is 50,000 Pa
+    share = None  # what the log expects for nine tenths of the area
 
     def setUp(self):
         super().setUp()
@@ -403,8 +403,8 @@ class Sizes(Files):
 
 class Hexahedra(Files):
     def test_drops_by_hand(self):
-        """With eps = h, either the middle cell alone has K, or two cells at the distance h / 2 have half of the largest K
-        each. With eps = 2 h the middle cell has twice the K of its neighbours. With many cells the sum is the integral of
+        """With eps = h, the middle cell alone has K, or two cells at the distance h / 2 each have half of the largest K.
+        With eps = 2 h the middle cell has twice the K of its neighbours. With many cells the sum is the integral of
         K."""
         printed = self.printed(check.hexahedra, "1", "2", "1000")
         found = [tuple(map(float, pair)) for pair in re.findall(r"\(\(R / eps\) u\) (\S+) to (\S+)\n", printed)]
@@ -413,7 +413,7 @@ class Hexahedra(Files):
 
 
 class Expected(Files):
-    """Closed leaflets in a duct whose logs and pressures are made up."""
+    """Closed leaflets in a duct, with invented logs and pressures."""
 
     def setUp(self):
         super().setUp()
@@ -478,7 +478,7 @@ class Expected(Files):
         self.stopped("there are 12 cases, not 11", check.expected, *self.cases[1:])
 
     def test_cubes_have_the_sum_of_harmonic_means(self):
-        """On cubes of 1 mm, centres lie 1.3, 0.3, ... -1.2 mm from the leaflet, less the places of the four faces' cells."""
+        """On cubes of 1 mm, centres lie 1.3, 0.3, ... -1.2 mm from the leaflet, and the four faces' cells are left out."""
         heights = numpy.array([-1.8, -0.8, 0.2, 1.2])
         k = numpy.where(abs(heights) < 1.5, (1 + numpy.cos(numpy.pi * heights / 1.5)) / 3, 0)
         form = 2 / (1 / k[1] + 1 / k[2]) + 2 / (1 / k[2] + 1 / k[3])
@@ -604,7 +604,7 @@ class Physiological(Table):
 
 
 class Moving(Files):
-    """Cases of moving valves whose forces, volumes and jets are made up."""
+    """Cases of moving valves with invented forces, volumes and jets."""
     OPENS = ("hexahedra-28", "hexahedra-32", "tetrahedra", "box-28", "box-32")
     SAME = ("ranks-2", "ranks-4", "two-valves", "pisoFoam", "tetrahedra-ranks-2", "tetrahedra-ranks-4")
 
@@ -641,7 +641,7 @@ class Moving(Files):
             for time, opening in zip(self.times, self.opening)))
 
     def displaced(self, name, share):
-        """Writes the flows at both ends. Until the opening 0.25 the valve sweeps 0.25 ml in 5 steps."""
+        """Writes the flows at both ends. Until the opening 0.25, the valve sweeps 0.25 ml in 5 steps."""
         for function, sign in (("inflow", -1.5), ("outflow", 0.5)):
             self.table(self.folder / name, function, self.times, [sign * 5e-5 * share] * 40)
 

@@ -6,7 +6,7 @@ import shutil
 import sys
 import unittest
 
-from test_openfoam_check import Files, text_of  # it also ends the test if there is no numpy
+from test_openfoam_check import Files, text_of  # if there is no numpy, it also ends the test
 
 import numpy
 
@@ -54,7 +54,7 @@ class Follow(Files):
         self.write_case("follow-deform", swing, 2, deforms=True)
 
     def bend(self, i, points):
-        """Moves points, beyond the rigid motion."""
+        """Moves points in addition to the rigid motion."""
         return numpy.outer(numpy.sin(400 * points[:, 2] + 300 * points[:, 0]) * i / 8, [2e-4, 0, 1e-4])
 
     def write_case(self, name, motion, ranks, deforms=False, velocity=True, k=None, ku=None, shift=None, force=1.0,

@@ -30,7 +30,7 @@ floor_of() {
 }
 
 # includes_of FOLDER: prints "FILE LINE INCLUDED FOLDER" for each include. INCLUDED is the header's first folder, and FOLDER the
-# second. A header without a folder stands for the folder.
+# second. For a header without a folder, FOLDER stands for it.
 includes_of() {
   grep -rnoE '^ *# *include *"[^"]+"' "$1" | sed -E 's/^([^:]*):([0-9]+):[^"]*"([^"/]+)\/?([^"/]*).*$/\1 \2 \3 \4/'
 }

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""check_palette.py FOLDER: all pictures take their colours from one palette, and every kind of colour vision tells them apart.
+"""check_palette.py FOLDER: all pictures take their colours from one palette, whose colours are distinct in every kind of colour
+vision.
 
 The palette is distinct_colours of src/riis_vtk/picture/drawing.hpp. How protanopes, deuteranopes and tritanopes see a colour
-follows from the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours are told apart if their
-difference in CIELAB is at least LEAST. The palette of matplotlib and its Set2 must fail.
+follows from the matrices of Machado, Oliveira, Fernandes (2009) for the severity 1. Two colours count as distinct if
+their difference in CIELAB is at least LEAST. The palette of matplotlib and its Set2 must fail.
 """
 
 import itertools
@@ -38,7 +39,7 @@ def cielab(colour, vision):
 
 
 def closest(colours):
-    """Returns the least difference of two colours, the vision, and both."""
+    """Returns the least difference between two colours, the kind of vision, and both colours."""
     found = []
     for vision in VISIONS:
         for a, b in itertools.combinations(colours, 2):
@@ -52,7 +53,7 @@ def from_hex(text):
 
 
 def colours_in(folder, path, pattern):
-    """Returns all colours in the text that the pattern matches: as three numbers, or as #rrggbb."""
+    """Returns all colours in the text that match the pattern, as three numbers or as #rrggbb."""
     with open(os.path.join(folder, path), encoding="utf-8") as file:
         found = re.search(pattern, file.read(), re.DOTALL)
     if not found:

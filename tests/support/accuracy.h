@@ -19,13 +19,13 @@ typedef struct known_truth {
   double most_from_fine;
 } known_truth;
 
-/* Makes points whose distance to the patches is known. If patches is NULL, takes leaflet 0 of the valve of the given kind.
+/* Makes points whose distance to the patches is known. If patches is NULL, uses leaflet 0 of the valve of the given kind.
  * Returns 0, or 1 with the reason on stderr. */
 int truth_of(const riis_patches *patches, const char *kind, int64_t n, uint64_t seed, double fine_tolerance,
              known_truth *truth);
 void truth_free(known_truth *truth);
 
-/* Offsets are in half thicknesses. Point i has offset i modulo n_offsets, unless the point is left out. */
+/* Offsets are in half thicknesses. Point i has the offset number i modulo n_offsets, unless the point is left out. */
 enum { n_offsets = 6 };
 double truth_offset(int64_t i);
 double truth_largest_share_of_radius(void);

@@ -27,7 +27,7 @@ walk_seen walk_once(int n_threads);
 walk_seen walk_under_limit(int limit, int n_threads);
 /* Makes a walk in which every body throws. Returns 1 if the caller gets the exception. */
 int walk_that_throws(int n_threads);
-/* Starts n_callers threads. Each makes n_walks walks, alternately with 2 and 3 threads. All threads are inside their first
+/* Starts n_callers threads. Each makes n_walks walks, with 2 and 3 threads in turn. All threads are inside their first
  * walk, which has 2 threads, at the same time. Returns 1 if all walks are correct. */
 int walk_at_once(int n_callers, int n_walks);
 /* Runs n_tasks tasks of the caller's own TBB in an arena of four threads. Each task makes a walk. Returns 1 if all walks are

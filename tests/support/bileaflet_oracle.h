@@ -41,7 +41,7 @@ static inline riis_surface *bileaflet_surface(const bileaflet *of, const riis_su
   return surface;
 }
 
-/* Makes a valve with random consistent values, whose leaflets close to an angle below most_closed. */
+/* Makes a valve with random values that fit together, whose leaflets close to an angle below most_closed. */
 static inline bileaflet random_bileaflet(random_source *random, double most_closed) {
   bileaflet made = bileaflet_defaults();
   made.radius = random_between(random, 0.5, 2);
@@ -92,7 +92,7 @@ static inline double to_rim_sq(const bileaflet *of, double stretch, double x, do
   return dx * dx + dy * dy;
 }
 
-/* Returns the distance, within the leaflet's plane, from a point outside the leaflet to its outline. (x, y) is the point's
+/* Returns the distance from a point outside the leaflet to its outline, within the leaflet's plane. (x, y) is the point's
  * position on the closed leaflet, seen along the axis. The middle edge is a segment. The rim is an ellipse, which is searched
  * by golden sections between samples. */
 static inline double to_outline(const bileaflet *of, double x, double y) {
@@ -132,8 +132,8 @@ static inline double to_bileaflet(const bileaflet *of, const double *p) {
   return fmin(to_bileaflet_leaflet(of, RIIS_LEAFLET_POSITIVE, p), to_bileaflet_leaflet(of, RIIS_LEAFLET_NEGATIVE, p));
 }
 
-/* Returns the distance from a half disc: the half x >= 0 of a disc of this radius. The disc's plane contains the hinge at
- * slope 0, and its centre is at slope -offset. */
+/* Returns the distance from a half disc, which is the half x >= 0 of a disc of this radius. The disc's plane contains the
+ * hinge at slope 0, and its centre is at slope -offset. */
 static inline double to_half_disc(double radius, double offset, in_leaflet at) {
   const double x = at.slope + offset, from_centre = hypot(x, at.y);
   if (x >= 0) return hypot(at.off, fmax(from_centre - radius, 0));

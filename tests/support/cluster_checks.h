@@ -18,8 +18,8 @@ static inline int is_refused(riis_status status, int32_t instructions) {
 static int32_t most_threads; /* largest number of threads in any marking */
 static int64_t most_within;
 
-/* Marks with all instruction sets and with 1 to max_threads threads. expected_search is the search that must run. If `fresh`,
- * each marking gets a new mesh. */
+/* Marks with all instruction sets, and with 1 to max_threads threads. expected_search is the search that must run. If
+ * `fresh`, each marking gets a new mesh. */
 static inline void check_with(const riis_surface *surface, riis_mesh *mesh, riis_mark_options options, int max_threads,
                               int32_t expected_search) {
   const int owned_before = n_owned();

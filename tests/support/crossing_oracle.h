@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Finds whether a segment and a triangle have a point in common, with integers of 128 bits. It uses Cramer's rule. If both lie
- * in one plane, it clips the segment at the triangle's sides. The library instead computes signs of volumes in floating point. */
+ * Finds whether a segment and a triangle have a point in common, with integers of 128 bits. It uses Cramer's rule. If both lie in
+ * one plane, the oracle clips the segment at the triangle's sides. The library instead computes signs of volumes in floating
+ * point. */
 #ifndef RIIS_TEST_CROSSING_ORACLE_H
 #define RIIS_TEST_CROSSING_ORACLE_H
 
@@ -25,8 +26,8 @@ static inline wide wide_dot(wide3 a, wide3 b) { return a.x[0] * b.x[0] + a.x[1] 
 static inline int oracle_meet_in_plane(const int64_t *a, const int64_t *b, const int64_t *abc, wide3 normal) {
   const int drop = normal.x[0] ? 0 : normal.x[1] ? 1 : 2, u = (drop + 1) % 3, v = (drop + 2) % 3;
   const int turn = normal.x[drop] > 0 ? 1 : -1;
-  /* The part of the segment, from t = low to high, that is on the inner side of all sides of the triangle so far. Both ends are
-   * fractions with positive denominators. */
+  /* The part of the segment, from t = low to high, on the inner side of all sides of the triangle that were tried so far. Both
+   * ends are fractions with positive denominators. */
   wide low = 0, low_of = 1, high = 1, high_of = 1;
   for (int i = 0; i < 3; ++i) {
     const int64_t *from = abc + 3 * i, *to = abc + 3 * ((i + 1) % 3);

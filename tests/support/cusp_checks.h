@@ -63,8 +63,8 @@ static inline double orifice_area(const riis_surface *surface, double radius, in
   return (double)n_open * h * h;
 }
 
-/* Returns how far a cusp reaches out of its sector, the wedge between its two commissures. The wedges are convex, so cusps
- * that stay in their wedges do not cross. */
+/* Returns how far a cusp extends beyond its sector, which is the wedge between its two commissures. The wedges are convex,
+ * so cusps that stay in their wedges do not cross. */
 static inline double reach_out_of_sectors(const riis_surface *surface, const double *turn, const double *half_angle) {
   const riis_triangles all = triangles_of(surface);
   double worst = 0;
@@ -79,7 +79,8 @@ static inline double reach_out_of_sectors(const riis_surface *surface, const dou
   return worst;
 }
 
-/* Returns the least cosine between a triangle's normal and the direction outwards and up. A fold would reverse the normal. */
+/* Returns the least cosine of the angle between a triangle's normal and the direction outwards and up. A fold would reverse the
+ * normal. */
 static inline double least_uprightness(const riis_surface *surface, const double *turn) {
   const riis_triangles all = triangles_of(surface);
   double least = 1;

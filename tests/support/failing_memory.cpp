@@ -109,7 +109,7 @@ const void *this_thread() {
   return &mark;
 }
 
-// Counts an allocation by the owner under test. Returns true if this allocation has to fail.
+// Counts an allocation by the tested owner. Returns true if this allocation has to fail.
 bool is_to_fail() {
   const std::int64_t left = n_left.fetch_sub(1);
   if (left > 1 || (left < 1 && !fails_on)) return false;
@@ -211,7 +211,7 @@ void *rtcNewDevice(const char *config) {
         [](void *, ssize_t bytes, bool post) {
           const bool refused = bytes > 0 && failing == MEMORY_OF_EMBREE && is_to_fail();
           // Embree reports memory before or after it allocates. A late report counts even if it is refused, because the memory
-          // exists.
+          // already exists.
           if (!refused || post) live_bytes_of_embree += bytes;
           return !refused;
         },

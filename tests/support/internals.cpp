@@ -373,8 +373,8 @@ riis_status wall_meets(const char *exception) {
       std::atomic<bool> has_failed{false};
       parallel_for(2, 2, [&](std::int64_t block, int) {
         const auto start = std::chrono::steady_clock::now();
-        // The first block waits until another block has failed, but not for long. With a single thread no other block can fail
-        // meanwhile.
+        // The first block waits for a short time until another block has failed. With a single thread, no other block can
+        // fail meanwhile.
         while (block == 0 && !has_failed && std::chrono::steady_clock::now() - start < std::chrono::milliseconds(500))
           std::this_thread::yield();
         if (block == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));

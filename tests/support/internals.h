@@ -83,7 +83,7 @@ riis_status bounded_quads(const char *kind, int n_parameters, const char *const 
                           double max_error, int64_t *n_quads, bounded_quad **quads);
 
 /* The number of triangles and the error bound of a valve whose curves deviate from their shape by `deviation`. A fixed
- * triangulation is planned for this state alone. bound_of_patches is the error bound of sampling and minimisation, which use
+ * triangulation is planned only for this state. bound_of_patches is the error bound of sampling and minimisation, which use
  * patches. */
 typedef struct deviating {
   int64_t n_triangles;
@@ -92,9 +92,9 @@ typedef struct deviating {
 } deviating;
 riis_status triangulate_deviating(const char *kind, double deviation, double max_error, int is_fixed, deviating *made);
 
-/* Finds the closest triangle to each point twice: by the Embree scene of the triangles xyz(9, n_triangles), with every
- * available instruction set, and by a loop over all triangles with the same kernel. Returns how often the squared distances
- * (bit by bit) or the triangles differ. Points beyond the limit must give no triangle. */
+/* Finds the closest triangle to each point in two ways. The Embree scene of the triangles xyz(9, n_triangles) is queried
+ * with every available instruction set, and a loop goes over all triangles with the same kernel. Returns how often the
+ * squared distances (bit by bit) or the triangles differ. Points beyond the limit must give no triangle. */
 int64_t scene_differs_from_loop(int64_t n_triangles, const double *xyz, int64_t n_points, const double *points,
                                 double limit);
 
@@ -110,7 +110,7 @@ int64_t order_found_nodes(const riis_surface *surface, int64_t n_nodes, int n_th
  * code for processors without these sets, which runs on any processor. */
 enum { baseline_set = 0, portable_set = 3, n_kernel_sets = 4 };
 int kernels_there(int set);
-/* Returns whether this build's flags keep fused multiply-add instructions out of the baseline. */
+/* Returns whether the flags of this build keep fused multiply-add instructions out of the baseline. */
 int kernels_baseline_rounds_twice(void);
 const char *kernels_name(int set);
 
@@ -160,8 +160,8 @@ void kernels_place_points(int set, const double *first, const double *second, do
 int kernels_have_area(int set, const double *vertices, const int64_t *vertex_id, int32_t n, double shift);
 
 /* Sums weight |at - source|^3 and its derivatives over n sources, n a multiple of 8. sources(n, 3) and weights(n, 3) are stored
- * coordinate by coordinate. Writes the sum, then a third of its derivatives by x, y and z. The first 3 of `sums` once more, by
- * the function without derivatives, follow. */
+ * coordinate by coordinate. Writes the sum, and then a third of its derivatives by x, y and z. The first three numbers of
+ * `sums` follow once more, from the function without derivatives. */
 void kernels_sum_cubes(int set, int64_t n, const double *sources, const double *weights, const double *at,
                        double *sums);
 
@@ -194,8 +194,8 @@ typedef struct kernel_filter {
 } kernel_filter;
 /* Filters a cluster that has the nodes in two leaves. In the second leaf, a node's number is larger by 32, the limit is half, and
  * the groups are in the opposite order. Between both leaves are a leaf without wanted nodes and a leaf without groups. Returns
- * all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that this took.
- * The caller frees the pairs. */
+ * all pairs that the filter leaves, with a buffer for `room` pairs at a time. *n_calls gets the number of calls that the filter
+ * needed. The caller frees the pairs. */
 int64_t kernels_filter(int set, const kernel_filter *filter, int32_t room, kernel_pair **pairs, int64_t *n_calls);
 /* Gives the squares of the lower bounds by groups, lower_sq(32, n_groups). */
 void kernels_lower_bounds(int set, const kernel_filter *filter, float *lower_sq);
@@ -220,7 +220,7 @@ double powell_minimum(double (*f)(double u, double v), double enough, double ste
  *   "standard"  another standard exception, "boom"
  *   "other"     an int
  *   "worker"    an Error thrown by a worker thread of a parallel loop
- *   "workers"   two such errors; the second block's error comes first
+ *   "workers"   two such errors; the error of the second block comes first
  *   "nothing"   no exception */
 riis_status wall_meets(const char *exception);
 

@@ -102,13 +102,13 @@ int loop_once(int64_t n_blocks, int n_threads) {
 
 namespace {
 
-// A loop whose bodies count their runs and may throw the number of their block.
+// A loop whose bodies count their runs, and may throw the number of their block.
 struct FailingLoop {
   explicit FailingLoop(std::int64_t n_blocks) : n_runs(static_cast<std::size_t>(n_blocks)) {}
 
   void begin(std::int64_t block) { n_runs[static_cast<std::size_t>(block)].fetch_add(1, std::memory_order_relaxed); }
-  // Returns the block whose exception comes out of run(), or the number of blocks if none does. Returns -1 if a lower block did
-  // not run, or if a block ran twice.
+  // Returns the block whose exception leaves run(), or the number of blocks if no exception does. Returns -1 if a lower block
+  // did not run, or if a block ran twice.
   template <class Run>
   std::int64_t caught(const Run &run) const {
     const auto n_blocks = static_cast<std::int64_t>(n_runs.size());
@@ -233,7 +233,7 @@ int too_many_threads_are_a_team() { return is_on_a_team(processors_of_machine() 
 
 int wait_long_for_a_thread() {
 #if defined(RIIS_STD_THREADS)
-  return next_loop_is_on_a_team();  // every loop runs on a team, so no wait chooses one
+  return next_loop_is_on_a_team();  // every loop runs on a team, so no wait chooses a team
 #endif
   // On a busy machine an earlier wait may have chosen a team, for 2 seconds at most. Its calling thread may run both blocks.
   for (bool are_openmps = false; !are_openmps;) {

@@ -26,8 +26,8 @@ enum {
   MAKES_A_SCENE = 1,
   ON_WORKERS = 2,     /* threads other than the calling one also allocate */
   ALLOCATES_NONE = 4, /* the library's own code allocates nothing */
-  IS_FIRST = 8,       /* the first such call in this process also makes data that later calls share */
-  MAY_GO_ON = 16,     /* the call may do without the memory, and then succeeds */
+  IS_FIRST = 8,       /* the first such call in this process also makes data for later calls */
+  MAY_GO_ON = 16,     /* the call can do without the memory, and then succeeds */
   IS_SHORT = 32       /* on a busy machine, the calling thread may have ended the loop before the others come */
 };
 
@@ -56,7 +56,7 @@ static void set_nodes(int64_t n) {
   for (int64_t i = 0; i < nodes.n; ++i) mask[i] = i % 7 != 0;
 }
 
-/* A handle holds this object before a call that creates one. The call may overwrite the handle only on success. */
+/* Before a call that creates an object, a handle holds this object. The call may overwrite the handle only on success. */
 static char no_object;
 #define MADE(type, handle, create)                                                                    \
   do {                                                                                                \
@@ -321,7 +321,8 @@ static riis_status mark_masked_and_wide(world *w) {
   options.node_mask = mask;
   return riis_mark_nodes(w->surface, w->mesh, &options, w->result);
 }
-/* Scenarios that mark into a result of earlier markings. After one marking it needs more memory; after several it has enough. */
+/* Scenarios that mark into a result of earlier markings. After one marking it needs more memory, and after several it has
+ * enough. */
 static void marked_before(world *w) {
   ready_to_mark(w);
   CHECK_OK(mark(w));

@@ -8,7 +8,7 @@ typedef long double real;
 
 enum {
   STEPS = 256
-}; /* steps of the arc length table; more steps move no point of the paper's valve by more than 3e-16 */
+}; /* steps of the arc length table; with more steps, no point of the paper's valve moves by more than 3e-16 */
 
 typedef struct cubic {
   real point[4][3];
@@ -141,7 +141,7 @@ static real annulus_length(const cubic annulus[6]) {
   return sum;
 }
 
-/* Gives A(u) and the unit vector along A'(u). The paper's "resampled uniformly" means by arc length. */
+/* Gives A(u) and the unit vector along A'(u). By "resampled uniformly", the paper means by arc length. */
 static void annulus_at(const cubic annulus[6], real u, real *point, real *tangent) {
   real s = u * annulus_length(annulus);
   int i = 0;
@@ -170,8 +170,8 @@ static real twice_area(const real *a, const real *b, const real *c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* The section "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane and maps S^0, S^3 and S^tip to start,
- * end and tip. So a point keeps its barycentric coordinates. (S^cen follows, because it is a mean.) */
+/* The section "Leaflets" up to the matrix M, rows 5 to 8. M is affine on the arc's plane, and maps S^0, S^3 and S^tip to
+ * start, end and tip. A point therefore keeps its barycentric coordinates. (S^cen follows, because it is a mean.) */
 static void leaflet_curve(const real *start, const real *tip, const real *end, double arc_angle, real curve[4][3]) {
   const real a = radians(arc_angle), k = 4.0L / 3 * tanl(a / 4);
   const real S[4][2] = {{1, 0}, {1, k}, {cosl(a) + k * sinl(a), sinl(a) - k * cosl(a)}, {cosl(a), sinl(a)}};
@@ -185,7 +185,7 @@ static void leaflet_curve(const real *start, const real *tip, const real *end, d
 
 static real u_pm_of(const mitral_parameters *p) { return 0.5L - (real)p->anterior_ratio / 2; }
 
-/* The curve L_at. Row 9: one commissure parameter at both ends. */
+/* The curve L_at. Row 9: there is one commissure parameter for both ends. */
 static void anterior_curve(const mitral_parameters *p, const cubic annulus[6], double inward_angle, real curve[4][3]) {
   const real u_pm = u_pm_of(p);
   real start[3], tip[3], end[3];
@@ -216,7 +216,7 @@ static void blend_curve(real opening, real closed[4][3], real open[4][3], cubic 
   measure(blended);
 }
 
-typedef struct states { /* on the heap, because it has tables of 14 curves */
+typedef struct states { /* on the heap, because it contains tables of 14 curves */
   cubic closed_annulus[6], open_annulus[6], closed_anterior, open_anterior;
   cubic cleft_annulus[6], cleft_anterior;
 } states;
@@ -384,7 +384,7 @@ double mitral_oracle_scallop_length(const mitral_oracle *oracle, int scallop) {
 
 double mitral_oracle_area(const mitral_oracle *oracle, int n_u, int n_v) {
   real u[MITRAL_ORACLE_BREAKS], sum = 0;
-  real curve[2][3][3]; /* the curves at the last two u */
+  real curve[2][3][3]; /* the curves at the last two values of u */
   breaks(oracle, u);
   for (int b = 0; b + 1 < MITRAL_ORACLE_BREAKS; ++b)
     for (int i = 0; i <= n_u; ++i) {

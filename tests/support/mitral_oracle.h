@@ -40,7 +40,7 @@ void mitral_oracle_point(const mitral_oracle *oracle, double u, double v, double
 enum { MITRAL_ORACLE_BREAKS = 8 };
 void mitral_oracle_breaks(const mitral_oracle *oracle, double *u);
 
-/* Returns the u on the posteromedial side at which the anterior edge meets the cleft when closed. */
+/* Returns the u on the posteromedial side at which the closed anterior edge meets the cleft. */
 double mitral_oracle_anterior_cleft(const mitral_oracle *oracle);
 
 double mitral_oracle_annulus_length(const mitral_oracle *oracle);

@@ -5,7 +5,7 @@
 #define RIIS_TEST_MOVING_SURFACES_H
 
 /* Writes the value of a label, by linear interpolation in a triangle of labels. Vertex i has the label uv[2 i] and the value
- * values[3 i]. Returns 0 where the triangles of labels leave a hole. */
+ * values[3 i]. Returns 0 where there is a hole between the triangles of labels. */
 static inline int value_at_label(const riis_triangles *t, const double *uv, const double *values, int32_t patch,
                                  const double *label, double *value) {
   for (int64_t i = 0; i < t->n_triangles; ++i) {
@@ -38,7 +38,7 @@ static inline kept_vertices vertices_of(const riis_surface *surface) {
   return made;
 }
 
-/* A root that widens unevenly, tilts and shifts in a beat. `of` has the sizes of these motions. */
+/* A root that widens unevenly, tilts and shifts during a beat. `of` gives the sizes of these motions. */
 static inline void beat(const double *x, double time, const double *of, double *y) {
   const double phase = 2 * acos(-1) * time, angle = atan2(x[1], x[0]), tilt = of[0] * sin(phase);
   const double wide = 1 + of[1] * sin(phase + 0.3) * (1 + 0.5 * cos(2 * angle));

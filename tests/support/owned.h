@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Records the objects of a test. The test's teardown frees them, even after a failed assertion. Each thread has its own list.
- * A thread that the test starts frees its objects by free_owned_after. Include after riis.h and test_support.h; handles.h
- * includes it. */
+ * Records the objects of a test. The test's teardown frees the objects, even after a failed assertion. Each thread has its
+ * own list. A thread that the test starts frees its objects with free_owned_after. Include after riis.h and
+ * test_support.h; handles.h includes it. */
 #ifndef RIIS_TEST_OWNED_H
 #define RIIS_TEST_OWNED_H
 
@@ -36,7 +36,7 @@ static inline void free_owned_after(int n) {
   }
 }
 
-/* Takes an object off the list and returns it. Its `destroy` is NULL if it was not on the list. */
+/* Takes an object off the list and returns it. Its `destroy` is NULL if the object was not on the list. */
 static inline owned_object disown(void *object) {
   int i = owned.n - 1;
   while (i >= 0 && owned.at[i].object != object) --i;

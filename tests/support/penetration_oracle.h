@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Computes the penetration depth and the common segment of two triangles, with 113 bits of precision. The depth is the
  * distance from the origin to the convex hull of the nine differences of corners. All planes through three of these
- * differences are tried. The segment ends at the two points, farthest apart, where an edge passes through the other
- * triangle. The library instead compares overlaps along normals, and clips. */
+ * differences are tried. The segment ends at two points where an edge passes through the other triangle: the two
+ * that are farthest apart. The library instead compares overlaps along normals, and clips. */
 #ifndef RIIS_TEST_PENETRATION_ORACLE_H
 #define RIIS_TEST_PENETRATION_ORACLE_H
 
@@ -56,7 +56,7 @@ static inline quad_pair quad_pair_of(const double *a, const double *b) {
   return pair;
 }
 
-/* Returns true if all points are on one side of the triangle's plane, or on it. */
+/* Returns true if all points are on one side of the triangle's plane, or on the plane. */
 static inline int is_beside(const quad3 *points, const quad3 *triangle) {
   const quad3 n = quad_cross(quad_difference(triangle[1], triangle[0]), quad_difference(triangle[2], triangle[0]));
   int n_above = 0, n_below = 0;
@@ -68,7 +68,8 @@ static inline int is_beside(const quad3 *points, const quad3 *triangle) {
   return n_above == 3 || n_below == 3;
 }
 
-/* Lowers *depth if all points are on one side of the plane through three of them. *depth becomes 0 if the origin is outside. */
+/* If all points are on one side of the plane through three of them, lowers *depth to the plane's distance. *depth becomes 0 if
+ * the origin is outside. */
 static inline void try_plane(const quad3 *p, int i, int j, int k, quad size, quad *depth) {
   const quad3 n = quad_cross(quad_difference(p[j], p[i]), quad_difference(p[k], p[i]));
   const quad of_n = quad_length(n), tiny = (quad)1e-24 * of_n * size;

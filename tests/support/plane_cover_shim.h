@@ -16,14 +16,14 @@ double shim_circle_area(double radius, const double centre[2], int64_t n_lines);
 double shim_uncovered_circle(double radius, const double centre[2], int64_t n_triangles, const double *corners,
                              int64_t n_lines);
 
-/* Returns the part of the area inside closed lines, of two points each, that no triangle covers. Returns -1 if the lines are
- * not closed.
+/* Returns the part of the area inside closed lines that no triangle covers. Each line has two points. Returns -1 if the
+ * lines are not closed.
  *   points  (3, 2, n_segments) */
 double shim_uncovered_inside(int64_t n_segments, const double *points, int64_t n_triangles, const double *corners,
                              int64_t n_lines);
 
-/* The triangles share vertices, and grow by `reach`. Gives the area of a circle that they leave uncovered, and the length of this
- * area's edge.
+/* The triangles share vertices, and grow by `reach`. Gives the area of the part of a circle that they leave uncovered, and the
+ * length of this part's edge.
  *   xy         (2, n_vertices)
  *   vertex_id  (3, n_triangles) */
 double shim_area_beyond(double radius, const double centre[2], int64_t n_vertices, const double *xy,

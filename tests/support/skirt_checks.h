@@ -6,8 +6,8 @@
 /* The numbers of pairs of triangles that go through each other beyond rounding. */
 typedef struct pair_counts {
   int64_t of_leaflets; /* without the skirt */
-  int64_t of_skirt;    /* of the skirt and anything but the patch that it continues */
-  int64_t of_own;      /* of the skirt and that patch */
+  int64_t of_skirt;    /* pairs of the skirt and anything but the patch that it continues */
+  int64_t of_own;      /* pairs of the skirt and that patch */
 } pair_counts;
 
 static inline pair_counts crossings_of(const riis_surface *surface, riis_crossings *crossings) {
@@ -23,7 +23,7 @@ static inline pair_counts crossings_of(const riis_surface *surface, riis_crossin
     int n_of_skirt = 0;
     int32_t patch[2] = {0, 0};
     for (int end = 0; end < 2; ++end) {
-      /* A fixed triangulation leaves out triangles without area, so an id is no position. */
+      /* A fixed triangulation leaves out triangles without area, so an id is not a position. */
       int64_t low = 0, high = all.n_triangles - 1;
       while (low < high) {
         const int64_t middle = (low + high) / 2;

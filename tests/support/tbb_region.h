@@ -13,13 +13,13 @@ extern "C" {
 enum tbb_region { TBB_OWN_ARENA, TBB_ARENA_OF_FOUR, TBB_ARENA_OF_ONE, TBB_LIMIT_OF_ONE };
 
 typedef struct tbb_seen {
-  int n_changed;    /* how many settings changed: the limit on threads, compared around the whole call and in the
+  int n_changed;    /* the number of changed settings: the limit on threads, compared around the whole call and in the
                     region; and the arena, compared around the whole call, in the region and around each task */
   int most_at_once; /* the largest number of tasks that ran at the same time */
 } tbb_seen;
 
-/* Runs body(data, task) for 0 <= task < n_tasks as tasks of a tbb::parallel_for. In the arena of four the first task waits at
- * most 10 seconds for a second one to begin. The body must return. */
+/* Runs body(data, task) for 0 <= task < n_tasks as tasks of a tbb::parallel_for. In the arena of four, the first task waits
+ * at most 10 seconds until a second task begins. The body must return. */
 tbb_seen tbb_run(int region, int n_tasks, void (*body)(void *data, int task), void *data);
 
 #ifdef __cplusplus

@@ -14,7 +14,7 @@
  * their lines. */
 #define TEST(name) TEST_WITH(name, NULL, NULL)
 
-/* Defines a case with a setup and a teardown of its own. The case knows the setup's object as *fixture. */
+/* Defines a case with its own setup and teardown. The case knows the setup's object as *fixture. */
 #define TEST_WITH(name, setup, teardown)                                              \
   static void name(void **fixture);                                                   \
   __attribute__((constructor)) static void add_##name(void) {                         \

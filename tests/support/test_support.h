@@ -54,7 +54,7 @@ static inline void check_refused(riis_status expected, riis_status got, const ch
 #define CHECK_REFUSED(status, parts, call) check_refused(status, call, parts, #call)
 #endif
 
-/* Random numbers by splitmix64. The seed is the time, or RIIS_TEST_SEED to repeat a run. */
+/* Random numbers by splitmix64. The seed is the time, or RIIS_TEST_SEED if a run is to be repeated. */
 typedef struct random_source {
   uint64_t state;
 } random_source;

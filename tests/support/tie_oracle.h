@@ -105,7 +105,7 @@ static inline int places_near(const riis_triangles *s, const double *velocity, c
   return n;
 }
 
-/* Returns the velocity of the surface near p, which is at the given distance. */
+/* Returns the velocity of the surface near p, which has the given distance. */
 static inline tied_velocity tied_velocity_at(const riis_triangles *s, const double *velocity, const double *p,
                                              double distance, double half_thickness) {
   const long double rounding = rounding_near(p, half_thickness), of_leaflets = 1e-6L * half_thickness,

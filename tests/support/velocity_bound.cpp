@@ -17,7 +17,7 @@
 namespace riis {
 namespace {
 
-// The two states that the velocities were computed from.
+// The two states from which the velocities were computed.
 struct TwoStates {
   const PatchSet &now;
   PatchSet before;
@@ -41,7 +41,7 @@ constexpr int most_rounds = 12;
 constexpr std::size_t most_ranges = 1024;
 constexpr double narrow = 2e-5;
 
-// Bounds are tight if the least length on a range is at least this share of the largest length.
+// Bounds are tight if, on a range, the least length is at least this share of the largest length.
 constexpr double tight_share = 0.9;
 
 // Bounds the inverse of a length that is at least `least`.
@@ -62,14 +62,14 @@ double least_on_segment(Vec3 a, Vec3 b) {
 // Bounds the distance of a function from the line between its ends, if its second derivative is at most `second`.
 double off_line(double width, double second) { return 0.125 * width * width * second; }
 
-// A range of u, and the most that a function's first derivative can be on it.
+// A range of u, and the largest first derivative of a function on it.
 struct Slope {
   double width, most;
 };
 
 // Bounds the distance of a continuous function from the line between its ends, from bounds of its slope on successive ranges. At
-// x, a slope before x counts with the share of the whole width behind x. A slope behind x counts with the share before x. With
-// one slope everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
+// x, a slope before x is weighted with the share of the whole width after x. A slope after x is weighted with the share before x.
+// If one slope holds everywhere, the bound is half the width times the slope. A steep slope on a narrow range adds little.
 double off_line(const Vector<Slope> &slopes) {
   double width = 0, rise = 0;
   for (const Slope &on : slopes) width += on.width, rise += on.width * on.most;
@@ -134,8 +134,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
     const Both unknown{infinity, infinity};
     return {length, unknown, unknown, unknown, infinity, infinity, false};
   }
-  // At the same u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
-  // growth in between that the rates dt/du = length / |B'| allow.
+  // At equal u, the parameters of the two states differ by at most `shift`. `shift` is the difference at the ends, plus the
+  // growth between the ends that the rates dt/du = length / |B'| allow.
   const Derivatives change = changes_on(*at_now.span, *at_before.span, from, to);
   const double at_ends = larger(std::abs(at_now.t[0] - at_before.t[0]), std::abs(at_now.t[1] - at_before.t[1]));
   const double half = 0.5 * width, rate_change = length.change / least + whole * change.first / (least * least);
@@ -162,8 +162,8 @@ AlongCurve along(const CurvePart &at_now, const CurvePart &at_before, double wid
           least >= tight_share * first && by_itself <= 1 - tight_share};
 }
 
-// Returns bounds from each state by itself. They serve a range on which the states lie on different spans and cannot be
-// compared.
+// Returns bounds from each state by itself. They serve a range on which the states lie on different spans, so that they
+// cannot be compared.
 AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
   const auto of = [](Both a, Both b) { return Both{larger(a.size, b.size), a.size + b.size}; };
   return {of(now.length, before.length),
@@ -175,8 +175,8 @@ AlongCurve either(const AlongCurve &now, const AlongCurve &before) {
           now.is_tight && before.is_tight};
 }
 
-// Returns 1 if `curve` has one span more than `other`, and the additional span is at the start. The shorter one of its two end
-// spans counts as the additional span.
+// Returns 1 if `curve` has one span more than `other`, and this span is at the start. The shorter of its two end spans
+// counts as the additional span.
 std::size_t more_at_start(const Curve &curve, const Curve &other) {
   const std::size_t n = curve.spans().size();
   return n == other.spans().size() + 1 && curve.length(0) < curve.length(n - 1) ? 1 : 0;
@@ -203,9 +203,9 @@ class SideInBoth {
   double longer() const { return larger(now_.length(), before_.length()); }
   double width(std::size_t i) const { return shares_[i + 1] - shares_[i]; }
 
-  // Returns whether the states are compared on the range after share i. They are not if a joint has passed through the range, or
-  // if the range is narrow and the comparison has no tight bounds. Such ranges are on a short span at a curve's end, whose
-  // length changes many times over as a joint approaches the end.
+  // Returns whether the states are compared on the range after share i. They are not compared if a joint has passed through the
+  // range, or if the range is narrow and the comparison gives no tight bounds. Such narrow ranges are on a short span at a
+  // curve's end, whose length changes many times over as a joint approaches the end.
   bool is_compared(std::size_t i) const { return are_on_one_span(i) && (width(i) > narrow || compared(i).is_tight); }
 
   // Returns whether a span of one of the states begins at share i.
@@ -253,7 +253,7 @@ void add_joints(const Curve &curve, Vector<double> &shares) {
   for (const double joint : curve.joints()) shares.push_back(joint);
 }
 
-// The lines of a grid and, between them, the joints of curves. Ranges too wide for tight bounds are halved.
+// The lines of a grid and, between them, the joints of curves. Ranges that are too wide for tight bounds are halved.
 class Shares {
  public:
   Shares(const Vector<double> &lines, std::initializer_list<const Curve *> curves) : lines_(lines), all_(lines) {
@@ -271,8 +271,8 @@ class Shares {
     return static_cast<std::size_t>(found - all_.begin());
   }
 
-  // Halves the ranges that are not narrow and for which is_tight(i) is false. Returns whether there were any. Once there are too
-  // many ranges, returns false. This happens for a curve whose bounds never get tight.
+  // Halves the ranges that are not narrow and for which is_tight(i) is false. Returns whether there were any. If there are
+  // already too many ranges, returns false. This happens for a curve whose bounds never become tight.
   template <class IsTight>
   bool halve(const IsTight &is_tight) {
     if (all_.size() > 2 * most_ranges) return false;
@@ -325,7 +325,8 @@ struct Sizes {
 template <class T>
 Sizes sizes_of(const std::array<double, n_material> &nodes, std::array<T, n_material> factors) {
   constexpr std::size_t n = n_material - 1;
-  // From the values to Newton's form, to powers of x, and from there to the control points of a Bézier curve, which bound it.
+  // The values are converted to Newton's form, to powers of x, and then to the control points of a Bézier curve, which bound the
+  // polynomial.
   for (std::size_t order = 1; order <= n; ++order)
     for (std::size_t i = n; i >= order; --i)
       factors[i] = (1 / (nodes[i] - nodes[i - order])) * (factors[i] - factors[i - 1]);
@@ -377,7 +378,7 @@ double off_line(double width, const Sizes &of) {
   return std::min({0.5 * width * of.slope, off_line(width, of.bend), 2 * of.size});
 }
 
-// The part that SideMaterial adds to the displacement at equal shares: C(u) - C(u + slide(u)) + rest(u), with the curve C before.
+// SideMaterial adds this part to the displacement at equal shares: C(u) - C(u + slide(u)) + rest(u), where C is the curve before.
 class AddedByMaterial {
  public:
   // `third` bounds the third derivative of C by the share. It may be infinite.
@@ -390,12 +391,12 @@ class AddedByMaterial {
     bounds_ = {shift, turn + length * slide.slope,
                third * slide.size + second * slide.slope * (2 + slide.slope) + length * slide.bend};
     rest_ = sizes_of([&](double share) { return material.rest(share); });
-    // Between a joint and its slid place, the second derivatives are those of two spans.
+    // Between a joint and its place after the slide, the second derivatives are those of two spans.
     of_joints_ = static_cast<double>(before.spans().size() - 1) * 0.25 * 2 * second * slide.size;
   }
 
   double slope() const { return bounds_.slope + rest_.slope; }
-  // Bounds the distance from linear on a range.
+  // Bounds the deviation from linear on a range.
   double off_linear(double width) const {
     const double smooth = larger(off_line(width, bounds_.bend) + width * of_joints_, 0);
     const double coarse = std::min(0.5 * width * bounds_.slope, 2 * bounds_.size);
@@ -407,8 +408,8 @@ class AddedByMaterial {
   double of_joints_ = 0;
 };
 
-// For every two neighbouring lines, bounds the distance of a side's displacement from linear. The bound includes the difference
-// between a line's share on the side and the line's `middle`.
+// For every two neighbouring lines, bounds the deviation of a side's displacement from linear. The bound includes the
+// difference between a line's share on the side and the line's `middle`.
 Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material, const Vector<GridLine> &lines,
                           double GridLine::*t) {
   const Vector<double> at_lines = shares_of(lines, t);
@@ -440,7 +441,7 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
       largest = larger(largest, second);
     }
     error = std::min(error, off_line(width, largest));
-    // This bound always holds: no point of a curve is farther from the chord than the curve is long.
+    // This bound always holds, because no point of a curve is farther from the chord than the length of the curve.
     if (!(error <= both_lengths * width)) error = both_lengths * width;
     error += added.off_linear(width);
     const double slope = both_lengths + added.slope();
@@ -450,7 +451,7 @@ Vector<double> off_linear(const TwoCurves &curves, const SideMaterial &material,
   return made;
 }
 
-// Bounds of O of a patch of arcs and of its derivatives by u, on a range. The factor, the patch's bulge, is left out.
+// Bounds of O of a patch of arcs and of its derivatives by u, on a range. They do not contain the factor, the patch's bulge.
 struct ArcRangeInBoth {
   Both first, second;
   double largest;  // bounds |O| in both states
@@ -532,7 +533,7 @@ class SlidOffset {
   double width_ = 0, turn_ = 0;  // bound the changes of W and of T
 };
 
-// For every two neighbouring lines, bounds the distance of O's displacement from linear.
+// For every two neighbouring lines, bounds the deviation of O's displacement from linear.
 Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, const TwoCurves &base,
                                  const TwoCurves &edge, const Vector<GridLine> &lines) {
   const MovedPatch moved{states.now, states.before, patch};
@@ -568,8 +569,8 @@ Vector<double> offset_off_linear(const TwoStates &states, std::size_t patch, con
       slopes.push_back(
           {on_base.width(i), is_compared ? (of_factor * on.first).change : 2 * of_factor.size * on.first.size});
     }
-    // O' jumps at a joint, so the bound for such a range uses the first derivative. Beside a joint near a curve's end, bounds on
-    // the short span are far larger than the true derivatives.
+    // O' jumps at a joint, so the bound for such a range uses the first derivative. Near a curve's end, the bounds on the short
+    // span beside a joint are far larger than the true derivatives.
     double error = is_smooth ? off_line(width, second) : off_line(slopes);
     const double at_most = 4 * of_factor.size * largest;  // bounds |O| and its linear interpolation, in both states
     if (!(error <= at_most)) error = at_most;
@@ -597,7 +598,7 @@ Vector<Vec3> offset_moves(const TwoStates &states, std::size_t patch, const TwoC
   return made;
 }
 
-// Bounds the distance from linear, on a range of u or of v, of the part that a map adds inside a warped Coons patch. On [0, 1],
+// A map adds a part inside a warped Coons patch. Bounds this part's deviation from linear, on a range of u or of v. On [0, 1],
 // the sizes of its polynomials' second derivatives add up to at most 81, and the sizes of their values to at most 1.3.
 double off_linear(const RestInside &rest, double width) {
   double size = 0;
@@ -663,7 +664,7 @@ PatchErrors errors_of(const TwoStates &states, std::size_t patch, const Levelled
 double velocity_error(const ImageVelocity &image, const TwoStates &states, const PatchErrors &errors) {
   const auto of_rest = [&](Vec3 p) { return image.velocity(p, {0, 0, 0}); };
   const Vec3 offset = of_rest({0, 0, 0});
-  double square = 0;  // of the Frobenius norm of the map that takes a point at rest to its velocity
+  double square = 0;  // bounds the Frobenius norm of the map that takes a point at rest to its velocity
   for (const Vec3 &unit : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
     const Vec3 column = of_rest(unit) - offset;
     square += dot(column, column);

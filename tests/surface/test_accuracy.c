@@ -7,7 +7,7 @@
 enum { n_points = 600 };
 static const double half = 0.1; /* half thickness */
 
-/* Returns n patches, each with four curves of its own. The arrays are borrowed. */
+/* Returns n patches, each with its own four curves. The arrays are borrowed. */
 static riis_patches sheets(int64_t n, const int32_t *degree, const double *control, const int32_t *curve_id) {
   riis_patches patches;
   CHECK_OK(riis_patches_init(&patches, sizeof patches));
@@ -33,7 +33,7 @@ static riis_patches parabola(void) {
 }
 
 /* Returns the distance from (x, z) to the parabola. Newton's method starts from every local minimum among many points of the
- * parabola. The nearest of these points may be far from the true nearest point. */
+ * parabola. Of these points, the nearest may be far from the true nearest point. */
 static double distance_to_parabola(double x, double z) {
   enum { n = 2000 };
   double at[n + 1], best = INFINITY;

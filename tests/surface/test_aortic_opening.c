@@ -69,7 +69,7 @@ static riis_valve *state_by_hand(const riis_valve *valve, double radius_ratio, d
   return open;
 }
 
-/* At any opening the surface equals the surface of a valve that was given the same open state. */
+/* At any opening, the surface equals the surface of a valve that was given the same open state. */
 TEST(state_is_the_one_of_the_formulas) {
   random_source random = random_start("test_aortic_opening");
   for (int trial = 0; trial < 20; ++trial) {
@@ -109,7 +109,7 @@ TEST(open_free_edges_are_parabolas) {
     const double x = p[0] * cos(a) + p[1] * sin(a), y = p[1] * cos(a) - p[0] * sin(a);
     const double end_x = 1.05 * radius_out[cusp] * cos(half_angle[cusp] * cusp_degree),
                  end_y = 1.05 * radius_out[cusp] * sin(half_angle[cusp] * cusp_degree);
-    /* The vertices may be off the curve, because vertices from split quads lie on its chords. */
+    /* Vertices may be off the curve, because those from split quads lie on the curve's chords. */
     CHECK_NEAR(x, 0.75 * 1.29 + (end_x - 0.75 * 1.29) * (y / end_y) * (y / end_y), 0.005);
     CHECK_NEAR(p[2], 0.02, 1e-14);
     ++n;
@@ -164,7 +164,7 @@ TEST(a_given_open_state_wins) {
   CHECK_OK(riis_valve_set_open_state(valve, open));
   assert_true(have_same_shape(valve, open));
   riis_surface *surface = new_surface(valve, NULL);
-  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* has no effect beside a given state */
+  CHECK_OK(riis_valve_set_scalar(valve, "open_radius_ratio", 0.9)); /* has no effect if a state is given */
   assert_true(is_same_content(surface, new_surface(valve, NULL)));
 }
 
@@ -175,7 +175,7 @@ TEST(copies_and_moving_updates) {
   assert_true(is_same_content(surface, new_surface(copy_of(valve), NULL)));
   CHECK_OK(riis_surface_update_moving(moving, valve, before, 0.5, NULL, NULL));
   assert_true(is_same_content(surface, moving));
-  /* The middle of the right cusp's free edge moves from 0.24 to 0.75 root radii in a unit of opening. */
+  /* In one unit of opening, the middle of the right cusp's free edge moves from 0.24 to 0.75 root radii. */
   const riis_triangles all = triangles_of(moving);
   const double *velocity = velocity_of(moving);
   int n = 0;
@@ -189,7 +189,7 @@ TEST(copies_and_moving_updates) {
 }
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because such a line ends on a chord. */
+ * that end between two vertices of a side, because such lines end on chords. */
 TEST(fixed_triangulations) {
   const riis_surface_options options = fixed_options();
   riis_valve *valve = valve_at("aortic", 0.75), *before = valve_at("aortic", 0.5), *other = valve_at("aortic", 0.75);

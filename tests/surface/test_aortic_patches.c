@@ -51,7 +51,7 @@ TEST(symmetry_curve_is_one_cubic) {
   double d1[3];
   for (int c = 0; c < 3; ++c) d1[c] = (below[3 + c] - (1 - s) * below[c]) / s;
   check_point(d1, (1.29 + 0.4) / 2 - 0.2 * (1.29 - 0.4), 0, 0.71 / 2 - 0.2 * 0.71);
-  /* The joint is smooth: the tangents are parallel, and their lengths have the ratio of the parameters. */
+  /* The joint is smooth: the tangents are parallel, and the ratio of their lengths equals the ratio of the parameters. */
   for (int c = 0; c < 3; ++c) CHECK_NEAR((below[9 + c] - below[6 + c]) / s, (above[3 + c] - above[c]) / (1 - s), 1e-13);
   for (int i = 0; i < 4; ++i) assert_true(below[3 * i + 1] == 0 && above[3 * i + 1] == 0);
 }

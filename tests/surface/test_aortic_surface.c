@@ -7,8 +7,8 @@
 #include "handles.h"
 
 TEST(numbers_of_the_model) {
-  /* The area and bounds that the model must have. Triangles lie on chords, so area and bounds approach these from below as the
-   * tolerance falls. */
+  /* The area and bounds that the model must have. Triangles lie on chords, so area and bounds approach these values from below
+   * as the tolerance falls. */
   const double tolerance[3] = {0.05, 0.005, 0.0005}, area_error[3] = {2e-2, 2e-3, 4e-4};
   double last_area = 0;
   for (int i = 0; i < 3; ++i) {
@@ -168,7 +168,7 @@ TEST(three_cusps_are_three_pieces) {
    * commissure. */
   double gap = INFINITY;
   int32_t *of_vertex = own(malloc((size_t)n_vertices * sizeof *of_vertex));
-  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* -1 stays at vertices that no triangle has */
+  for (int64_t i = 0; i < n_vertices; ++i) of_vertex[i] = -1; /* -1 stays at vertices without a triangle */
   for (int64_t i = 0; i < 3 * n; ++i) of_vertex[id[i]] = leaflet_id[i / 3];
   for (int64_t i = 0; i < n_vertices; ++i)
     for (int64_t j = i + 1; j < n_vertices; ++j)
@@ -183,7 +183,7 @@ TEST(three_cusps_are_three_pieces) {
 static int compare_edges(const void *a, const void *b) { return memcmp(a, b, 6 * sizeof(double)); }
 
 /* The two halves of each cusp meet in its symmetry plane to the last bit, however the cusp is turned and moved. Every edge in
- * that plane (u = 0 at both ends) belongs to exactly two triangles. Where the cusp is folded, the sides of points depend on this
+ * that plane (u = 0 at both ends) belongs to exactly two triangles. The sides of points at a folded cusp depend on this
  * property. */
 TEST(halves_meet_to_the_last_bit) {
   const double turned[3] = {10, -20, 77}, moved[3] = {0.3, 0.2, -0.1};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the attachment of valves. Its edges must be the edges of triangles along held sides, and each lies in only one triangle.
- * They must form lines from root to commissure, or round the annulus. Mirrored halves must be equally long, and a parabola must
- * have its known length. */
+ * Tests the attachment of valves. Its edges must be the edges of triangles along held sides, and each must belong to only one
+ * triangle. They must form lines from root to commissure, or a line round the annulus. Mirrored halves must be equally
+ * long, and a parabola must have its known length. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -61,7 +61,7 @@ static int by_place(const void *a, const void *b) {
 }
 
 /* Tells whether a vertex lies on the attached side of its patch. The root of a cusp is a special case, because the whole side
- * v = 0 of a lower patch lies at this point. */
+ * v = 0 of a lower patch is this point. */
 static int is_held(const char *kind, int32_t patch_id, const double *uv) {
   return strcmp(kind, "mitral") == 0 ? uv[1] == 0 : uv[0] == 1 || (patch_id % 2 == 0 && uv[1] == 0);
 }
@@ -99,7 +99,7 @@ TEST(edges_are_those_of_one_triangle_on_the_side) {
       assert_true(same->leaflet_id == here.leaflet_id && same->patch_id == here.patch_id);
       for (int end = 0; end < 2; ++end)
         assert_memory_equal(ends + 3 * end, all.xyz + 3 * got.vertex_id[2 * i + end], 3 * sizeof *ends);
-      /* Each edge of a patch begins where the edge before it ends. */
+      /* Each edge of a patch begins at the end of the previous edge. */
       if (i == 0) continue;
       assert_true(got.patch_id[i] >= got.patch_id[i - 1]);
       if (got.patch_id[i] == got.patch_id[i - 1]) assert_memory_equal(ends, ends - 3, 3 * sizeof *ends);

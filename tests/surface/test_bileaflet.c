@@ -115,8 +115,8 @@ TEST(areas_are_those_of_ellipses) {
   }
 }
 
-/* The rim of closed leaflets lies on the housing. Their middle edges are straight and half a gap from the plane x = 0. A
- * closed valve's x was not rotated, so it is exactly 0 if there is no gap. */
+/* The rim of closed leaflets lies on the housing. Their middle edges are straight, at half a gap from the plane x = 0.
+ * In a closed valve x was not rotated, so it is exactly 0 without a gap. */
 TEST(closed_leaflets_fill_the_housing) {
   for (int trial = 0; trial < 40; ++trial) {
     const int owned_before = n_owned();
@@ -128,7 +128,7 @@ TEST(closed_leaflets_fill_the_housing) {
       const double *p = c.xyz + 3 * i, from_axis = hypot(p[0], p[1]), v = c.uv[2 * i + 1];
       CHECK_AT_MOST(from_axis, of.radius * (1 + 1e-8));
       if (v == 0) CHECK_NEAR(from_axis, of.radius, 1e-8 * of.radius);
-      if (v == 1) CHECK_NEAR(fabs(p[0]), of.gap / 2, 1e-15 * of.gap); /* exactly 0 if there is no gap */
+      if (v == 1) CHECK_NEAR(fabs(p[0]), of.gap / 2, 1e-15 * of.gap); /* exactly 0 without a gap */
       CHECK_NEAR(p[2], of.hinge_height + (fabs(p[0]) - of.hinge_offset) * slope, 1e-13 * (1 + slope) * (1 + of.radius));
     }
     free_owned_after(owned_before);
@@ -149,7 +149,7 @@ TEST(open_leaflets_reach_beyond_the_housing) {
     const double expected = sqrt(of.radius * of.radius + h * h * (1 - q) / (1 + q));
     double farthest = 0;
     for (int64_t i = 0; i < c.n_vertices; ++i) farthest = fmax(farthest, hypot(c.xyz[3 * i], c.xyz[3 * i + 1]));
-    /* Vertices are within the error bound of the outline, and the outline's farthest point may be between two vertices. */
+    /* Vertices are within the error bound of the outline, and the farthest point of the outline may be between two vertices. */
     CHECK_AT_MOST(farthest, expected + 1e-8 * of.radius);
     CHECK_NEAR(farthest, expected, 20 * info_of(surface).error_bound);
     if (!trial) CHECK_NEAR(farthest / of.radius, 1.016, 5e-4);
@@ -189,8 +189,8 @@ static void area_vector(const riis_triangles *c, int64_t triangle, double *norma
   for (int k = 0; k < 3; ++k) normal[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Every triangle's normal is its plane's normal. It points downstream on the closed valve, and towards the axis on the open
- * one. */
+/* Every triangle's normal is its plane's normal. It points downstream in the closed valve, and towards the axis in the open
+ * valve. */
 TEST(normals_point_downstream) {
   for (int trial = 0; trial < 20; ++trial) {
     const int owned_before = n_owned();

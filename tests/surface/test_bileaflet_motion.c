@@ -94,8 +94,8 @@ TEST(vertices_and_closest_points_turn_exactly) {
       const tied_velocity tied = tied_velocity_at(&c, velocity, xyz + 3 * i, found.distance[i], half_thickness);
       if (tied.n_leaflets > 1 || !tied.is_clear) continue;
       chord_velocity(&of, found.leaflet_id[i], fields.point + 3 * i, now, before, seconds, expected);
-      /* If patches of one leaflet are equally near, the velocity is also a mean. Their closest points may lie apart, next to a
-       * seam. */
+      /* If patches of one leaflet are equally near, the velocity is also a mean. Next to a seam, their closest points may lie
+       * apart. */
       CHECK_AT_MOST(distance(tied.n_places > 1 ? tied.mean : expected, fields.velocity + 3 * i), 10 * rounding);
     }
     free_owned_after(owned_before);
@@ -171,8 +171,8 @@ static int leaks(const bileaflet *of, double spacing, double half_thickness) {
   return has_leaked;
 }
 
-/* If an edge of the grid crosses a leaflet, one end of the edge is within half the edge's length of the leaflet. So a half
- * thickness of 0.55 spacings seals: half a spacing plus the tolerance. */
+/* If an edge of the grid crosses a leaflet, one of its ends is within half the edge's length of the leaflet. A half
+ * thickness of 0.55 spacings therefore seals: half a spacing plus the tolerance. */
 TEST(a_closed_valve_seals_its_housing) {
   static const double angle[4] = {0, 25, 30, 45};
   for (int trial = 0; trial < 8; ++trial) {
@@ -190,7 +190,7 @@ TEST(a_closed_valve_seals_its_housing) {
   }
 }
 
-/* Returns 1 if the closest point is on the rim, or else 0. */
+/* Returns 1 if the closest point is on the rim, otherwise 0. */
 static int rim_at(const riis_surface *surface, const double *p) {
   riis_mark_options mark = mark_options();
   mark.fields = RIIS_FIELD_RIM | RIIS_FIELD_SIDE;
@@ -259,8 +259,8 @@ TEST(fixed_triangles_stay) {
   }
 }
 
-/* A second state changes all numbers: the outline's numbers, and the angle, which goes from the first state's closed angle to
- * the second state's open angle. */
+/* A second state changes all numbers. The angle then goes from the first state's closed angle to the second state's open
+ * angle. */
 TEST(numbers_blend_to_a_second_state) {
   for (int trial = 0; trial < 10; ++trial) {
     const int owned_before = n_owned();

@@ -78,7 +78,7 @@ TEST(far_points_equal_the_oracle) {
   }
 }
 
-/* A grid of coplanar, repeated and mirrored triangles gives equal distances everywhere. The lowest id must win, whatever the
+/* A grid of coplanar, repeated and mirrored triangles gives equal distances everywhere. The lowest id must win in any
  * order. */
 TEST(ties_go_to_the_lowest_id) {
   enum { copies = 50 };
@@ -149,7 +149,7 @@ TEST(batches_equal_single_queries) {
     assert_int_equal(limited_triangle[i], far ? -1 : triangle_id[i]);
   }
   assert_true(n_far > 100 && n_far < n - 100);
-  /* An infinite limit counts as none. */
+  /* An infinite limit means no limit. */
   options.distance_limit = INFINITY;
   options.far_distance = RIIS_FAR_DISTANCE;
   CHECK_OK(closest_points_of(surface, n, x, y, z, 1, &options, &few));
@@ -206,7 +206,7 @@ static void check_many_points(int64_t n, bool are_in_order) {
       if (!are_in_order && i % 500 == 1) xyz[3 * i + c] = i % 1000 == 1 ? 1e22F : -1e22F;
     }
   }
-  /* In one loop with the rounding, GCC 12 would pass the coordinates before they were rounded. */
+  /* If the rounding were in the same loop, GCC 12 would pass the coordinates before they were rounded. */
   for (int64_t i = 0; i < n; ++i)
     if (i % stride == 0)
       one[i] = closest_to(surface, (double)xyz[3 * i], (double)xyz[3 * i + 1], (double)xyz[3 * i + 2]);
@@ -270,7 +270,7 @@ TEST(many_points_in_order_equal_single_queries) {
   check_many_points(is_long_test() ? 3000000 : trials_of(140000), true);
 }
 
-/* Points in a plane, in a line, in one place, most of them in a small part of their box, or near the valve except one. They are
+/* Points in a plane, on a line, in one place, mostly in a small part of their box, or all but one near the valve. They are
  * sorted into leaves without gaps and give the results of single queries. */
 TEST(crowded_points_equal_single_queries) {
   enum { n = 3000 };
@@ -300,8 +300,8 @@ TEST(crowded_points_equal_single_queries) {
   }
 }
 
-/* The results of a single query are consistent. The point is on the triangle and at the distance, the normal is the triangle's,
- * and the side is the sign of the height. */
+/* The results of a single query are consistent. The point is on the triangle at the distance, the normal is the triangle's
+ * normal, and the side is the sign of the height. */
 TEST(closest_is_consistent) {
   riis_surface *surface = aortic_surface(NULL);
   const double *xyz = triangles_of(surface).xyz;

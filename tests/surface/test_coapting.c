@@ -31,7 +31,7 @@ static sizes sizes_of(const riis_valve *valve) {
   return made;
 }
 
-/* Sets random sizes. Proportions are as in patients, and beyond. */
+/* Sets random sizes. Proportions are as in patients, and more extreme. */
 static void set_random_sizes(random_source *random, riis_valve *valve) {
   const double r = random_between(random, 0.9, 1.5), rc = r * random_between(random, 0.8, 1.2);
   const double h = rc * random_between(random, 1.1, 1.7);
@@ -147,14 +147,14 @@ static point cross_of(point p, point q) {
 }
 static double dot_of(point p, point q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* The crease at t of the coaptation line depends on these: the chord's point, the free edge's point, and the end tangents. */
+/* The crease at t of the coaptation line depends on the chord's point, the free edge's point, and the end tangents. */
 typedef struct crease_at {
   double t;
   point chord, edge, tangents;
 } crease_at;
 
-/* Returns the determinant of the line's tangent and the two patches' derivatives across the line, and the divisor that makes it
- * the sine of the angle between both patches. */
+/* Returns the determinant of three vectors: the line's tangent, and both patches' derivatives across the line. Also returns the
+ * divisor that makes it the sine of the angle between the patches. */
 static double determinant(const point *q, const crease_at *at, double *divisor) {
   const double t = at->t, s = 1 - t;
   const point on = on_cubic(q, t);
@@ -279,7 +279,7 @@ static half half_of(const double *closed, const double *open, double t) {
   return made;
 }
 
-/* The point of a patch of the half y >= 0: 0 below the coaptation line, 1 above it. */
+/* The point of a patch of the half y >= 0: patch 0 is below the coaptation line, and patch 1 above it. */
 static point on_patch(const half *of, int patch, double u, double v) {
   const cubic *left = patch ? &of->above : &of->below;
   const point C = of->edge.q[3], bottom = patch ? at_share(&of->line, u) : left->q[0];
@@ -292,7 +292,7 @@ static point on_patch(const half *of, int patch, double u, double v) {
 
 /* The angle between the tangent planes of both patches along the coaptation line, in degrees. Differences are of second order.
  * Where the zone begins just above the root, the leaflet turns upwards within some micrometres (bend_radius). The step stays far
- * below that; rounding then makes 1e-4 degrees at most. */
+ * below this radius. Rounding then causes at most 1e-4 degrees. */
 static double crease(const half *of, double u) {
   const double step = 1e-6;
   const point along = sum(1, on_patch(of, 0, u + step, 1), -1, on_patch(of, 0, u - step, 1));
@@ -327,7 +327,7 @@ static double largest_crease(const half *of) {
 
 /* --- The shape --------------------------------------------------------------------------------------------------------- */
 
-/* Every vertex is where the oracle has its label, within the bound of the surface's error. */
+/* Every vertex is at the oracle's place for its label, within the bound of the surface's error. */
 TEST(vertices_are_where_the_formulas_say) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 12; ++trial) {
@@ -363,7 +363,7 @@ TEST(vertices_are_where_the_formulas_say) {
   }
 }
 
-/* The measures that the parameters promise, and the coaptation zone beside the planes between the cusps. */
+/* The sizes that the parameters promise, and the coaptation zone beside the planes between the cusps. */
 TEST(closed_cusps_coapt) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 10; ++trial) {
@@ -401,7 +401,7 @@ static int64_t n_pairs_of(const riis_surface *surface, riis_crossings *crossings
   return list.n_pairs;
 }
 
-/* Points beside the coaptation zone get the side of the cusp that they are nearer to. */
+/* Points beside the coaptation zone get the side of the nearer cusp. */
 static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_source *random, int n) {
   const half closed = half_of(v->of, v->of, 0);
   int64_t wrong = 0;
@@ -420,8 +420,8 @@ static int64_t wrong_sides(const riis_surface *surface, const sizes *v, random_s
 }
 
 /* Returns the number of pairs of triangles that cross where the smooth valve does. A leaflet may be nearly tangent to itself
- * beside the root, about 1 micrometre apart. Its triangles then may cross by no more than twice the bound of their error, but
- * finer triangles do not. Such crossings are counted by `n_shallow`. */
+ * beside the root, about 1 micrometre apart. Its triangles may then cross by at most twice the bound of their error, but
+ * finer triangles do not cross. Such crossings are counted by `n_shallow`. */
 static int64_t true_crossings(const riis_surface *surface, const riis_valve *valve, riis_crossings *crossings,
                               int64_t *n_shallow) {
   const int64_t found = n_pairs_of(surface, crossings);
@@ -457,7 +457,7 @@ static double off_side(const riis_valve_patches *patches, int32_t patch_id, int 
 }
 
 /* A zone that begins just above the root has no crease either. The leaflet turns upwards there with a radius of 4 micrometres, as
- * docs/theory/coapting.md says. A coarser difference than this radius once took the turn for a crease. */
+ * docs/theory/coapting.md says. With differences coarser than this radius, an earlier version took the turn for a crease. */
 TEST(a_low_zone_turns_sharply_without_a_crease) {
   static const double low[n_sizes] = {1.3233848, 1.0696550, 1.2100624, 0.3307880, 0.2947382, 0.00658190, 39.099050,
                                       0.5418369, 0.4873270, 0.5369197, 0.4438359, 0.8011948, 0.0445718};
@@ -468,7 +468,7 @@ TEST(a_low_zone_turns_sharply_without_a_crease) {
     const half closed = half_of(v.of, v.of, 0);
     riis_valve_patches patches;
     CHECK_OK(riis_valve_get_patches(valve, &patches, sizeof patches));
-    CHECK_AT_MOST(off_side(&patches, 0, 1, &closed.line), 1e-7); /* smooth_line takes derivatives by differences */
+    CHECK_AT_MOST(off_side(&patches, 0, 1, &closed.line), 1e-7); /* smooth_line computes derivatives by differences */
     CHECK_AT_MOST(off_side(&patches, 0, 2, &closed.below), 1e-12);
     CHECK_AT_MOST(off_side(&patches, 0, 3, &closed.attachment), 1e-12);
     CHECK_AT_MOST(off_side(&patches, 1, 1, &closed.edge), 1e-12);
@@ -483,7 +483,7 @@ TEST(a_low_zone_turns_sharply_without_a_crease) {
   }
 }
 
-/* The leaflet of these sizes is nearly tangent to itself beside the root, at full opening. The triangles of the default tolerance
+/* At full opening, the leaflet of these sizes is nearly tangent to itself beside the root. The triangles of the default tolerance
  * cross by a fraction of a micrometre, but the valve does not. */
 TEST(a_nearly_tangent_leaflet_does_not_cross) {
   static const double near[n_sizes] = {0.98866634, 0.92969360, 1.24758771, 0.44617366, 0.39553918,
@@ -502,7 +502,7 @@ TEST(a_nearly_tangent_leaflet_does_not_cross) {
   printf("a nearly tangent leaflet: at %lld of 11 openings only triangles cross\n", (long long)n_shallow);
 }
 
-/* Each cusp is its own mirror image, and a turn by 120 degrees takes the valve to itself. Both hold in either triangulation, also
+/* Each cusp is its own mirror image, and a turn by 120 degrees maps the valve to itself. Both hold in either triangulation, even
  * for random sizes. Cusps meet in the commissures in the same bits. */
 TEST(cusps_are_equal) {
   random_source random = random_start("test_coapting");
@@ -537,7 +537,7 @@ TEST(cusps_are_equal) {
   }
 }
 
-/* A placed valve is the valve in another place: points at equal places have equal distances. */
+/* A placed valve is the same valve in another place: points at equal places have equal distances. */
 TEST(placements_move_the_valve) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 4; ++trial) {
@@ -563,7 +563,7 @@ TEST(placements_move_the_valve) {
   }
 }
 
-/* Random valves at 11 openings do not cross, their free edges keep their length, and the coaptation line is no crease. Cusps
+/* Random valves do not cross at 11 openings, their free edges keep their length, and the coaptation line is no crease. Cusps
  * stay in their sectors, which is a proof that two cusps do not cross. RIIS_TEST_LONG=1 takes 300 valves. */
 TEST(random_valves_open_well) {
   random_source random = random_start("test_coapting");
@@ -653,11 +653,11 @@ TEST(opens_by_itself) {
   }
   printf("the open orifice is %.3f, %.3f pi Rc^2\n", orifice, orifice / (acos(-1) * 1.25 * 1.25));
   assert_true(orifice >= 0.8 * acos(-1) * 1.25 * 1.25);
-  /* When the valve is closed, only the gap and slivers along the wall stay free. */
+  /* In the closed valve, only the gap and slivers along the wall stay free. */
   CHECK_AT_MOST(orifice_area(new_surface(new_valve("coapting"), NULL), 1.25, 600), 0.07);
 }
 
-/* A smooth path has no kinks: on fixed triangles the second difference over a small step is the same for half the step. */
+/* A smooth path has no kinks, so the second difference over a small step on fixed triangles is the same for half the step. */
 TEST(path_is_smooth) {
   random_source random = random_start("test_coapting");
   riis_surface_options options = surface_options();
@@ -684,13 +684,14 @@ TEST(path_is_smooth) {
       }
     }
     printf("the acceleration is at most %.2f, and differs by %.4f between steps\n", largest, worst);
-    /* The third derivative alone makes some difference. A kink of the velocity would double the narrow second difference. */
+    /* The third derivative alone causes some difference. A kink of the velocity would double the second difference of the smaller
+     * step. */
     assert_true(worst < 0.4 * largest);
     free_owned_after(owned_before);
   }
 }
 
-/* The same state has the same bits, whatever was computed before and with any number of threads. */
+/* The same state has the same bits, regardless of earlier calls and of the number of threads. */
 TEST(results_repeat) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 4; ++trial) {
@@ -821,7 +822,7 @@ TEST(every_parameter_by_name) {
   for (int64_t i = 0; i < 3 * a.n_vertices; ++i) CHECK_NEAR(b.xyz[i], a.xyz[i] + shift[i % 3], 1e-15);
 }
 
-/* Sizes that are not set follow from others, in any order of setting, and the shape scales with them. */
+/* Sizes that are not set follow from others, in any order of settings, and the shape scales with them. */
 TEST(sizes_follow) {
   random_source random = random_start("test_coapting");
   for (int trial = 0; trial < 10; ++trial) {

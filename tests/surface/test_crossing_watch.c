@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The log warns of leaflets that go through each other: once for each shape that the user chose. The test compares the
- * warnings with the pairs of riis_find_crossings. If no log function is set, the library does not search; the number of
- * allocations shows this. */
+ * The log warns of leaflets that go through each other, once for each shape that the user chose. The test compares the
+ * warnings with the pairs of riis_find_crossings. Without a log function, the library does not search, which the number
+ * of allocations shows. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -11,7 +11,7 @@
 #include "sanitized.h"
 
 /* These functions replace operator new for the process, because an executable's symbols take precedence over those of
- * libraries. Sanitizers are left out, because their allocator must be the only one. */
+ * libraries. Sanitizers are left out, because their allocator must be the only allocator. */
 static int64_t n_allocations;
 #ifndef IS_SANITIZED
 void *new_one(size_t size) __asm__("_Znwm");
@@ -101,7 +101,7 @@ TEST_WITH(a_shape_is_named_once, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 3);
 }
 
-/* A valve that is open at first closes later. Each new range of the opening is searched until a crossing is found. */
+/* A valve is open at first and closes later. The search runs in each new range of the opening until it finds a crossing. */
 TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
   riis_valve *valve = new_valve("trileaflet");
   set(valve, "bending_height", 0.55);
@@ -118,7 +118,7 @@ TEST_WITH(a_valve_that_begins_open_is_named, start_listening, stop_listening) {
 static const char *const kinds[] = {"aortic", "trileaflet", "mitral", "bileaflet", "coapting"};
 
 /* Default shapes do not cross at any opening. Other sound shapes do not cross either. Closed mitral leaflets touch. Their fixed
- * triangles go through each other by less than the depth that counts as a crossing. */
+ * triangles cross by less than the depth that counts as a crossing. */
 TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   for (int kind = 0; kind < 5; ++kind)
     for (int32_t triangulation = 0; triangulation < 2; ++triangulation) {
@@ -148,8 +148,8 @@ TEST_WITH(sound_shapes_are_not_named, start_listening, stop_listening) {
   assert_int_equal(warnings.n, 0);
 }
 
-/* One unit square lies at z = 0. An upright one at y = 0.5 cuts through it. Both belong to one leaflet, or each is a leaflet
- * of its own. */
+/* One unit square lies at z = 0. An upright square at y = 0.5 cuts through it. Both squares belong to one leaflet, or
+ * each is a separate leaflet. */
 TEST_WITH(patches_are_a_shape_of_the_user, start_listening, stop_listening) {
   for (int32_t second = 0; second < 2; ++second) {
     const double control[] = {0,  0,  0, 1,  0,  0, 0,   1,  0,  1,  1,   0,  0,   0,   0,  0,

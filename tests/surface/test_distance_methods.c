@@ -103,8 +103,8 @@ static riis_surface *measured(const riis_valve *valve, int32_t distance, double 
   return new_surface(valve, &options);
 }
 
-/* A hairpin that leans as v grows. At the middle of v its arm at x = 1 is nearest to the point. At v = 1 the other arm is
- * nearest. */
+/* A hairpin that leans as v grows. At the middle of v, its arm at x = 1 is nearest to the point. At v = 1 the other arm
+ * is nearest. */
 static const double between_arms[3] = {0.2, 1, 1};
 static riis_valve *hairpin(void) {
   const double sides[24] = {-1.95, 0, 1, -1.95, 0, -2, 1, 0, -2, 1, 0, 1, -0.05, 1, 1, -0.05, 1, -2, 1, 1, -2, 1, 1, 1};
@@ -197,8 +197,8 @@ TEST(sampling_is_within_its_bound) {
     }
 }
 
-/* The rule gives the number of samples. On a rectangle they form squares whose half diagonal equals the bound, so points
- * between them reach the bound. */
+/* The rule gives the number of samples. On a rectangle, samples form squares whose half diagonal equals the bound, so
+ * points between them reach the bound. */
 static char last_message[512];
 static void keep_message(void *user_data, int32_t level, const char *message) {
   (void)user_data, (void)level;
@@ -222,7 +222,7 @@ TEST(samples_are_as_many_as_the_rule_says) {
   assert_int_equal(answer.leaflet_id, 7);
 }
 
-/* The tree of boxes misses no sample: the nearest sample is found, and the first of several equally near ones. */
+/* The tree of boxes misses no sample: it finds the nearest sample, and the first of several equally near samples. */
 TEST(nearest_samples_are_found) {
   random_source rng = random_start("nearest_samples_are_found");
   for (int of = 0; of < n_references; ++of) {
@@ -261,7 +261,8 @@ static double outside(double u, double v) { return (u + 1) * (u + 1) + (v - 2) *
 static double on_a_side(double u, double v) { return 1 + (u - 2) * (u - 2) + 3 * (v - u / 4) * (v - u / 4); }
 static double flat(double u, double v) { return u * 0 + v * 0 + 2; }
 
-/* Powell's method finds minima exactly: inside the square, where its directions must turn, at a corner and on a side. */
+/* Powell's method finds minima exactly in three cases: inside the square, where its directions must turn, at a corner, and on a
+ * side. */
 TEST(powell_finds_minima) {
   const struct {
     double (*f)(double u, double v);
@@ -296,7 +297,7 @@ TEST(sampling_is_lipschitz) {
 }
 
 /* Minimisation never gives a distance that is too small. It is exact on a rectangle, where the squared distance has one
- * minimum. Elsewhere it may end in a local minimum. Most answers are right, and the test prints how many are wrong. */
+ * minimum. Elsewhere it may end in a local minimum. Most answers are right, and the test prints the number of wrong ones. */
 TEST(minimisation_is_never_below) {
   random_source rng = random_start("minimisation_is_never_below");
   const double tolerances[] = {0.01, 0.001}; /* the tolerances of the paper */
@@ -358,7 +359,7 @@ TEST(minimisation_ends_in_local_minima) {
   assert_int_equal(n_marked[RIIS_MEASURE_MINIMIZATION], 0);
 }
 
-/* The patch with the nearest box may not have the nearest point. Here that box contains the query's point. */
+/* The patch with the nearest box may not contain the nearest point. In this case that box contains the query's point. */
 TEST(all_near_patches_are_asked) {
   /* A slope through [0,1]^3, and a floor below the slope. */
   const double sides[24] = {0, 0, 0, 1, 0, 1, 0, 1, 0, 1, 1, 1, 0, 0, -0.3, 1, 0, -0.3, 0, 1, -0.3, 1, 1, -0.3};
@@ -371,7 +372,8 @@ TEST(all_near_patches_are_asked) {
   assert_int_equal(above.leaflet_id, 7);
 }
 
-/* Surfaces are placed, flipped or mirrored. The normals are the triangles', and distances are proportional to the scale. */
+/* Surfaces are placed, flipped or mirrored. The normals are those of the triangles, and distances are proportional to the
+ * scale. */
 TEST(placement_and_normals) {
   random_source rng = random_start("placement_and_normals");
   riis_valve *valve = valve_of("aortic");
@@ -480,7 +482,7 @@ TEST(searches_agree) {
 }
 
 /* Two nodes near the hairpin form a ball. From the ball's middle, minimisation goes to the farther arm, at a distance of twice
- * the ball's radius. The search must not dismiss the node that minimisation itself finds near. */
+ * the ball's radius. The search must not dismiss the node, because minimisation finds that the node itself is near. */
 TEST(local_minima_dismiss_no_group) {
   const double xyz[6] = {-0.1, 1, 0.9, 0.6, 1, 0.9};
   const int32_t offsets[3] = {0, 0, 0};
@@ -554,7 +556,7 @@ TEST(what_has_no_meaning_is_refused) {
 
   riis_valve *valve = rectangle();
   surface = measured(valve, RIIS_MEASURE_SAMPLING, 0.1);
-  /* Options that only a valve's surface uses are refused for arrays, and leave the surface as it was. */
+  /* Options that only a valve's surface uses are refused for arrays, and a refusal does not change the surface. */
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "options.measure is 1",
                 riis_surface_update_from_arrays(surface, &triangle, NULL));
   options = surface_options();

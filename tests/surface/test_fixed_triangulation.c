@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests triangulations that stay the same while a valve opens. Ids, neighbours and positions on the patches stay, the bound
- * holds at every opening, and a refusal leaves the surface as it was. test_tolerance compares these triangulations with the
- * smooth mitral valve. */
+ * Tests triangulations that stay the same while a valve opens. Ids, neighbours and positions on the patches stay the same,
+ * the bound holds at every opening, and a refusal does not change the surface. test_tolerance compares these triangulations
+ * with the smooth mitral valve. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -51,7 +51,7 @@ static riis_valve *fan(void) {
   return valve;
 }
 
-/* A copy of the arrays that must stay the same, to compare after the next update. */
+/* A copy of the arrays that must stay the same, for a comparison after the next update. */
 typedef struct topology {
   int64_t n_vertices, n_triangles;
   int64_t vertex_id[3 * 20000], triangle_id[20000];
@@ -85,7 +85,7 @@ static void check_same_topology(const topology *a, const topology *b) {
 }
 
 /* Checks 101 openings, including openings at which the grid lines were not chosen. The triangles stay the same and within the
- * bound. There are at most 1.5 times as many as the largest number of adapted triangles. */
+ * bound. Their number is at most 1.5 times the largest number of adapted triangles. */
 static void check_triangles_stay(riis_valve *valve, const char *name) {
   const riis_surface_options options = fixed_options();
   set_opening(valve, 0.5);
@@ -157,7 +157,7 @@ TEST(a_restart_has_the_same_bits) {
 }
 
 /* If the curves have no joints, the grid lines stay, and a vertex's velocity is its displacement divided by the time. It
- * differs slightly only on grid lines that end between two vertices of a side, because such a line ends on a chord. */
+ * differs slightly only on grid lines that end between two vertices of a side, because such lines end on chords. */
 TEST(velocity_is_that_of_the_vertices) {
   rng = random_start("test_fixed_triangulation");
   riis_valve *valves[2] = {opening_aortic(), fan()};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests riis_place. Landmarks are made from known sizes by closed forms, or by the oracle of the mitral valve, then placed and
- * disturbed at random. The sizes must come back, and the noise must explain the errors. The same landmarks lie on the surface of
- * the placed valve. Prints the table that docs/theory/landmarks.md sums up. */
+ * disturbed at random. The fit must give these sizes back, and the noise must explain the errors. The same landmarks lie on the
+ * surface of the placed valve. Prints the table that docs/theory/landmarks.md sums up. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
@@ -210,7 +210,7 @@ TEST(test_exact_trileaflet) {
     assert_true(isinf(found.standard_error[position(valve, "bending_height")]));
     assert_int_equal(found.state[position(valve, "xq")], RIIS_SIZE_KEPT);
     CHECK_NEAR(found.standard_error[position(valve, "xq")], 0, 0);
-    /* Each radius is the mean of three distances, the height the difference of two means. */
+    /* Each radius is the mean of three distances, and the height is the difference of two means. */
     const double noise = 0.03;
     CHECK_NEAR(found.placement.noise, noise * p.scale, 1e-12 * p.scale);
     CHECK_NEAR(found.standard_error[position(valve, "root_radius")], noise / sqrt(3), 1e-6);
@@ -300,7 +300,7 @@ static accuracy accuracy_of(double noise, bool is_asymmetric, int n) {
   return sum;
 }
 
-/* The measured table of accuracies; each entry must come back within 20 %. */
+/* The measured table of accuracies. Each entry must be reproduced within 20 %. */
 TEST(test_noisy_trileaflet) {
   const struct {
     double noise;
@@ -346,7 +346,7 @@ TEST(test_exact_aortic) {
     double angle[3] = {between(54, 66), between(54, 66), 0};
     angle[2] = 180 - angle[0] - angle[1];
     patient p = aortic(R, Rc, h, angle);
-    /* It is enough to name two nadirs, or one commissure. */
+    /* The names of two nadirs, or of one commissure, suffice. */
     if (trial % 4 == 1) p.leaflet_id[2][0] = -1;
     if (trial % 4 == 2) {
       for (int i = 0; i < p.n; ++i) p.leaflet_id[i][0] = -1;
@@ -366,7 +366,7 @@ TEST(test_exact_aortic) {
       CHECK_NEAR(value(valve, name), angle[cusp], 1e-7);
       snprintf(name, sizeof name, "%s.leaflet_radius_out", cusps[cusp]);
       CHECK_NEAR(value(valve, name), end, 1e-9);
-      /* Cusps that end at one radius and meet in angle close at the commissures. */
+      /* If cusps end at one radius and their angles meet, they close at the commissures. */
       snprintf(name, sizeof name, "%s.rotation", cusps[cusp]);
       CHECK_OK(riis_valve_get(valve, name, 3, turn));
       CHECK_NEAR(turn[2], cusp == 0 ? 0 : cusp == 1 ? angle[0] + angle[1] : -angle[0] - angle[2], 1e-7);
@@ -550,7 +550,7 @@ TEST(test_held_sizes) {
   CHECK_NEAR(value(valve, "root_radius"), 1.2, 1e-9);
   assert_int_equal(found.state[position(valve, "leaflet_height")], RIIS_SIZE_KEPT);
   assert_int_equal(found.state[position(valve, "bending_height")], RIIS_SIZE_KEPT);
-  /* The millimetre that is missing is shared by both ends. */
+  /* The missing millimetre is shared by both ends. */
   CHECK_NEAR(found.placement.rms, 0.5, 1e-6);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "'leaflet_hight'|did you mean 'leaflet_height'",
                 try_to_place(valve, &p, "leaflet_hight", &found));
@@ -579,7 +579,7 @@ TEST(test_forms_of_input) {
   CHECK_OK(riis_place(other, &single, "", NULL, &placement, sizeof placement));
   CHECK_NEAR(value(other, "root_radius"), value(one, "root_radius"), 1e-5);
   CHECK_NEAR(placement.rotation_angle, found.placement.rotation_angle, 1e-3);
-  /* Once more from the result: the valve's values are the template, and the same sizes come back. */
+  /* The test runs once more from the result: the valve's values are the template, and the same sizes must result. */
   const answer again = place(one, &p);
   CHECK_NEAR(value(one, "leaflet_height"), 1.5, 1e-9);
   for (int k = 0; k < 3; ++k) CHECK_NEAR(again.placement.translation[k], found.placement.translation[k], 1e-7);

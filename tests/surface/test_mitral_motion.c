@@ -121,8 +121,9 @@ static double largest_speed(const riis_surface *surface) {
 /* The results of comparing one surface between two states, at its vertices and at random closest points. */
 typedef struct compared {
   double vertices, points; /* the largest difference from the mean velocity of the oracle */
-  double sides;            /* the largest at vertices with v = 0 or 1, on the annulus and on the free edges */
-  /* The fraction of vertices that differ only by rounding: all except some on sides of split quads. */
+  double sides;            /* the largest difference at vertices with v = 0 or 1, on the annulus and on the free
+                              edges */
+  /* The share of vertices that differ only by rounding: all except some on sides of split quads. */
   double exact;
   /* The largest difference from the derivative at the present time, at vertices; -1: not compared. */
   double from_derivative;
@@ -209,7 +210,8 @@ static compared compare(const states *now, const states *before, double seconds,
   return made;
 }
 
-/* Some quads of the mitral valve are split. A vertex from a split has a velocity between the velocities of the quad's corners. */
+/* Some quads of the mitral valve are split. A vertex that comes from a split has a velocity between those of the quad's
+ * corners. */
 TEST(vertices_move_as_the_oracles) {
   double share = 0;
   for (int trial = 0; trial < trials_of(40); ++trial) {
@@ -227,8 +229,8 @@ TEST(vertices_move_as_the_oracles) {
   printf("at random points the velocity is off by %.3f of tolerance, per unit of opening, at most\n", share);
 }
 
-/* The mean velocity over a step is the velocity at the step's middle. So its error at the step's end is proportional to the
- * time between. */
+/* The mean velocity over a step is the velocity at the step's middle. Its error at the step's end is therefore proportional
+ * to the time between the two. */
 TEST(the_error_falls_with_the_time_between) {
   double last = 0;
   for (int i = 1; i <= 3; ++i) {
@@ -300,7 +302,7 @@ TEST(no_vertex_is_an_outlier) {
 }
 
 /* A patch without a bulge is a Coons patch with the same labels. Arcs that are nearly straight have few triangles, and between
- * vertices the velocity is linear. A change of the bulge therefore appears only where the arcs are bent. */
+ * vertices the velocity is linear. So a change of the bulge is visible only where the arcs are bent. */
 TEST(a_bulge_goes_through_zero) {
   static const struct {
     double now, before;

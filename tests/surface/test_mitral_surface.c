@@ -56,7 +56,7 @@ TEST(parameters_are_the_papers) {
   double values[3];
   riis_valve *valve = new_valve("mitral");
   CHECK_OK(riis_valve_get_n_parameters(valve, &n));
-  /* The paper has 18 parameters: its table, its t and the translation. The last one is the skirt's length. */
+  /* The paper has 18 parameters: those of its table, its t, and the translation. The last parameter is the skirt's length. */
   assert_int_equal(n, n_scalars + 2);
   for (int i = 0; i < n_scalars; ++i) {
     riis_parameter parameter;
@@ -182,13 +182,13 @@ TEST(leaflets_and_patches) {
       assert_true(n_of_patch[patch] > 20);
       assert_int_equal(n_of_patch[patch], n_of_patch[mirrored[patch]]);
     }
-    assert_true(info_of(surface).n_zero_area > 0); /* at the commissures quads end in points and lose a triangle */
+    assert_true(info_of(surface).n_zero_area > 0); /* at the commissures, quads end in points and lose a triangle */
     free_owned_after(owned_before);
   }
 }
 
 /* An edge of only one triangle lies on the annulus or on the free edge of an open valve. Otherwise it lies, up to rounding,
- * inside another triangle's edge. The latter occurs where quads of different levels or polylines of different patches meet. */
+ * inside another triangle's edge. This occurs where quads of different levels or polylines of different patches meet. */
 TEST(has_no_cracks) {
   for (int i = 0; i <= 2; ++i) {
     const int owned_before = n_owned();
@@ -281,10 +281,10 @@ static double least_step(const riis_triangles *c, int32_t patch, double *longer)
   return least;
 }
 
-/* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and the two are within 0.02 of the
- * tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus O has a kink. Next to it there is a
- * line only if the tolerance needs one. The least ratio of 3,840 valves was 0.4. (Triangles can still be flat: quads are
- * sheared where a leaflet's arcs meet its free edge at a small angle.) */
+/* In valves of many shapes, no two grid lines nearly coincide. If both sides need a line, and the two lines are within 0.02
+ * of the tolerance, they become one line (docs/theory/triangles.md). At a joint of the annulus O has a kink. Next to a
+ * joint there is a line only if the tolerance needs one. The least ratio in 3,840 valves was 0.4. (Triangles can still be
+ * flat: quads are sheared where a leaflet's arcs meet its free edge at a small angle.) */
 TEST(has_no_slivers) {
   random_source rng = random_start("test_mitral_surface");
   double least = 1e30;
@@ -310,7 +310,7 @@ TEST(has_no_slivers) {
   CHECK_AT_MOST(0.1, least);
 }
 
-/* Downstream is the ventricle: below the closed valve, and around the open one. */
+/* Downstream is the ventricle: the space below the closed valve, and around the open valve. */
 TEST(normals_point_downstream) {
   riis_surface *closed = mitral_surface(0, 0.05), *open = mitral_surface(1, 0.05);
   assert_int_equal(closest_to(closed, 0, 0, -1).side, 1);
@@ -322,8 +322,8 @@ TEST(normals_point_downstream) {
   assert_int_equal(closest_to(open, 2.4, 0, -0.5).side, 1);
 }
 
-/* No point of the valve moves by more than about 2.6 times the change of the opening; the number is the oracle's. So at an
- * opening 1e-9 from either end, the surface has nearly the vertices of the surface at that end. */
+/* No point of the valve moves by more than about 2.6 times the change of the opening; the number is the oracle's. At an
+ * opening 1e-9 from either end, the surface therefore has nearly the same vertices as at that end. */
 TEST(opens_continuously) {
   const double ends[2] = {0, 1}, near[2] = {1e-9, 1 - 1e-9};
   for (int i = 0; i < 2; ++i) {
@@ -371,12 +371,12 @@ TEST(opens_from_one_state_to_another) {
     const int owned_before = n_owned();
     riis_valve *valve = new_valve(kinds[i]), *first = new_valve(kinds[i]), *second = new_valve(kinds[i]);
     CHECK_OK(riis_valve_set_scalar(second, names[i], values[i]));
-    const double shift[3] = {0.25, 0, 1}; /* the translation is interpolated too */
+    const double shift[3] = {0.25, 0, 1}; /* the translation is also interpolated */
     CHECK_OK(riis_valve_set(second, "translation", 3, shift));
     CHECK_OK(riis_valve_set_open_state(valve, second));
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0));
     CHECK_OK(riis_valve_set_scalar(first, "opening", 0));
-    /* Vertices of the aortic valve depend on its motion between the states, so a valve of one state has other vertices. */
+    /* Vertices of the aortic valve depend on its motion between the states, so a valve with one state has other vertices. */
     const double off = i == 0 ? 1e-3 : 0;
     CHECK_NEAR(area_of(valve), area_of(first), off);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
@@ -396,7 +396,7 @@ TEST(opens_from_one_state_to_another) {
   }
 }
 
-/* Half way between two aortic states the middle of each free edge is half way. */
+/* Half way between two aortic states, the middle of each free edge is half way. */
 TEST(control_points_are_blended) {
   riis_valve *valve = new_valve("aortic"), *open = new_valve("aortic");
   CHECK_OK(riis_valve_set_scalar(open, "right.leaflet_radius_in", 1.04));

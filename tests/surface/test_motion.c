@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  * Tests surfaces with a velocity. Their triangles equal those of an update without velocities. Their velocities are
- * compared with known motions. A refusal leaves the surface as it was. The mitral valve's own motion is in
+ * compared with known motions. A refusal does not change the surface. The mitral valve's own motion is in
  * test_mitral_motion.c. */
 #include <riis/riis.h>
 
@@ -17,8 +17,8 @@ static double distance(const double *p, const double *q) { return hypot(hypot(p[
 
 /* --- Valves ---------------------------------------------------------------------------------------------------------- */
 
-/* A strip of three patches. Curves 0 to 2 are below and 3 to 5 above. Curves 6 to 9 run from below to above, and the last is a
- * point. */
+/* A strip of three patches. Curves 0 to 2 are the lower ones, and curves 3 to 5 the upper ones. Curves 6 to 9 run from below
+ * to above, and the last is a point. */
 enum { n_curves = 10, n_patches = 3, n_control = 32 };
 static const int32_t degrees[n_curves] = {3, 2, 1, 2, 3, 3, 1, 3, 2, 1};
 static const int32_t is_reversed[n_curves] = {0, 0, 0, 0, 1, 0, 0, 1, 0, 0};
@@ -68,7 +68,7 @@ static riis_valve *valve_of(const strip *from) {
   return own(valve);
 }
 
-/* Returns the strip at time t: each point x has become (1 + growth t) x + drift t. */
+/* Returns the strip at time t, when each point x has moved to (1 + growth t) x + drift t. */
 static strip strip_at(const strip *from, double t, double growth, const double *drift) {
   strip made;
   for (int i = 0; i < n_control; ++i)
@@ -315,8 +315,8 @@ TEST(placements_move) {
   printf("off by %.2g of the coordinates over the time\n", worst);
 }
 
-/* Control points are scaled by 1 + growth t and moved by drift t. Every point of the surface moves likewise, also with arc
- * length as parameter. The other state may be earlier or later. */
+/* Control points are scaled by 1 + growth t and moved by drift t. Every point of the surface moves in the same way, even
+ * with arc length as parameter. The other state may be earlier or later. */
 TEST(patches_grow_and_drift) {
   double worst = 0;
   for (int trial = 0; trial < trials_of(40); ++trial) {
@@ -364,7 +364,7 @@ TEST(time_goes_back) {
   }
 }
 
-/* A vertex moved back by its velocity is a point of the earlier surface, on the same patch at the same u and v. */
+/* A vertex that is moved back by its velocity is a point of the earlier surface, on the same patch at the same u and v. */
 TEST(vertices_come_from_their_place_before) {
   double worst = 0, worst_uv = 0;
   for (int trial = 0; trial < 12; ++trial) {
@@ -391,7 +391,7 @@ TEST(vertices_come_from_their_place_before) {
       const riis_closest closest = closest_to(was, p[0], p[1], p[2]);
       worst = fmax(worst, closest.distance);
       const int64_t t = closest.triangle_id;
-      if (w.patch_id[t] != c.patch_id[k / 3]) { /* the vertex is on a border, or where patches touch */
+      if (w.patch_id[t] != c.patch_id[k / 3]) { /* the vertex is on a border, or at a place where patches touch */
         assert_true(closest.distance < 0.02);
         continue;
       }
@@ -410,7 +410,7 @@ TEST(vertices_come_from_their_place_before) {
   CHECK_AT_MOST(worst_uv, 0.1);
 }
 
-/* Steps of a thousandth give the same speeds as steps of a fiftieth, in which rounding and jumps hardly matter. */
+/* Steps of a thousandth give the same speeds as steps of a fiftieth. In the longer steps, rounding and jumps hardly matter. */
 TEST(no_vertex_of_the_aortic_valve_is_an_outlier) {
   riis_valve *valve = random_valve(0), *before = copy_of(valve);
   riis_surface *surface = new_surface(valve, NULL);
@@ -518,7 +518,7 @@ TEST(refusals_leave_the_surface_as_it_was) {
   MOVING_REFUSED(RIIS_INVALID_PARAMETER, "in valve_before: in the open state, the left cusp", aortic, bad, 1, NULL,
                  NULL);
 
-  /* Wrong options are refused. The message tells whether they belong to the earlier placement. */
+  /* Wrong options are refused. The message says if they belong to the earlier placement. */
   riis_surface_options options = surface_options();
 #define BEFORE_REFUSED(change, parts)                                             \
   do {                                                                            \

@@ -318,14 +318,14 @@ TEST(a_switch_opens_by_pressure_and_closes_by_flow) {
   assert_int_equal(now.phase, RIIS_PHASE_CLOSING);
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.35, -1, -0.1, &now));
   CHECK_NEAR(now.opening, 0.5, 1e-12);
-  /* The valve turns round half way, without a jump. */
+  /* The valve reverses half way, without a jump. */
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36, 2, 0, &now));
   const double where = now.opening;
   CHECK_OK(riis_opening_switch_advance(&law, &now, 0.36 + 1e-9, 2, 0, &now));
   CHECK_NEAR(now.opening, where, 1e-6);
 }
 
-/* A solver's steps may not hit the ramp's end exactly: by rounding, the sum of steps of 2 ms is slightly less than 0.04 s. */
+/* A solver's steps may miss the ramp's end by rounding: the sum of steps of 2 ms is slightly less than 0.04 s. */
 TEST(an_opening_rounds_to_at_most_one) {
   const riis_opening_switch law = some_switch();
   for (int i = 0; i < 4096; ++i) {
@@ -360,7 +360,8 @@ TEST(a_filter_and_a_dwell_keep_noise_out) {
 /* Advances a law to a time. The law's pressures and flows are functions of time. */
 typedef void driven_step(void *state, double time);
 
-/* A law continues from a copy of its state, made half way, as after a restart. It ends with the same bits. */
+/* A law continues from a copy of its state that was made half way, as after a restart. It ends with the same bits as without the
+ * copy. */
 static void check_restart(driven_step *advance, void *state, void *kept, size_t size) {
   enum { n_steps = 600, half = n_steps / 2 };
   for (int i = 1; i <= n_steps; ++i) {
@@ -476,7 +477,7 @@ TEST(the_angle_stays_between_its_stops) {
   CHECK_NEAR(now.opening, 0, 0);
 }
 
-/* One pair of pressure and flow closes the valve, and the other pair opens it. */
+/* One pair of pressure and flow closes the valve, and another pair opens it. */
 TEST(a_first_state_is_closed_whatever_the_law) {
   for (int sign = -1; sign <= 1; sign += 2) {
     riis_opening_angle law = aortic_angle();

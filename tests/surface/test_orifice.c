@@ -223,7 +223,7 @@ TEST(orifices_are_those_of_turned_lines) {
   }
 }
 
-/* If the edge moves inwards, the area shrinks by the distance times the perimeter. */
+/* If the edge moves inwards, the area decreases by the distance times the perimeter. */
 TEST(perimeters_are_derivatives_of_areas) {
   for (int trial = 0; trial < n_trials(); ++trial) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. The wanted values
- * come from closed forms, and from valves with the same surfaces. */
+ * Tests the orifice and the free edges of surfaces from arrays and keyframes, and the coaptation of leaflets. The expected
+ * values come from closed forms, and from valves with the same surfaces. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -56,8 +56,8 @@ static double edge_length(const double *edge) {
 }
 
 /* Returns the area that the attachment encloses, seen along z. The area is the sum of the triangles between the axis and each
- * edge. The sum has no signs, because the edges of mirrored halves run in opposite directions. It is right if each ray from
- * the axis meets the attachment once. */
+ * edge. It sums absolute values, because the edges of mirrored halves run in opposite directions. The sum is right if
+ * each ray from the axis meets the attachment once. */
 static double area_of_attachment(const riis_surface *surface) {
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
@@ -85,7 +85,7 @@ static double length_of_commissure(const riis_surface *surface) {
 }
 
 /* A valve's triangles, given as arrays, have the valve's free edges. Patches have vertices inside the edges of their neighbours,
- * and these edges are no boundary. The attachment is the outline. */
+ * and these edges do not count as boundary. The attachment is the outline. */
 TEST(arrays_have_the_edges_of_their_valve) {
   static const char *const kinds[3] = {"trileaflet", "aortic", "mitral"};
   for (int trial = 0; trial < 12; ++trial) {
@@ -104,7 +104,8 @@ TEST(arrays_have_the_edges_of_their_valve) {
     CHECK_OK(riis_surface_get_n_leaflets(surface, &n));
     assert_int_equal(n, kind == 2 ? 2 : 3);
     if (kind == 1) {
-      /* The paper's cusps are not joined at the commissures. So each has a boundary of its own, and one of them is taken. */
+      /* The paper's cusps are not joined at the commissures. Each cusp therefore has its own boundary, and one of these is the
+       * outline. */
       assert_int_equal(orifice_of(surface).outline, RIIS_OUTLINE_BOUNDARY);
       free_owned_after(owned_before);
       continue;
@@ -125,7 +126,7 @@ TEST(arrays_have_the_edges_of_their_valve) {
       const riis_orifice there = orifice_of(new_surface(valve, &placed));
       for (int c = 0; c < 3; ++c) CHECK_NEAR(found.axis[c], -there.axis[c], 1e-9);
     }
-    /* An open trileaflet orifice seen along z is the part of the outline that the leaflets leave. */
+    /* Seen along z, the orifice of an open trileaflet valve is the part of the outline that the leaflets leave uncovered. */
     if (kind == 0 && opening == 0) CHECK_NEAR(found.area, 0, 2e-3 * found.outline_area);
     free_owned_after(owned_before);
   }
@@ -259,8 +260,8 @@ TEST(contacts_have_known_areas) {
   }
 }
 
-/* Closed trileaflet cusps touch along all of their free edges. Open ones touch only near the commissures. A skirt and a housing
- * touch nothing. */
+/* Closed trileaflet cusps touch along all of their free edges. Open cusps touch only near the commissures. A skirt and a
+ * housing touch nothing. */
 TEST(closed_leaflets_touch_along_their_free_edges) {
   for (int trial = 0; trial < 2; ++trial) {
     riis_valve *valve = new_valve("trileaflet");
@@ -281,7 +282,7 @@ TEST(closed_leaflets_touch_along_their_free_edges) {
     CHECK_NEAR(as_array.edge, all.edge, 1e-9 * all.edge);
     CHECK_OK(riis_valve_set_scalar(valve, "skirt_length", 0.1));
     const riis_coaptation with_skirt = coaptation_of(new_surface(valve, &options), RIIS_AUTO, RIIS_ALL_LEAFLETS);
-    CHECK_NEAR(with_skirt.area, all.area, 3e-3 * all.area); /* its triangles may be others */
+    CHECK_NEAR(with_skirt.area, all.area, 3e-3 * all.area); /* its triangles may differ */
     CHECK_NEAR(coaptation_of(new_surface(valve, &options), RIIS_AUTO, RIIS_LEAFLET_SKIRT).area, 0, 0);
     CHECK_OK(riis_valve_set_scalar(valve, "opening", 0.5));
     const riis_coaptation open = coaptation_of(new_surface(valve, &options), RIIS_AUTO, RIIS_ALL_LEAFLETS);

@@ -204,7 +204,7 @@ TEST(opening_and_skirt_are_the_parameters) {
 }
 
 TEST(patches_without_area_make_no_surface) {
-  shape flat = unit_square(); /* each attempt shrinks it: to a line, to a point, or to nearly nothing */
+  shape flat = unit_square(); /* each attempt shrinks the curve: to a line, to a point, or to nearly nothing */
   for (int attempt = 0; attempt < 3; ++attempt) {
     const int owned_before = n_owned();
     const double scale[3][2] = {{1, 0}, {0, 0}, {1e-200, 1e-200}};
@@ -220,7 +220,7 @@ TEST(patches_without_area_make_no_surface) {
   }
 }
 
-/* A crescent that is much thinner than the tolerance does not vanish: its sides are refined until they are not the same chord. */
+/* A crescent that is much thinner than the tolerance does not vanish, because its sides are refined until they differ. */
 TEST(a_patch_thinner_than_the_tolerance_stays) {
   for (double sagitta = 0.04; sagitta > 1e-6; sagitta /= 10) {
     const int owned_before = n_owned();

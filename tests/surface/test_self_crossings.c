@@ -31,7 +31,7 @@ static int has_area(const double *t) {
   return n[0] * n[0] + n[1] * n[1] + n[2] * n[2] > 1e-12;
 }
 
-/* Adds a triangle with vertices of its own, unless it has hardly any area. */
+/* Adds a triangle with its own vertices, unless it has hardly any area. */
 static void add_triangle(soup *s, const double *t, int32_t leaflet_id) {
   if (!has_area(t)) return;
   memcpy(s->xyz + 3 * s->n_vertices, t, 9 * sizeof *t);
@@ -96,7 +96,7 @@ static void add_touching(soup *s) {
   }
 }
 
-/* All triangles are in one plane, up to rounding. The plane is not along the axes. */
+/* All triangles are in one plane, up to rounding. The plane is oblique to the axes. */
 static void add_in_plane(soup *s) {
   const double u[3] = {random_between(&rng, -1, 1), random_between(&rng, -1, 1), random_between(&rng, -1, 1)};
   const double v[3] = {random_between(&rng, -1, 1), random_between(&rng, -1, 1), 0.5};
@@ -157,7 +157,7 @@ static riis_surface *surface_of_soup(const soup *s, double half_thickness) {
   return surface_from(&arrays, &options);
 }
 
-/* Returns the crossings. The list's arrays last as long as the test. If the test passes `crossings`, its memory is reused. */
+/* Returns the crossings. The list's arrays live as long as the test. If the test passes `crossings`, its memory is reused. */
 static riis_crossing_list crossings_in(const riis_surface *surface, double depth, int32_t n_threads,
                                        riis_crossings *crossings) {
   riis_crossing_options options;
@@ -307,7 +307,7 @@ TEST(pairs_equal_those_of_all_triangles) {
     print_message("kind %d: %lld cross, %lld touch, %lld are too close to call\n", kind,
                   (long long)tallies[kind].n_crossing, (long long)tallies[kind].n_touching,
                   (long long)tallies[kind].n_undecided);
-    /* Of all kinds of triangles, random ones have the fewest crossing pairs: 157 in 100 trials here, and 85 for the worst of 81
+    /* Of all kinds of triangles, random ones have the fewest crossing pairs: 157 in 100 trials, and 85 with the worst of 81
      * seeds. */
     if (kinds[kind] == add_in_plane)
       assert_int_equal(tallies[kind].n_crossing, 0);
@@ -346,8 +346,8 @@ TEST(threads_find_the_same) {
 }
 
 /* Unit squares at right angles cross along a segment of a whole side's length. Each triangle of one square crosses one triangle
- * of the other. The shortest way to separate two triangles is to move a corner across the other's diagonal: half a side times sin
- * 45 degrees. */
+ * of the other. The shortest way to separate two triangles is to move a corner across the other triangle's diagonal: half a side
+ * times sin 45 degrees. */
 TEST(unit_squares_cross_along_one_unit) {
   const double xyz[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0, -0.5, 0.5, 1, -0.5, 0.5, 1, 0.5, 0.5, 0, 0.5};
   const int32_t ids[] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};

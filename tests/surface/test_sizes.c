@@ -90,8 +90,8 @@ static const char *of_cusp(int cusp, const char *name) {
   return made;
 }
 
-/* Returns the exponent p for which the profile x = in + (end - in) (y / y_end)^p points at the axis at its end: p (end - in) is
- * then end. The sizes are the radii in and out, and the angle. */
+/* Returns the exponent p for which the profile x = in + (end - in) (y / y_end)^p points at the axis at its end. For this p, p
+ * (end - in) is end. The sizes are the radii in and out, and the angle. */
 static double largest_power(const double *sizes) {
   const double end = sizes[1] * cos(sizes[2] * acos(-1) / 180);
   return end > sizes[0] ? end / (end - sizes[0]) : INFINITY;
@@ -99,14 +99,14 @@ static double largest_power(const double *sizes) {
 
 static double first_expected(const model *of, const char *name) { return expected(of, position_in(of, name))[0]; }
 
-/* Writes the value by the parameter's rule. Returns 0 if it has none. */
+/* Writes the value by the parameter's rule. Returns 0 if the parameter has no rule. */
 static int rule_value(const model *of, const char *name, double *value) {
   value[0] = value[1] = value[2] = 0;
   if (strcmp(of->kind, "aortic") == 0) {
     for (int k = 0; k < 3; ++k) {
       if (strcmp(name, of_cusp(k, "leaflet_power")) != 0) continue;
-      /* Limits the exponent to the largest one whose profile is no steeper at its end than the plane there. The exponents of
-       * the paper are lowered in the same proportion. */
+      /* Limits the exponent to the largest exponent whose profile is no steeper at its end than the plane there. The
+       * exponents of the paper are lowered in the same proportion. */
       static const double paper[3][4] = {{0.24, 1.365, 61, 1.58}, {0.49, 1.495, 58.5, 2.77}, {0.2, 1.38, 60.5, 1.19}};
       const double now[3] = {first_expected(of, of_cusp(k, "leaflet_radius_in")),
                              first_expected(of, of_cusp(k, "leaflet_radius_out")),
@@ -147,7 +147,8 @@ static const double *expected(const model *of, int64_t id) {
   return memcpy(value, of->parameters[id].default_values, 3 * sizeof *value);
 }
 
-/* Compares every parameter of the valve. Values by a rule may differ by rounding, because the model's formulas do. */
+/* Compares every parameter of the valve. Values that follow a rule may differ by rounding, because the model has other
+ * formulas. */
 static void check_is_as(const riis_valve *valve, const model *of) {
   for (int64_t i = 0; i < of->n; ++i) {
     const riis_parameter *parameter = &of->parameters[i];
@@ -201,7 +202,7 @@ static const char *const kinds[] = {"trileaflet", "aortic", "mitral", "bileaflet
 
 /* --- Rules -------------------------------------------------------------------------------------------------------------- */
 
-/* If nothing is set, or the defaults are set, all values have the bits of the defaults. */
+/* If nothing is set, or if the defaults are set, all values have the bits of the defaults. */
 TEST(rules_give_the_defaults) {
   for (int k = 0; k < 4; ++k) {
     const model of = new_model(kinds[k]);
@@ -228,7 +229,7 @@ TEST(rules_give_the_defaults) {
   }
 }
 
-/* The same settings in any order give the same values, and so the same surface or the same refusal. */
+/* The same settings in any order give the same values, and therefore the same surface or the same refusal. */
 TEST(order_does_not_matter) {
   int n_surfaces = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -250,7 +251,7 @@ TEST(order_does_not_matter) {
       calls[i] = calls[j], calls[j] = kept;
     }
     for (int i = 0; i < n; ++i) {
-      if (one_in(4)) { /* a value that is overwritten leaves nothing */
+      if (one_in(4)) { /* a value that is overwritten has no effect */
         const setting first = calls[i];
         for (int64_t k = 0; k < of.parameters[first.id].n_values; ++k)
           calls[i].values[k] = of.parameters[first.id].maximum;
@@ -329,7 +330,7 @@ TEST(random_calls_are_as_the_model) {
   }
 }
 
-/* A valve that was given all values of another valve has its shape, but its parameters no longer follow. */
+/* A valve that was given all values of another valve has its shape, but its parameters no longer follow rules. */
 TEST(all_values_are_set_when_read_back) {
   riis_valve *valve = new_valve("trileaflet"), *back = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "annulus", 2.3));
@@ -353,7 +354,7 @@ TEST(all_values_are_set_when_read_back) {
   CHECK_SAME(value_of(back, "bending_height"), value_of(valve, "bending_height"));
 }
 
-/* An open state keeps the values that followed when it was given, as if all were set. */
+/* An open state keeps the values that its rules gave at the call, as if all values were set. */
 TEST(open_states_follow_their_own_rules) {
   riis_valve *valves[2], *open = new_valve("trileaflet"), *all_set = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(open, "annulus", 2.6));
@@ -500,7 +501,7 @@ TEST(other_refusals) {
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'annulus' has 1 value, not 2",
                 riis_valve_set(valve, "annulus", 2, two));
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "parameter 'annulus' is nan", riis_valve_set_scalar(valve, "annulus", NAN));
-  /* A rule may leave the range of its parameter. */
+  /* A rule may give a value outside the range of its parameter. */
   for (int k = 0; k < 2; ++k) {
     riis_valve *large = k ? open : valve;
     for (int size = 0; size < 3; ++size)
@@ -537,7 +538,7 @@ typedef struct crossing {
   int32_t patches[2];
 } crossing;
 
-/* Returns the crossings at the opening, from 0 to 1 in tenths, that has the most. */
+/* Of the openings 0, 0.1, ..., 1, takes the one with the most crossings, and returns these. */
 static crossing worst_crossing(riis_valve *valve, const riis_surface_options *options) {
   crossing worst = {0};
   riis_crossings *crossings = NULL;
@@ -592,7 +593,7 @@ TEST(trileaflet_cusps_do_not_cross) {
   assert_int_equal(n_crossing, 0);
 }
 
-/* With sizes that do not follow, as before the rules, a tall valve crosses. So the search finds crossings. */
+/* If sizes do not follow rules, as in earlier versions, a tall valve crosses. This shows that the search finds crossings. */
 TEST(sizes_that_do_not_follow_cross) {
   riis_valve *valve = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_scalar(valve, "leaflet_height", 1.3));
@@ -611,7 +612,7 @@ static double bound_of_power(const riis_valve *valve, int k) {
                                         value_of(valve, of_cusp(k, "leaflet_angle"))});
 }
 
-/* Every size, angle and exponent of an aortic valve varies by that share. The angles keep their sum of 180. */
+/* Every size, angle and exponent of an aortic valve varies by that share. The sum of the angles stays 180. */
 static riis_valve *random_aortic(double share, int power) {
   riis_valve *valve = new_valve("aortic");
   double sum = 0;
@@ -644,8 +645,8 @@ static int power_is_above(const riis_valve *valve) {
   return is_above;
 }
 
-/* Writes points of a cusp's closed free edge. Coordinates are along the plane through the axis and the commissure, and beyond
- * this plane. Both halves of the edge have the same coordinates. */
+/* Writes points of a cusp's closed free edge. The first coordinate is along the plane through the axis and the commissure,
+ * and the second is the distance beyond this plane. Both halves of the edge have the same coordinates. */
 enum { n_edge_points = 300 };
 static void free_edge(const riis_valve *valve, int k, double (*points)[2]) {
   double starts[3], ends[3];
@@ -691,8 +692,8 @@ static int free_edges_meet(const riis_valve *valve) {
 }
 
 /* Returns whether a cusp's attachment turns back behind the cusp's symmetry plane near the root, in the closed or in the open
- * state. The halves of the cusp then go through each other. The attachment is the parabola through the root, where y is 0, the
- * bending curve's end at s, and the commissure at 1, so y'(0) is (y(s) - s^2 y(1)) / (s - s^2). */
+ * state. The halves of the cusp then go through each other. The attachment is a parabola through the root, where y is 0, the
+ * bending curve's end at s, and the commissure at 1. So y'(0) is (y(s) - s^2 y(1)) / (s - s^2). */
 static int attachment_turns_back(const riis_valve *valve) {
   int turns_back = 0;
   const double s = value_of(valve, "bending_height") / value_of(valve, "leaflet_height"), degree = acos(-1) / 180;
@@ -724,8 +725,8 @@ static int attachments_pass(const riis_valve *valve) {
   return beyond[0] + beyond[1] > 0 || beyond[1] + beyond[2] > 0 || beyond[2] + beyond[0] > 0;
 }
 
-/* Returns whether a cusp folds near its root at an opening, in twentieths. Triangles may cross at the last tenth before the
- * smooth cusp folds. */
+/* Returns whether a cusp folds near its root at an opening, tried in twentieths. Triangles may cross at the last tenth
+ * before the smooth cusp folds. */
 static int cusp_folds(riis_valve *valve) {
   int folds = 0;
   for (int i = 0; i <= 20 && !folds; ++i) {
@@ -805,7 +806,7 @@ TEST(passing_attachments_cross) {
     if (!passes) continue;
     CHECK_SAME(found.opening, 0);
     for (int k = 0; k < 2; ++k)
-      assert_true(found.patches[k] == 1 || found.patches[k] == 7); /* upper patches of both cusps */
+      assert_true(found.patches[k] == 1 || found.patches[k] == 7); /* the upper patches of both cusps */
   }
 }
 
@@ -834,7 +835,7 @@ TEST(aortic_cusps_rarely_cross) {
                                    cusp_folds(valve), attachments_pass(valve)};
         for (int cause = 0; cause < n_causes; ++cause)
           n_with[cause] += has[cause], n_crossing_with[cause] += crosses && has[cause];
-        assert_true(!has[meet] || has[above]); /* edges within their sectors do not meet */
+        assert_true(!has[meet] || has[above]); /* edges that stay within their sectors do not meet */
         n_crossing += crosses;
         n_unexplained += crosses && !has[meet] && !has[back] && !has[folds] && !has[pass];
         free_owned_after(owned_before);

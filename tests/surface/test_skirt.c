@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Tests the skirt. Its outer edge must lie the length outwards from the attachment, and its inner edge on the attachment. It must
- * seal a gap to a wall that a valve without a skirt leaves open. It must leave the leaflets, the orifice, the swept volumes and
- * the attachment as they are. */
+ * Tests the skirt. Its outer edge must lie outwards from the attachment by its length, and its inner edge must lie on the
+ * attachment. It must seal a gap to a wall that stays open without a skirt. The leaflets, the orifice, the swept volumes and
+ * the attachment must stay the same. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -73,7 +73,7 @@ static double distance_to_edge(const double *p, const double *a, const double *b
   return length_of(off);
 }
 
-/* The line that skirts lead away from: the axis of the valve's frame or, for the mitral valve, the parallel through the centroid
+/* The line from which skirts lead away: the axis of the valve's frame, or for the mitral valve its parallel through the centroid
  * of the annulus. */
 typedef struct axis_line {
   double centre[3], direction[3];
@@ -103,7 +103,7 @@ static void outwards_from(const axis_line *axis, const double *p, double *out) {
   for (int c = 0; c < 3; ++c) out[c] = q[c] / size;
 }
 
-/* Every kind of valve has both triangulations. A sanitizer sees each kind once. */
+/* Every kind of valve is tested with both triangulations. With a sanitizer, each kind is tested once. */
 static int n_trials_of_kinds(void) { return is_long_test() ? 2 * n_skirted : n_skirted; }
 
 /* Checks the vertices of both edges of the skirt. */
@@ -200,8 +200,8 @@ TEST(leaflets_stay_as_they_are) {
   }
 }
 
-/* Along the attachment, the leaflets' edges and the skirt's edges run in opposite directions. So normals point the same way on
- * both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
+/* Along the attachment, the leaflets' edges and the skirt's edges run in opposite directions. Normals therefore point the same
+ * way on both sides. With a fixed triangulation, each mitral edge belongs to one leaflet and to the skirt, to the last bit. */
 TEST(the_skirt_continues_the_leaflets) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted, is_fixed = trial / n_skirted % 2;
@@ -287,7 +287,8 @@ TEST(sides_are_right_beside_the_skirt) {
   }
 }
 
-/* A wall around the z axis through (x, y). At each angle its distance from this axis is the attachment's distance plus a gap. */
+/* A wall around the z axis through (x, y). At each angle, the wall's distance from this axis is the attachment's distance plus a
+ * gap. */
 enum { n_angles = 720 };
 typedef struct wall_shape {
   const riis_attachment *held;
@@ -371,7 +372,7 @@ TEST(skirts_seal_gaps) {
     }
 }
 
-/* Returns the length of the longer side of a strip, which no line v of the strip exceeds. */
+/* Returns the length of the longer side of a strip. No line v of the strip is longer. */
 static double longer_side(const riis_triangles *t, const double *xyz, int32_t patch) {
   double length[2] = {0, 0};
   for (int64_t i = 0; i < t->n_triangles; ++i)
@@ -383,8 +384,8 @@ static double longer_side(const riis_triangles *t, const double *xyz, int32_t pa
   return fmax(length[0], length[1]);
 }
 
-/* With a fixed triangulation, a vertex is displaced by its velocity times the step, and by its slide. It slides because its label
- * changes: the lines of mitral patches move with the joints of the annulus. The velocity follows a label. */
+/* With a fixed triangulation, a vertex moves by its velocity times the step, plus its slide. It slides because its label changes
+ * with the lines of mitral patches, which follow the joints of the annulus. A velocity belongs to a constant label. */
 TEST(skirts_move_with_the_attachment) {
   const double seconds = 0.1;
   for (int trial = 0; trial <= n_skirted; ++trial) {
@@ -424,7 +425,8 @@ TEST(skirts_move_with_the_attachment) {
   }
 }
 
-/* A wall: a tube with a straight axis, cut by planes from 0 to 1 along it. The sides are triangles, in random diagonals. */
+/* A wall: a tube with a straight axis, cut by planes from 0 to 1 along it. The sides consist of triangles with random
+ * diagonals. */
 typedef struct tube_wall {
   axis_line axis; /* through the middle */
   double radius, half_length;
@@ -463,7 +465,7 @@ static riis_surface *wall_from(const tube_wall *tube_at) {
   return surface_from(&arrays, NULL);
 }
 
-/* Returns where the line p + t d meets a round tube, the nearest of both places. */
+/* Returns the nearer of the two places where the line p + t d meets a round tube. */
 static double distance_to_tube(const tube_wall *wall, const double *p, const double *d) {
   double q[3], e[3];
   const double *axis = wall->axis.direction;
@@ -475,7 +477,7 @@ static double distance_to_tube(const tube_wall *wall, const double *p, const dou
   return fabs(first) < fabs(second) ? first : second;
 }
 
-/* Makes a tube around a placed valve, whose axis is shifted and tilted against the valve's. */
+/* Makes a tube around a placed valve. The tube's axis is shifted and tilted against the valve's axis. */
 static tube_wall tube_around(const riis_surface *surface, const axis_line *axis, double scale) {
   const riis_attachment held = attachment_of(surface);
   tube_wall made = {*axis, 0, 20 * scale};
@@ -557,7 +559,8 @@ static double largest_step(riis_valve *valve, riis_warp *warp, int n, const doub
   return largest;
 }
 
-/* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay. */
+/* The gap to a round tube is the root of a quadratic equation. A skirt to that tube ends on it, and the leaflets stay the
+ * same. */
 TEST(skirts_reach_walls_and_no_farther) {
   for (int trial = 0; trial < n_trials_of_kinds(); ++trial) {
     const int owned_before = n_owned(), kind = trial % n_skirted;
@@ -592,7 +595,7 @@ TEST(skirts_reach_walls_and_no_farther) {
     CHECK_OK(riis_valve_set_skirt_to_wall(valve, wall, 2 * s, &options));
     double longest = 0;
     CHECK_OK(riis_valve_get(valve, "skirt_length", 1, &longest));
-    CHECK_NEAR(longest * s, gap.most, 1e-2 * gap.most); /* at other points than the ends of edges */
+    CHECK_NEAR(longest * s, gap.most, 1e-2 * gap.most); /* at points other than the ends of edges */
     const riis_surface *reaching = new_surface(valve, &options);
     const riis_triangles all = triangles_of(reaching);
     double farthest = 0, worst = 0;
@@ -804,8 +807,8 @@ TEST(skirts_to_cutting_walls_cross_nothing) {
 }
 
 /* A warped aortic valve's cusps are not joined at the commissures, and its skirts end beside each other there. If a violent warp
- * lets the cusps themselves go through each other, the skirt is not judged. Nor is a patch that such a warp folds onto its own
- * skirt. */
+ * lets the cusps themselves go through each other, the skirt is not judged. A patch that such a warp folds onto its own skirt
+ * is not judged either. */
 TEST(skirts_of_warped_cusps_cross_nothing) {
   const int n_trials = is_long_test() ? 100 : 6;
   int n_states = 0, n_judged = 0, n_own = 0;

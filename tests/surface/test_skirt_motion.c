@@ -29,7 +29,7 @@ static const char *const kinds[n_kinds] = {"aortic", "trileaflet", "coapting", "
 
 /* What moves. The middle of a step has these values plus half of the rates. */
 typedef struct state_of_skirt {
-  double opening, size[3]; /* the sizes are factors; the last one scales the skirt's length */
+  double opening, size[3]; /* the sizes are factors; the last factor scales the skirt's length */
   riis_surface_options placed;
 } state_of_skirt;
 
@@ -126,7 +126,8 @@ static void move(state_of_skirt *at, int motion, double seconds) {
 
 /* --- The skirt from its definition ------------------------------------------------------------------------------------ */
 
-/* Points at even shares of a strip's inner side, and the points outwards from them with their shares of the outer side. */
+/* Points at even shares of a strip's inner side, and the points outwards from them, with the shares of these on the outer
+ * side. */
 enum { n_even = 1000 };
 typedef struct strip {
   double inner[n_even + 1][3], outer[n_even + 1][3], share[n_even + 1];
@@ -159,7 +160,7 @@ static void read_inner_sides(const riis_triangles *t, const smooth_motion *motio
   assert_true(oracle.n > 0);
 }
 
-/* Writes the line that the skirt leads away from in one state. */
+/* Writes the line from which the skirt leads away in one state. */
 static void axis_at(int kind, int state, double *centre, double *direction) {
   for (int c = 0; c < 3; ++c) centre[c] = 0, direction[c] = c == 2;
   if (kind != mitral && kind != of_patches) return;
@@ -222,7 +223,7 @@ static double fastest_of_skirt(const riis_triangles *t) {
   return fastest;
 }
 
-/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length of two
+/* The velocity is the central displacement of the same label at the middle of the step. A label is a share of the length on two
  * lines: the attachment, and the line outwards from it. Inside triangles the bound of velocities holds. */
 TEST(skirts_have_the_velocity_of_their_points) {
   for (int kind = 0; kind < n_kinds; ++kind)
@@ -275,7 +276,8 @@ TEST(skirts_have_the_velocity_of_their_points) {
             "%s, %s, %s: off by %.2g %% of the largest speed at vertices, %.2g %% inside triangles of at most %.2g\n",
             kinds[kind], fixed ? "fixed" : "adapted", motions[motion], 100 * worst[motion], 100 * inside,
             100 * bound / fastest);
-        CHECK_AT_MOST(worst[motion], 0.015); /* the cubics of the outer side are right to a thousandth of the length */
+        CHECK_AT_MOST(worst[motion], 0.015); /* the cubics of the outer side are accurate to a thousandth of the
+                                                length */
         CHECK_AT_MOST(inside * fastest, bound + 1e-9 * fastest);
         smooth_motion_destroy(smooth);
         free_owned_after(owned_before);
@@ -285,7 +287,8 @@ TEST(skirts_have_the_velocity_of_their_points) {
 
 /* --- Vertices of a fixed triangulation -------------------------------------------------------------------------------- */
 
-/* Returns the largest component across a triangle by which its velocity differs from its motion, at its centroid. */
+/* Returns the largest difference between a triangle's velocity and its motion, at its centroid and perpendicular to the
+ * triangle. */
 static double across(const riis_triangles *t, const double *was, double seconds, int64_t i) {
   const int64_t *id = t->vertex_id + 3 * i;
   const double *a = t->xyz + 3 * id[0], *b = t->xyz + 3 * id[1], *c = t->xyz + 3 * id[2];
@@ -341,7 +344,7 @@ TEST(vertices_of_fixed_skirts_move_with_their_velocities) {
 
 /* --- A moving warp ---------------------------------------------------------------------------------------------------- */
 
-/* Gives a valve a warp that takes its attachment to where the beat takes it. */
+/* Gives a valve a warp that moves its attachment with the beat. */
 static riis_warp *warp_at(riis_valve *valve, const riis_surface *rest, double time, const double *of) {
   enum { n_wanted = 40 };
   double from[3 * n_wanted], to[3 * n_wanted];
@@ -491,7 +494,7 @@ TEST(skirts_move_with_warped_attachments) {
       smooth_motion_destroy(warped), smooth_motion_destroy(resting);
       printf("%s, %s, warped: off by %.2g %% of the largest speed at the attachment, %.2g %% at the outer edge\n",
              kinds[kind], fixed ? "fixed" : "adapted", 100 * worst[0], 100 * worst[1]);
-      /* A curve of the patches turns by 120 degrees. The slide of its material is known less exactly. */
+      /* A curve of the patches turns by 120 degrees. The slide of its material is known less precisely. */
       const double allowed = kind == of_patches ? 0.03 : 0.01;
       CHECK_AT_MOST(worst[0], allowed);
       CHECK_AT_MOST(worst[1], allowed);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Skirts of random patients. Landmarks with noise lie on a root whose cusps differ. A valve is placed and warped by them, and its
- * skirt leads to the wall of that root. RIIS_TEST_LONG=1 takes 100 patients at 11 openings instead of 4 at 3. One more patient
- * is the same in every run. */
+ * Skirts of random patients. Landmarks with noise lie on a root whose cusps differ. A valve is placed and warped by these
+ * landmarks, and its skirt leads to the wall of that root. RIIS_TEST_LONG=1 takes 100 patients at 11 openings instead of 4 at 3.
+ * One additional patient is the same in every run. */
 #include <riis/riis.h>
 
 #include "test_support.h"
@@ -26,8 +26,8 @@ enum { n_attachment = 18, n_landmarks = 6 + n_attachment, n_round = 132, n_high 
 
 static double radians(double degrees) { return degrees * acos(-1) / 180; }
 
-/* From this state, the random numbers give an aortic patient. The plane along the axis through the ends of two cusps is special
- * here: one cusp's attachment leans over it. Skirts on both sides of that plane would cross. */
+/* From this state of the generator, the random numbers give an aortic patient. In this patient, the plane along the axis through
+ * the ends of two cusps is special: one cusp's attachment leans across it. Skirts on both sides of that plane would cross. */
 static const uint64_t state_of_leaning_patient = 3451592321834770229u;
 
 static root random_root(int is_wide) {
@@ -71,7 +71,7 @@ static void put(const root *of, double degrees, double r, double z, double *at) 
     at[c] = 10 * (of->turn[c][0] * p[0] + of->turn[c][1] * p[1] + of->turn[c][2] * p[2]) + of->shift[c];
 }
 
-/* The point of a cusp's attachment at a place from -1 to 1, which are its commissures. */
+/* The point of a cusp's attachment at a place from -1 to 1. Both ends are its commissures. */
 static void on_attachment(const root *of, int cusp, double place, double *at) {
   const double first = of->angle[(cusp + 2) % 3] - (cusp == 0 ? 360 : 0), last = of->angle[cusp];
   const double degrees = first + 0.5 * (place + 1) * (last - first);
@@ -165,7 +165,7 @@ static riis_surface_options place_by(riis_valve *valve, const marks *of, double 
   return options;
 }
 
-/* A mitral annulus keeps its own shape but for noise, in a round wall. */
+/* A mitral annulus keeps its shape except for noise, in a round wall. */
 static riis_surface *mitral_patient(riis_valve *valve, riis_surface_options *options, int is_wide, double noise) {
   options->scale = 10;
   for (int c = 0; c < 3; ++c) options->translation[c] = between(-100, 100);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A surface that is updated in its old memory equals a new surface, in every bit of its content, of closest points and of
- * marks. This holds whatever the surface was before, and for any number of threads. It also holds for the first queries after an
- * update, which several threads may make at once, and after updates without a query. A refused update leaves no trace and gives
- * the same message as with one thread. */
+ * marks. This holds for any earlier content of the surface, and for any number of threads. It also holds for the first queries
+ * after an update, which several threads may make at once, and after updates without a query. A refused update leaves no trace
+ * and gives the same message as with one thread. */
 #include <pthread.h>
 #include <riis/riis.h>
 
@@ -15,7 +15,7 @@ static random_source rng;
 
 static int64_t any_of(int64_t n) { return (int64_t)(random_bits(&rng) % (uint64_t)n); }
 
-/* Triangles from arrays. At an update they move, change their order, or are replaced by others, of which there may be more or
+/* Triangles from arrays. In an update, they move, change their order, or are replaced by other triangles, perhaps by more or
  * fewer. */
 enum { max_triangles = 600 };
 static double soup[9 * max_triangles];
@@ -166,7 +166,7 @@ static void check_marks(const riis_surface *updated, const riis_surface *fresh, 
 
 TEST(an_updated_surface_is_a_fresh_one) {
   riis_valve *valves[2] = {new_valve("aortic"), new_valve("mitral")}, *open = new_valve("aortic");
-  /* `last` is a new surface with the same content that `updated` should have. */
+  /* `last` is a new surface with the content that `updated` should have. */
   riis_surface *updated = NULL, *last = NULL;
   riis_marks *result = new_result();
   CHECK_OK(riis_valve_set_scalar(open, "leaflet_angle", 40));
@@ -192,7 +192,7 @@ TEST(an_updated_surface_is_a_fresh_one) {
       last = fresh;
     }
     assert_true(is_same_content(updated, last));
-    if (any_of(4) == 0) continue; /* the next update then follows one without a query */
+    if (any_of(4) == 0) continue; /* the next update then follows an update without a query */
     check_closest(updated, last);
     check_marks(updated, last, result);
   }

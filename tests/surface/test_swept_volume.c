@@ -30,7 +30,7 @@ enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
 static int n_trials(void) { return is_long_test() ? 2 * n_kinds : n_kinds; }
 
-/* A valve of a kind with some parameters of its own. */
+/* A valve of a kind with some of its own parameters. */
 static riis_valve *random_valve(int kind) {
   riis_valve *valve = new_valve(kinds[kind]);
   if (kind == 0) set(valve, "leaflet_angle", between(45, 60));

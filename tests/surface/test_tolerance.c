@@ -69,8 +69,8 @@ static void aortic_point(int32_t patch_id, double u, double v, double *placed) {
 
 static mitral_oracle *mitral;
 
-/* Gives a point of the smooth mitral valve. The table has each patch's positions on the annulus: from one u down to the next.
- * The other patches are mirror images. */
+/* Gives a point of the smooth mitral valve. For each patch, the table has its range on the annulus, from one u down to the
+ * next. The other patches are mirror images. */
 static void mitral_point(int32_t patch_id, double u, double v, double *point) {
   double at[MITRAL_ORACLE_BREAKS];
   mitral_oracle_breaks(mitral, at);
@@ -93,7 +93,7 @@ static double distance_between(const double *p, const double *q) {
   return hypot(hypot(p[0] - q[0], p[1] - q[1]), p[2] - q[2]);
 }
 
-/* Makes Gauss-Newton steps from a first guess of (u, v), and returns the least distance met on the way. */
+/* Makes Gauss-Newton steps from a first guess of (u, v), and returns the least distance that occurs. */
 static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, double u, double v, const double *p) {
   double nearest = INFINITY;
   for (int step = 0; step < 4; ++step) {
@@ -116,7 +116,7 @@ static double distance_on_way(const smooth_valve *smooth, int32_t patch_id, doub
 }
 
 /* Returns the distance of p from the patch, never below the truth. The steps can end in another minimum, or leave the patch
- * where it folds. So if a distance is too large, the search is repeated from start points all over the patch. */
+ * where it folds. If a distance is too large, the search is therefore repeated from start points all over the patch. */
 static double distance_to_smooth(const smooth_valve *smooth, int32_t patch_id, const double *guess, const double *p,
                                  double enough) {
   double nearest = distance_on_way(smooth, patch_id, guess[0], guess[1], p);
@@ -210,7 +210,7 @@ TEST(mitral_deviation_stays_within_the_bound) {
 }
 
 /* Compares each quad with the smooth patch at equal (u, v), all over the quad. Each quad is within its own bound, and some
- * quad comes near its bound. Returns the largest fraction of the bound. */
+ * quad nearly reaches its bound. Returns the largest fraction of the bound. */
 static double largest_share_of_bound(const smooth_valve *smooth, int n_parameters, const char *const *names,
                                      const double *values, double max_error) {
   int64_t n;
@@ -271,7 +271,7 @@ TEST(every_quad_stays_within_its_own_bound) {
   assert_true(of_aortic > 0.5 && of_mitral > 0.5);
 }
 
-/* Valves of many shapes: each parameter that is a single number changes by a third up or down, one at a time. */
+/* Valves of many shapes: each parameter with a single number changes by a third up or down, one at a time. */
 TEST(so_it_does_for_other_aortic_valves) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
@@ -347,7 +347,7 @@ TEST(so_it_does_for_other_mitral_valves) {
       worst = fmax(worst, fmax(d.to_triangles, d.to_smooth));
       ++n_tried;
     } else {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit each other */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit together */
     }
     free_owned_after(owned_before);
   }
@@ -370,7 +370,7 @@ TEST(so_does_a_fixed_triangulation) {
     riis_surface *surface = NULL;
     const riis_status status = riis_surface_create(valve, &options, &surface);
     if (status != RIIS_OK) {
-      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit each other at some opening */
+      assert_int_equal(status, RIIS_INVALID_PARAMETER); /* random values may not fit together at some opening */
       free_owned_after(owned_before);
       continue;
     }

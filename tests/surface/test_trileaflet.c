@@ -10,7 +10,7 @@
 #include "cusp_checks.h"
 
 static const double turn[3] = {0, 120, -120}, half_angle[3] = {60, 60, 60};
-/* Defaults: the root radius R, the commissures' radius, and the free edges' height before and after the translation. */
+/* Defaults: the root radius R, the commissures' radius, and the height of the free edges before and after the translation. */
 static const double root = 1.25, commissure = 1.25, edge_height = 1.2, edge_z = 0;
 
 static riis_valve *copy_of(const riis_valve *valve) {
@@ -46,7 +46,7 @@ TEST(closed_free_edges_are_straight) {
 static int64_t n_of_pairs, n_of_places;
 
 /* If vertices of different cusps are nearer than 1e-9, they must have the same bits, up to the sign of zero. Counts such pairs,
- * and pairs on the axis. */
+ * and the pairs on the axis. */
 static void check_common_vertices(const riis_surface *surface, double scale) {
   const riis_triangles all = triangles_of(surface);
   int32_t *cusp = own(malloc((size_t)all.n_vertices * sizeof *cusp));
@@ -100,7 +100,7 @@ TEST(cusps_meet_in_the_same_bits) {
   }
 }
 
-/* The valve does not change when it is turned by 120 degrees about the axis. Each cusp is its own mirror image. */
+/* A turn by 120 degrees about the axis does not change the valve. Each cusp is its own mirror image. */
 TEST(cusps_are_equal) {
   for (int i = 0; i <= 4; ++i) {
     riis_surface_options options = surface_options();
@@ -186,7 +186,7 @@ TEST(attachment_is_near_a_cylinder) {
 
 /* --- Opening ----------------------------------------------------------------------------------------------------------- */
 
-/* Returns the length of both halves of the free edge, from its control points. */
+/* From its control points, returns the length of both halves of the free edge. */
 static double edge_by_formula(double t) {
   const double sine = sin(60 * cusp_degree), closed = commissure, open = 1.1 * commissure, r = 0.8 * root;
   double control[4][2], length = 0, last[2] = {0, 0};
@@ -228,8 +228,8 @@ TEST(opens_by_itself) {
 }
 
 /* With fixed triangles, a vertex's velocity is its displacement divided by the time. It differs slightly only on grid lines
- * that end between two vertices of a side, because such a line ends on a chord. Where closed cusps meet, each vertex has the
- * velocity of its own cusp: outwards. */
+ * that end between two vertices of a side, because such lines end on chords. Where closed cusps meet, each vertex has the
+ * velocity of its own cusp, which is outwards. */
 TEST(velocity_is_that_of_the_vertices) {
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;

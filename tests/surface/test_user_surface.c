@@ -91,7 +91,7 @@ TEST(zero_area_is_refused_or_skipped_with_ids_kept) {
   assert_int_equal(triangle_id[0], 0);
   assert_int_equal(triangle_id[1], 4);
   assert_int_equal(closest_to(surface, 0.1, 0.1, 7).triangle_id,
-                   4); /* the caller's number of the triangle, not its position among the kept ones */
+                   4); /* the caller's number of the triangle, not its position among the remaining triangles */
   free_one_owned(surface);
 
   arrays.n_faces = 3;
@@ -244,7 +244,7 @@ TEST(vertices_alone_are_refused_without_their_faces) {
                 riis_surface_update_from_arrays(surface, &vertices, NULL));
 }
 
-/* A closed body with sharp edges. Inside points are recognised even if the closest point is on an edge or a corner, where the
+/* A closed body with sharp edges. Points inside are recognised even if the closest point is on an edge or a corner, where the
  * normal of one face would give the wrong side. */
 TEST(side_at_edges_and_corners_of_a_wedge) {
   /* A thin tetrahedron, with dihedral angles far below and far above 90 degrees. */

@@ -63,7 +63,7 @@ static compared compare(const riis_surface *surface, const smooth_motion *motion
   return made;
 }
 
-/* The valve opens in steps of a thousandth. The first openings in the list have the largest errors ever found. RIIS_TEST_LONG
+/* The valve opens in steps of a thousandth. The first openings in the list had the largest errors so far. RIIS_TEST_LONG
  * tests all openings. */
 TEST(velocities_follow_the_smooth_valve) {
   static const int known[] = {957, 930, 950, 755, 1000};
@@ -228,8 +228,8 @@ TEST(the_bound_is_near) {
     printf("%s, %d openings: the bound is %.3g to %.3g of the largest speed\n", kinds[kind], n, least, largest);
     CHECK_AT_MOST(largest, most[kind]);
   }
-  /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The piece behind it is short there, and its length
-   * changes many times over. Such a piece once took the bound to 3.8 times the largest speed. */
+  /* At opening 0.633 a joint of the annulus passes the end of a mitral patch. The piece behind it is short at this opening, and
+   * its length changes many times over. An earlier bound reached 3.8 times the largest speed on such a piece. */
   riis_valve *passing = new_valve("mitral"), *just_before = new_valve("mitral");
   double worst = 0;
   for (int i = 2; i <= 60; i += is_sanitized() ? 6 : 1) {
@@ -243,7 +243,7 @@ TEST(the_bound_is_near) {
   }
   printf("mitral, where a joint passes: the bound is at most %.3g of the largest speed\n", worst);
   CHECK_AT_MOST(worst, 0.2);
-  /* The leaflets are flat at this opening, and about to bend. */
+  /* At this opening the leaflets are flat, and about to bend. */
   riis_valve *valve = new_valve("mitral"), *before = new_valve("mitral"), *open = new_valve("mitral");
   CHECK_OK(riis_valve_set_scalar(valve, "surface_angle", 25));
   CHECK_OK(riis_valve_set_scalar(open, "surface_angle", -25));

@@ -138,7 +138,7 @@ static double distance_to(const riis_surface *surface, const double *p) {
 
 /* --- The map ---------------------------------------------------------------------------------------------------------- */
 
-/* Solves the whole system [K P; P^T 0] by elimination with pivots, as books state it. */
+/* Solves the whole system [K P; P^T 0] by elimination with pivots, as in textbooks. */
 static void solve_dense(int n, double *a, double *b) {
   for (int k = 0; k < n; ++k) {
     int pivot = k;
@@ -174,14 +174,14 @@ TEST(the_map_solves_its_equations) {
     for (int i = 0; i < 3 * n; ++i) from[i] = unit * between(-1, 1), to[i] = from[i] + 0.1 * unit * between(-1, 1);
     riis_warp *warp = new_warp(n, from, noise, NULL);
     const riis_status status = set_targets(warp, n, to);
-    if (status == RIIS_INVALID_PARAMETER) { /* it may fold: these targets are wild */
+    if (status == RIIS_INVALID_PARAMETER) { /* the map may fold, because these targets are wild */
       free_owned_after(owned_before);
       continue;
     }
     CHECK_OK(status);
     const riis_warp_info info = info_of_warp(warp);
     assert_int_equal(info.n_landmarks, n);
-    if (info.is_planar) { /* few landmarks may be near a plane by chance; their map has other equations */
+    if (info.is_planar) { /* a few landmarks may be nearly in a plane by chance, and their map has other equations */
       free_owned_after(owned_before);
       continue;
     }
@@ -192,8 +192,8 @@ TEST(the_map_solves_its_equations) {
       CHECK_NEAR(info.rms_residual, sqrt(0.6 * 3 * (n - 4.0) / n) * noise, 1e-6 * noise);
     }
     if (isfinite(info.smoothing)) {
-      /* The library's lambda is for coordinates in units of the widest rms extent. So it is found from the residuals: each is
-       * lambda times the weight of its landmark, as K w + P c + residual is the target. */
+      /* The library's lambda is for coordinates in units of the widest rms extent. It is therefore found from the residuals:
+       * each is lambda times the weight of its landmark, because K w + P c + residual is the target. */
       for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) a[i * m + k] = pow(distance3(from + 3 * i, from + 3 * k) / unit, 3);
         for (int k = 0; k < 4; ++k) a[i * m + n + k] = a[(n + k) * m + i] = k == 0 ? 1 : from[3 * i + k - 1] / unit;
@@ -239,7 +239,7 @@ TEST(affine_and_planar_maps_are_reproduced) {
     double from[3 * max_landmarks], to[3 * max_landmarks];
     affine map = random_affine(0.2);
     const double stretch = between(0.5, 2);
-    if (is_planar) /* across a plane only similar maps are determined */
+    if (is_planar) /* across a plane, only similar maps are determined */
       for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) map.linear[i][k] = stretch * turn.linear[i][k];
     for (int i = 0; i < n; ++i) {
@@ -261,8 +261,8 @@ TEST(affine_and_planar_maps_are_reproduced) {
   }
 }
 
-/* The derivatives of |r|^3 do not jump. So a warped line through a landmark has no kink:
- * its direction changes little over a short step. */
+/* The derivatives of |r|^3 do not jump. A warped line through a landmark therefore has
+ * no kink: its direction changes little over a short step. */
 TEST(a_landmark_adds_no_kink) {
   double worst = 0;
   for (int trial = 0; trial < fewer_if_sanitized(10); ++trial) {
@@ -332,8 +332,8 @@ TEST(an_identity_changes_nothing) {
   }
 }
 
-/* A rigid warp gives the same shape as the placement: points of either surface lie on the other, as exactly as both are made. The
- * orifice, the swept volume and the attachment also agree. */
+/* A rigid warp gives the same shape as the placement: points of either surface lie on the other surface, within the errors of
+ * both. The orifice, the swept volume and the attachment also agree. */
 TEST(a_rigid_warp_equals_a_placement) {
   for (int trial = 0; trial < 9; ++trial) {
     const int owned_before = n_owned();
@@ -371,8 +371,8 @@ TEST(a_rigid_warp_equals_a_placement) {
   }
 }
 
-/* Curves of warped valves against the map: ends, directions of end tangents, and how far the curve is from the mapped curve. A
- * curve that is not warped must equal the plain valve's curve. */
+/* Curves of warped valves are compared with the map: their ends, the directions of their end tangents, and their distance from
+ * the mapped curve. A curve that is not warped must equal the plain valve's curve. */
 static void evaluate(const double *control, int degree, double t, double *point) {
   double q[4][3];
   memcpy(q, control, (size_t)(degree + 1) * sizeof *q);
@@ -449,7 +449,7 @@ TEST(warped_curves_are_near_mapped_curves) {
   CHECK_AT_MOST(worst_angle, 1e-3);
 }
 
-/* The patches that are read out make the same valve again, if they are Coons patches. */
+/* If the patches are Coons patches, the patches that are read out make the same valve again. */
 TEST(patches_make_the_same_valve) {
   for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
     const int owned_before = n_owned(), is_warped = trial / 2 % 2;
@@ -525,7 +525,8 @@ TEST(closed_and_open_landmarks_are_met) {
 
 /* --- In a mesh -------------------------------------------------------------------------------------------------------- */
 
-/* The valve and the mesh of its root are warped alike. Closed, the valve separates the mesh; at 0.3 it does not. */
+/* The valve and the mesh of its root are warped alike. In the closed state, the valve separates the mesh. At opening 0.3 it does
+ * not. */
 TEST(warped_valves_seal) {
   for (int trial = 0; trial < 2; ++trial) {
     const int owned_before = n_owned();
@@ -565,7 +566,7 @@ TEST(warped_valves_seal) {
 
 /* --- An annulus that moves -------------------------------------------------------------------------------------------- */
 
-/* A step of a moving annulus. The maps of both times are taken by warps of their own. */
+/* A step of a moving annulus. Separate warps give the maps of both times. */
 typedef struct {
   riis_valve *now, *before;           /* warped */
   riis_valve *rest_now, *rest_before; /* the same without warps */
@@ -609,8 +610,8 @@ static warped_step new_step(const char *kind, double opening, double opening_bef
 }
 
 /* Returns the largest difference between the velocities of a surface and of its material, and writes the largest speed. The
- * material point x of a vertex y is the point that the map takes there. Before, the valve without its warp had the same label at
- * x, and the earlier map took x to another place. */
+ * material point x of a vertex y is the point that the map takes to y. In the earlier state, the valve without its warp had the
+ * same label at x, and the earlier map took x to another place. */
 static double material_error(const riis_surface *surface, const warped_step *step, const riis_surface_options *options,
                              double *largest, double *rms) {
   const riis_triangles t = triangles_of(surface);
@@ -666,8 +667,8 @@ static double material_error(const riis_surface *surface, const warped_step *ste
 }
 
 /* A velocity is the displacement of the material over the step, also along the leaflet. The bound of velocities holds. The limits
- * of errors, as shares of the largest speed, have held for 300 seeds. Without RestInside and rest_of_offsets taking displacements
- * where the labels are, the first two steps exceed them. */
+ * of the errors, as shares of the largest speed, have held for 300 seeds. Without RestInside and rest_of_offsets taking
+ * displacements where the labels are, the first two steps exceed them. */
 TEST(a_moving_annulus_has_its_velocities) {
   static const struct {
     const char *name;
@@ -754,13 +755,13 @@ TEST(fixed_vertices_move_with_their_velocities) {
     }
     printf("%s: triangles move across by %.2g %% of the largest speed otherwise\n", kinds[trial],
            100 * worst / largest);
-    /* The map bends mitral arcs otherwise than the warped valve does. */
+    /* The map bends mitral arcs differently from the warped valve. */
     CHECK_AT_MOST(worst, (trial == 2 ? 0.06 : 0.02) * largest);
     free_owned_after(owned_before);
   }
 }
 
-/* The same targets give the same bits, whatever came before. */
+/* The same targets give the same bits, regardless of earlier targets. */
 TEST(a_restart_repeats_velocities) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
@@ -782,8 +783,8 @@ TEST(a_restart_repeats_velocities) {
   }
 }
 
-/* A surface remembers the patches of its last state, which is often the earlier state of the next step. If that valve has been
- * changed since, they are made again. */
+/* A surface remembers the patches of its last state, which is often the earlier state of the next step. If the valve has
+ * changed since then, the patches are made again. */
 TEST(a_changed_earlier_state_is_made_again) {
   for (int trial = 0; trial < 6; ++trial) {
     const int owned_before = n_owned();
@@ -875,7 +876,7 @@ TEST(folds_are_found_and_named) {
   memcpy(to, from + 3, 3 * sizeof *to);
   memcpy(to + 3, from, 3 * sizeof *to);
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the warp folds near landmark|determinant is -|at (", set_targets(warp, n, to));
-  /* Mirrored landmarks, as if the cusps were named the wrong way round. */
+  /* Mirrored landmarks, as if the cusps had the wrong names. */
   for (int64_t i = 0; i < 3 * n; ++i) to[i] = i % 3 == 1 ? -from[i] : from[i];
   CHECK_REFUSED(RIIS_INVALID_PARAMETER, "the warp folds near landmark|determinant is -1|at (",
                 set_targets(warp, n, to));
@@ -883,11 +884,12 @@ TEST(folds_are_found_and_named) {
   assert_memory_equal(mapped[0], mapped[1], sizeof mapped[0]); /* a refusal changes nothing */
 }
 
-/* A warp that turns a part of a patch over, or folds at a patch but not at landmarks, is refused with the patch. */
+/* If a warp turns over a part of a patch, or folds at a patch but not at landmarks, it is refused with the patch's name. */
 TEST(folds_at_patches_are_named) {
   riis_valve *valve = new_valve("trileaflet");
   riis_surface *surface = new_surface(valve, NULL);
-  /* Landmarks lie at the corners of two cubes around the valve. The inner ones move inwards until their middle folds. */
+  /* Landmarks lie at the corners of two cubes around the valve. The inner landmarks move inwards until the space between them
+   * folds. */
   int n_refused = 0;
   for (int trial = 0; trial < 100 && n_refused == 0; ++trial) {
     const int owned_before = n_owned();
@@ -950,9 +952,9 @@ static double normal(double deviation) {
   return deviation * sqrt(-2 * log(between(1e-300, 1))) * cos(between(0, 2 * acos(-1)));
 }
 
-/* Landmarks of random patients with a clinician's noise, by which the warp is smoothed, turn no part of a leaflet over at any
- * opening. Nor do exact landmarks. Five times that noise, without smoothing, folds nearly every valve. RIIS_TEST_LONG=1 takes 100
- * patients of each sort. */
+/* Landmarks of random patients with a clinician's noise, which smooths the warp, turn over no part of a leaflet at any opening.
+ * Nor do exact landmarks. Five times that noise, without smoothing, folds nearly every valve. RIIS_TEST_LONG=1 takes 100 patients
+ * of each sort. */
 TEST(warps_of_patients_do_not_fold) {
   const int n_patients = is_long_test() ? 100 : 25, n_openings = 50;
   const struct { double noise, smoothing; } sorts[3] = {{0.03, 0.03}, {0, 0}, {0.15, 0}};
@@ -1029,8 +1031,8 @@ static double least_cosine(const riis_surface *surface) {
   return least;
 }
 
-/* Patches of the half open coapting valve have cells of their grid that are hardly wider than a line. Rough landmarks, off by up
- * to half a millimetre, turn such cells over, but no triangle. */
+/* In patches of the half open coapting valve, some cells of the grid are hardly wider than a line. Rough landmarks, off by up to
+ * half a millimetre, turn over such cells, but no triangle. */
 TEST(slivers_of_rough_warps_are_no_folds) {
   static const struct {
     int roughness;
@@ -1120,7 +1122,7 @@ TEST(bad_arguments_are_named) {
   CHECK_REFUSED(RIIS_INVALID_ARGUMENT, "patches is NULL", riis_valve_get_patches(valve, NULL, 96));
   riis_valve_patches patches;
   CHECK_REFUSED(RIIS_INVALID_STRUCT_SIZE, "patches is 8", riis_valve_get_patches(valve, &patches, 8));
-  /* A state before with a warp, and one without. */
+  /* An earlier state with a warp, and one without. */
   riis_valve *warped = new_valve("trileaflet");
   CHECK_OK(riis_valve_set_warp(warped, warp, NULL));
   riis_surface *surface = new_surface(valve, NULL);

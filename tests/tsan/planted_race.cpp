@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // planted_race loop|openmp|walk race|order: runs the library's parallel loop on its own threads or on OpenMP's, or its walk. With
 // `race`, the thread sanitizer has to report a race between the bodies. With `order`, the loop or walk orders the accesses, and
-// the sanitizer has to be silent. Exit status 3 means that no two threads took part, so nothing was shown.
+// the sanitizer has to be silent. Exit status 3 means that only one thread took part, so nothing was shown.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -13,14 +13,14 @@
 
 namespace {
 
-// The report has to name this variable. It has a cache line of its own, away from the often-used flags, because the sanitizer
+// The report has to name this variable. It has its own cache line, away from the often-used flags, because the sanitizer
 // remembers few accesses to each eight bytes.
 alignas(64) int planted = 0;
 alignas(64) std::atomic<int> n_come{0};
 std::atomic<bool> is_written{false}, is_written_again{false};
 
 // Waits by relaxed loads, which order nothing. It makes few loads, because a long wait would push the other access out of the
-// thread's history. It gives up after a while if the other thread never comes.
+// thread's history. If the other thread never comes, it gives up after a while.
 template <class Happened>
 bool wait_until(const Happened &happened) {
   const auto start = std::chrono::steady_clock::now();
@@ -31,9 +31,9 @@ bool wait_until(const Happened &happened) {
   return true;
 }
 
-// Is called four times, twice on each of two threads. Both threads reach their first call, and one of them writes in it. The
-// other thread writes in its second call, long after the first thread's call has returned. So the writes never overlap. Only an
-// order between bodies, which the library does not promise, could hide the race.
+// This function is called four times, twice on each of two threads. Both threads reach their first call, and one of them writes
+// in this call. The other thread writes in its second call, long after the first thread's call has returned. So the writes
+// never overlap. Only an order between bodies, which the library does not promise, could hide the race.
 void write_late() {
   thread_local int n_calls = 0, place = 0;
   ++n_calls;

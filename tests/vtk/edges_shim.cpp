@@ -30,7 +30,7 @@ using Edges = std::set<std::pair<int, int>>;
 
 struct Kind {
   int type, n_nodes, n_corners,
-      order;  // 0 if nodes lie only in the middles of sides and perhaps of faces, without a complete lattice
+      order;  // 0 if there are nodes only in the middles of sides, and perhaps of faces, without a complete lattice
 };
 constexpr Kind kinds[] = {{VTK_QUADRATIC_TETRA, 10, 4, 0},         {VTK_QUADRATIC_HEXAHEDRON, 20, 8, 0},
                           {VTK_QUADRATIC_WEDGE, 15, 6, 0},         {VTK_QUADRATIC_PYRAMID, 13, 5, 0},
@@ -69,8 +69,8 @@ int node_at(const std::vector<Place> &places, const Place &wanted) {
   return -1;
 }
 
-// Joins the corner and the middle along each side. Around each corner of a face, also joins the middles of the two sides that
-// meet there. If the face has a node in its middle, each side's middle is joined to that node instead.
+// Joins the corner and the middle along each side. Around each corner of a face, it also joins the middles of the two sides
+// that meet there. If the face has a node in its middle, each side's middle is joined to that node instead.
 Edges edges_by_middles(int n_corners, const std::vector<Place> &places) {
   const auto place = [&](int i) { return places[static_cast<std::size_t>(i)]; };
   const auto middle = [&](int a, int b) {

@@ -197,7 +197,7 @@ int shim_write_exodus([[maybe_unused]] const char *path, [[maybe_unused]] const 
   const Grid grid = read(mesh);
   vtkNew<vtkTypeInt32Array> blocks;
   blocks->SetName("ObjectId");
-  // A block of Exodus has one type of cells.
+  // A block of an Exodus file has one type of cells.
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
     blocks->InsertNextValue(10 * grid->GetCellType(i) + (i % 2 == 0 ? 0 : 1));
   grid->GetCellData()->AddArray(blocks);

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 /* How meshes are compared. SHIM_BITS compares the bits of coordinates, and the order of the corners of each cell.
- * SHIM_SETS ignores the order of corners. SHIM_FLOATS does as SHIM_BITS, after rounding to single precision. */
+ * SHIM_SETS ignores the order of corners. SHIM_FLOATS compares as SHIM_BITS does, after rounding to single precision. */
 enum { SHIM_BITS, SHIM_SETS, SHIM_FLOATS };
 /* Compares two meshes whose nodes and cells may have different orders. counts gets the numbers of points and cells of `a`, and
  * then the numbers of points and cells in only one of the meshes. Returns 0 if a file cannot be read. */
@@ -22,8 +22,9 @@ int shim_compare_meshes(const char *a, const char *b, int how, int64_t counts[4]
  * cannot be read. */
 double shim_bend(const char *path, int64_t n_of_type[100]);
 
-/* Writes the mesh in two blocks, with the even and the odd cells, each with its own points: as Exodus by VTK, or as a .vtm.
- * If with_ids is set, the points of the blocks of a .vtm have global ids. Returns 1 on success, or 0 if VTK lacks Exodus. */
+/* Writes the mesh in two blocks, one with the even and one with the odd cells, each with its own points. The file is Exodus by
+ * VTK, or a .vtm. If with_ids is set, the points of the blocks of a .vtm have global ids. Returns 1 on success, or 0 if VTK lacks
+ * Exodus. */
 int shim_write_exodus(const char *path, const char *mesh);
 int shim_write_vtm(const char *path, const char *mesh, int with_ids);
 

@@ -14,7 +14,7 @@ void sheet_vertex(int64_t vertex, double time, double xyz[3], double velocity[3]
 /* Gives the corners of a triangle, and its leaflet in the files, 3 or 7. */
 void sheet_triangle(int64_t triangle, int64_t corners[3], int32_t *leaflet);
 
-/* Writes the sheet at a time into the scratch folder. Text goes between the elements of a .vtp or .vtu file.
+/* Writes the sheet at a time into the scratch folder. Text is inserted between the elements of a .vtp or .vtu file.
  *   name  ends in .vtp, .vtu or .stl (binary), or .STL (ASCII) */
 typedef struct sheet_extras {
   const char *point_data, *field_data; /* XML text to insert, or NULL */

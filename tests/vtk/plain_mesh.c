@@ -52,7 +52,8 @@ static int64_t middle_of(plain_mesh *mesh, int64_t (*middles)[2], int64_t first,
 }
 
 plain_mesh plain_quadratic_tetrahedra(const plain_mesh *hexahedra) {
-  /* The tetrahedra of a cube lie around the diagonal from corner 0 to corner 6. `ring` has their other corners, in order. */
+  /* The tetrahedra of a cube lie around the diagonal from corner 0 to corner 6. `ring` has the other corners of the tetrahedra,
+   * in order. */
   static const int ring[7] = {1, 2, 3, 7, 4, 5, 1};
   static const int sides[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   const int64_t n_cells = 6 * hexahedra->n_cells, most = hexahedra->n_nodes + 6 * n_cells;
@@ -90,7 +91,7 @@ static void write_numbers(FILE *file, const char *name, int64_t n, const int64_t
 static int is_polyhedron(int64_t cell, enum plain_layout layout) { return layout != PLAIN_CELLS && cell % 3 != 2; }
 
 /* Writes each cell's stream: the number of faces, then the size and the corners of each face. An offset is the end of a
- * stream, or -1 for a cell without one. */
+ * stream, or -1 for a cell without a stream. */
 static void write_streams(FILE *file, const plain_mesh *mesh, int64_t first, int64_t n, int64_t *numbers,
                           int64_t *ends) {
   int64_t at = 0;

@@ -25,7 +25,7 @@ plain_mesh plain_cut(const plain_mesh *quadratic, int n_parts);
 void plain_free(plain_mesh *mesh);
 
 /* The layout of hexahedra in the file. Either all are unchanged, or two of three are polyhedra. The faces of polyhedra are in
- * a stream for each cell, or in one list for all cells. VTK writes such a list since 9.4. */
+ * a stream for each cell, or in one list for all cells. VTK writes such a list since version 9.4. */
 enum plain_layout { PLAIN_CELLS, PLAIN_STREAMS, PLAIN_LISTS };
 /* Writes NAME into the scratch folder. Each piece has all nodes, and a part of the cells. */
 void plain_write(const char *name, const plain_mesh *mesh, enum plain_layout layout, int n_pieces);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Provides the test's own folder below the working directory, files in it, and a watch on the process's output.
- * Functions end the program with a message if the test cannot go on. */
+ * Provides a test's own folder below the working directory, files in it, and a watch on the process's output.
+ * If the test cannot go on, the functions end the program with a message. */
 #ifndef RIIS_TESTS_SCRATCH_H
 #define RIIS_TESTS_SCRATCH_H
 

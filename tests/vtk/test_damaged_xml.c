@@ -160,7 +160,7 @@ static void expect_number_refused(int encoding, int compressor, int bits, const 
   expect_refused(status, RIIS_FILE_ERROR, "damaged.vtu: ");
 }
 
-/* Changes the numbers that precede the data. Points have 125 * 24 bytes: two blocks of 1024 bytes and one of 952. */
+/* Changes the numbers that precede the data. Points have 125 * 24 bytes: two blocks of 1024 bytes, and one block of 952 bytes. */
 TEST(test_sizes_of_blocks) {
   static const char *const arrays[3] = {"Points", "velocity", "time"};
   static const char *const texts[4] = {"claims 268435457 compressed blocks, and the file holds ",
@@ -210,7 +210,7 @@ TEST(test_last_offsets) {
                         : "array connectivity must have 1000000000000 values and has at most ");
 }
 
-/* Damages a file like a bad disk or a bad transfer: some bytes get other values, mostly characters of base64 and digits. */
+/* Damages a file as a bad disk or a bad transfer does: some bytes get other values, mostly characters of base64 and digits. */
 static void damage(random_source *random, char *bytes, size_t size) {
   const int n = 1 + (int)(random_bits(random) % 3);
   for (int i = 0; i < n; ++i) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests the demo's meshes, which gmsh makes and which valves fill. A valve's attachment lies on the wall, so a closed valve
- * separates inflow from outflow. The flow is a flood fill over unmarked nodes. In wider cylinders the flow passes around the
- * valve's outside. */
+ * Tests the demo's meshes, which gmsh makes and which valves fill. The valve's attachment lies on the wall, so a closed
+ * valve separates inflow from outflow. A flood fill over unmarked nodes stands for the flow. In wider cylinders the
+ * flow passes around the valve's outside. */
 #include <riis/riis_vtk.h>
 
 #include "../support/test_support.h"
@@ -234,7 +234,8 @@ static flow flow_through(const filled_mesh *in, test_valve valve, const char *na
 }
 
 /* Expects that the valve fills the mesh, and that edges are short enough for the half thickness to close the gap at the wall.
- * An edge in the gap is at most `to_wall` from the attachment. So one of its nodes is at most to_wall plus half an edge away. */
+ * An edge in the gap is at most `to_wall` from the attachment. So one of its nodes is at most `to_wall` plus half an edge
+ * away. */
 static void expect_filled(flow found) {
   CHECK_AT_MOST(found.to_wall, 0.5 * half_thickness);
   CHECK_AT_MOST(found.to_wall + 0.5 * found.longest_edge, half_thickness);

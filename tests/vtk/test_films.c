@@ -113,7 +113,7 @@ TEST(test_frames) {
   assert_false(same_pixels("closed.png", "open.png", 0, 400));
   /* Axes, colour key and scale bar stay. */
   assert_true(same_pixels("closed.png", "open.png", 0, 30));
-  /* A second film of the same state draws the same picture, and nothing of the first film's frames. */
+  /* A second film of the same state draws the same picture, without anything of the first film's frames. */
   film = make_film(mesh);
   open_valve(1);
   draw_frame(film, "Frame", "other.png");

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Meshes of other programs: gmsh, VTK's writers of Exodus and .vtm, and XDMF. Each is compared with the same mesh that gmsh or
- * VTK wrote as a .vtk or .vtu, in exact bits and in any order of nodes and cells. test_openfoam_files has OpenFOAM's. */
+ * Meshes of other programs: gmsh, VTK's writers of Exodus and .vtm, and XDMF. Each mesh is compared with the same mesh that gmsh
+ * or VTK wrote as .vtk or .vtu, in exact bits and in any order of nodes and cells. test_openfoam_files has the meshes of
+ * OpenFOAM. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -69,7 +70,7 @@ TEST(test_gmsh) {
   scratch_write_text("mix.geo", geometry);
   const char *orders[] = {"-order 1", "-order 2", "-order 2 -setnumber Mesh.SecondOrderIncomplete 1"};
   const char *formats[] = {"msh22", "msh22 -bin", "msh41", "msh41 -bin"};
-  /* The cells of volume of each order: tetrahedra, hexahedra, prisms, pyramids. */
+  /* The volume cells of each order: tetrahedra, hexahedra, prisms, pyramids. */
   const int types[3][4] = {{10, 12, 13, 14}, {24, 29, 32, 27}, {24, 25, 26, 27}};
   for (int order = 0; order < 3; ++order) {
     char options[256];
@@ -86,11 +87,11 @@ TEST(test_gmsh) {
         if (n_of_type[types[order][i]] < 2)
           fail_msg("%s, %s: %lld cells of type %d", orders[order], formats[format],
                    (long long)n_of_type[types[order][i]], types[order][i]);
-      /* gmsh writes text with 16 digits, and so a text file is compared with a text file. */
+      /* gmsh writes text with 16 digits, so a text file is compared with a text file. */
       snprintf(options, sizeof options, "-save %s -format vtk%s", scratch_path("mix.msh"), format % 2 ? " -bin" : "");
       run_gmsh(options, "mix.vtk");
-      /* gmsh 4.8 writes linear pyramids in place of quadratic ones, and prisms of second order with a base that is seen from
-       * inside. */
+      /* gmsh 4.8 writes linear pyramids instead of quadratic pyramids, and prisms of second order with a base that is seen
+       * from inside. */
       if (order == 0) expect_same("mix.vtu", "mix.vtk", SHIM_BITS, 30);
       if (order == 2) expect_same_but("mix.vtu", "mix.vtk", SHIM_SETS, 30, 2 * n_of_type[27]);
       char type[32];
@@ -226,8 +227,8 @@ TEST(test_xdmf_for_others) {
   free(text);
 }
 
-/* meshio and dolfinx write a mesh once, and a series in time includes it. meshio writes it behind the series. FEniCS's
- * checkpoints name datasets without "/". */
+/* meshio and dolfinx write a mesh once, and a series in time refers to it. meshio writes the mesh after the series.
+ * FEniCS's checkpoints name datasets without "/". */
 TEST(test_xdmf_of_series) {
   scratch_write_text("tet.xdmf", xdmf);
   rewrite("tet.xdmf", "tet.vtu", "");
@@ -312,15 +313,15 @@ TEST(test_meshio) { skip(); }
 
 /* ---- Files that cannot be read ---- */
 
-/* Version 2 has the cells of two physical groups twice, with numbers of their own. */
+/* Version 2 has the cells of two physical groups twice, with separate numbers. */
 TEST(test_gmsh_groups) {
   char text[2048] =
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n"
       "$EndNodes\n$Elements\n6\n";
   const char *once = "1 4 2 1 1 1 2 3 4\n2 4 2 1 1 2 3 4 5\n";
   char *const end = text + strlen(text);
-  /* The third group has the first cell turned over, as gmsh writes a group of a negative number. The last cell is twice in one
-   * group, which stays. */
+  /* The third group has the first cell turned over, as gmsh writes a group with a negative number. The last cell occurs
+   * twice in one group, where both stay. */
   sprintf(end, "%s3 4 2 2 1 1 2 3 4\n4 4 2 2 1 2 3 4 5\n5 4 2 3 1 2 1 3 4\n6 4 2 1 1 2 3 4 5\n$EndElements\n", once);
   scratch_write_text("twice.msh", text);
   rewrite("twice.msh", "twice.vtu", "3 elements of further physical groups are the cells of the first ones");
@@ -445,7 +446,7 @@ TEST(test_broken) {
   }
 }
 
-/* Every beginning of a file is refused. A file with a wrong byte is refused or read. */
+/* Every truncated file is refused. A file with a wrong byte is refused or read. */
 TEST(test_cut_and_changed) {
   const char *wholes[] = {msh22, msh41, xdmf, vtm}, *names[] = {"a.msh", "a.msh", "a.xdmf", "a.vtm"};
   const char *seed_text = getenv("RIIS_TEST_SEED");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests files of meshes that cannot be read. Each gives an error whose message names the file. Nothing is printed or
- * returned. No truncated file is read as a smaller mesh. */
+ * Tests files of meshes that cannot be read. Each such file gives an error whose message names it. Nothing is
+ * printed or returned. No truncated file is read as a smaller mesh. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -189,8 +189,8 @@ TEST(test_not_a_number_passes) {
   riis_vtk_mesh_destroy(&mesh);
 }
 
-/* Returns whether a file may be read without its last n bytes. The bytes may be blanks. A legacy file has no end mark. So
- * digits of its last number may also be missing, or whole sections after the cells. */
+/* Returns whether a file may be read without its last n bytes. The bytes may be blanks. A legacy file has no end mark.
+ * Digits of its last number may therefore also be missing, or whole sections after the cells. */
 static int may_be_missing(const char *bytes, size_t n, int encoding) {
   size_t i = 0;
   if (encoding == SHIM_LEGACY_ASCII) i += strspn(bytes, "0123456789.e+-");
@@ -231,7 +231,8 @@ static void cut_everywhere(const char *whole, const char *cut, int encoding) {
   assert_true(n_refused > (int)(size / 2));
 }
 
-/* Writes the whole numbers in a text, either as text or as four bytes each, high byte first. Returns the number of bytes. */
+/* Writes the whole numbers of a text to a file: either as text, or as four bytes each with the high byte first. Returns the
+ * number of bytes. */
 static size_t put_numbers(unsigned char *to, const char *numbers, int is_binary) {
   if (!is_binary) return (size_t)sprintf((char *)to, "%s\n", numbers);
   size_t n = 0;

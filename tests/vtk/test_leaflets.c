@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * Tests leaflets of surface files from connected pieces and from arrays, marks with other names, and the length of a mesh's
- * edges. Slow, simple computations check the pieces and the edges. */
+ * edges. Slow and simple computations check the pieces and the edges. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdio.h>
@@ -22,8 +22,8 @@ static int random_below(int n) {
 
 enum { most_faces = 60 };
 
-/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are the same position. The expected
- * pieces are found by spreading the lowest face's number to touching faces until nothing changes. */
+/* Random triangles on few points, so that some triangles touch. Each z is 0 or -0, which are the same position. To find the
+ * expected pieces, the lowest face's number spreads to touching faces until nothing changes. */
 static int write_random_faces(const char *name, int n_faces, int n_lattice, int pieces[most_faces]) {
   static char text[most_faces * 200 + 100];
   int corners[most_faces][3];

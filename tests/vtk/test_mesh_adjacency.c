@@ -131,7 +131,7 @@ static riis_surface *surface_in(const double lower[3], const double upper[3]) {
   return surface;
 }
 
-/* Expects every pair that VTK joins, if it is long enough and its bounding box meets the given box. */
+/* Expects each pair that VTK joins, if the pair is long enough and its bounding box meets the given box. */
 static void expect_long_edges(const char *name, int64_t n_nodes, const double lower[3], const double upper[3],
                               double longer_than, int64_t n_left_out) {
   uint8_t *are_joined = malloc((size_t)(n_nodes * n_nodes));
@@ -317,8 +317,8 @@ TEST(test_triquadratic_pyramid) {
   for (int k = 0; k < 19; ++k) sprintf(text + strlen(text), " %d", k);
   strcat(text, "\nCELL_TYPES 1\n37\n");
   scratch_write_text("pyramid.vtk", text);
-  /* The numbers of neighbours are tested at two corners, one of the base and the apex, and at five middles: of a side of the
-   * base, of a side to the apex, of the base, of a triangle, and of the cell. */
+  /* The numbers of neighbours are tested at two corners and five middles. The corners are a corner of the base and the apex.
+   * The middles are those of a side of the base, of a side to the apex, of the base, of a triangle, and of the cell. */
   static const int nodes[7] = {1, 4, 5, 10, 13, 14, 18}, n_neighbors[7] = {5, 8, 4, 4, 5, 7, 5};
   riis_vtk_mesh *mesh = read_mesh("pyramid.vtk");
   riis_adjacency *adjacency = NULL;
@@ -351,7 +351,7 @@ TEST(test_polyhedra) {
     expect_same_rows("lists.vtu", &csr);
     riis_adjacency_destroy(&adjacency);
     riis_vtk_mesh_destroy(&mesh);
-    /* When riis writes the mesh again, the file still has the faces. */
+    /* If riis writes the mesh again, the file still has the faces. */
     mesh = read_mesh("lists.vtu");
     expect_fine(riis_vtk_mesh_write(mesh, scratch_path("again.vtu")));
     expect_fine(riis_vtk_mesh_create_adjacency(mesh, 1, &adjacency));

@@ -101,7 +101,7 @@ TEST(test_nodes_are_shuffled) {
   assert_true(n_descents > n_nodes / 4);
 }
 
-/* The file has every keyword of the legacy format that an unstructured grid may have, as older versions spell them. */
+/* The file has every keyword that an unstructured grid in the legacy format may have, as older versions spell them. */
 TEST(test_legacy_keywords) {
   scratch_write_text(
       "old.vtk",
@@ -157,7 +157,7 @@ TEST(test_legacy_metadata) {
 
 #define LEGACY(version) "# vtk DataFile Version " version "\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n"
 
-/* Lines end with a carriage return, a mesh has no cells, or METADATA stands where VTK never puts it. */
+/* Lines end with a carriage return, a mesh has no cells, or METADATA stands in a place where VTK never puts it. */
 TEST(test_legacy_layouts) {
   const char *texts[] = {
       LEGACY("2.0") "0 0 0 1 0 0 0 1 0 0 0 1\r\nMETADATA\r\nINFORMATION 0\r\n\r\nCELLS 1 5\r\n4 0 1 2 3\r\n"

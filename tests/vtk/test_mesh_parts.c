@@ -96,7 +96,7 @@ TEST(test_box) {
   assert_int_equal(shim_read_array(part, 'f', "time", NULL, NULL, NULL, NULL), 1);
 }
 
-/* The mesh has cells of many kinds, including polyhedra. VTK finds the same faces in the part as riis does. */
+/* The mesh has cells of many kinds, including polyhedra. In the part, VTK finds the same faces as riis. */
 TEST(test_kinds) {
   int64_t ids[n_shim_zoo], n_points = 0, n_cells = 0, n_all = 0, n_faces[2] = {0, 0}, n_inwards = 0;
   for (int i = 0; i < n_shim_zoo; ++i) ids[i] = i;
@@ -107,7 +107,8 @@ TEST(test_kinds) {
   assert_int_equal(shim_compare_outside(scratch_path("zoo.vtu"), &n_faces[0], &n_inwards), 0);
   assert_int_equal(shim_compare_outside(part, &n_faces[1], &n_inwards), 0);
   assert_true(n_faces[0] > 10 && n_faces[0] == n_faces[1]);
-  /* The part has fewer nodes, so the faces' ids changed. The reader of riis checks the faces of every polyhedron. */
+  /* The part has fewer nodes, so the node ids in its faces have changed. The reader of riis checks the faces of every
+   * polyhedron. */
   riis_vtk_mesh *read = NULL;
   part = part_of("zoo.vtu", 2, ids);
   expect_fine(riis_vtk_mesh_read(part, &read));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The neighbour search gives the same result as the exhaustive search, to the last bit, on unstructured meshes from files.
+ * On unstructured meshes from files, the neighbour search gives the same result as the exhaustive search, to the last bit.
  * VTK's Delaunay filter and gmsh make the meshes. */
 #include <riis/riis_vtk.h>
 
@@ -29,8 +29,8 @@ static riis_surface *surface_of(const char *kind, double opening, double half_th
   return surface;
 }
 
-/* Marks by both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes that
- * the first marking marks. */
+/* Marks with both searches, with new and used results, several limits and numbers of threads. Returns the number of nodes
+ * that the first marking marks. */
 static int64_t expect_same(const riis_surface *surface, const riis_mesh *mesh, riis_marks *warm) {
   const int owned_before = n_owned();
   riis_marks *expected = new_result(), *cold = new_result();
@@ -66,7 +66,7 @@ static void destroy_file(void *object) {
   riis_vtk_mesh_destroy(&file);
 }
 
-/* Tests a kind of valve in the mesh of the file at every opening, with a thin and with the default half thickness. */
+/* In the mesh of the file, tests a kind of valve at every opening, with a thin and with the default half thickness. */
 static void expect_same_in_file(const char *path, const char *kind, int64_t least_nodes) {
   riis_vtk_mesh *file = NULL;
   riis_adjacency *adjacency = NULL;

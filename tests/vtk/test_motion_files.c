@@ -253,8 +253,8 @@ TEST(test_displacements) {
   expect_motion(motion, -1);
 }
 
-/* A quad lies beside a triangle. During the motion, the quad's shorter diagonal changes, but the quad is cut as in the first
- * file. */
+/* A quad lies beside a triangle. During the motion the quad's shorter diagonal changes, but the quad stays cut as in the
+ * first file. */
 TEST(test_quads_are_cut_once) {
   const char *const fourth[2] = {"1 1 0", "0.2 0.2 0"}, *const names[2] = {"convex.vtp", "concave.vtp"};
   const char *paths[2];

@@ -348,7 +348,7 @@ TEST(test_other_cells) {
 #endif
 
 int main(void) {
-  /* Debian's package needs this folder, and its programs do not know it. */
+  /* Debian's package needs this folder, but its programs do not know it. */
   setenv("WM_PROJECT_DIR", "/usr/share/openfoam", 0);
 #ifndef RIIS_BLOCKMESH
   printf("without OpenFOAM: only text that the test wrote\n");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The outside of a mesh, as pictures draw it, has the same faces that VTK's own filter finds. All faces point outwards. */
+ * The outside of a mesh in pictures has the same faces that VTK's own filter finds. All faces point outwards. */
 #include <stdint.h>
 
 #include "expect.h"

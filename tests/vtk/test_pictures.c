@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Pictures under a virtual display have the requested size, are not blank, have one panel or two, and differ for each view. */
+ * Under a virtual display, pictures have the requested size, are not blank, have one panel or two, and differ for each view. */
 #include <riis/riis_vtk.h>
 #include <signal.h>
 #include <stdint.h>
@@ -181,7 +181,7 @@ static int is_pale(const unsigned char *rgb) {
   return most > 100 && most - least > 20 && !is_full(rgb);
 }
 
-/* Returns the number of pixels of one kind in a panel, 0 or 1. */
+/* Returns the number of pixels of one kind in a panel. The panels have the numbers 0 and 1. */
 static int count_pixels(const char *name, int panel, int (*is_kind)(const unsigned char *)) {
   pixels picture = read_pixels(name);
   int n = 0;
@@ -240,7 +240,7 @@ static int most_changes_in_a_row(const pixels *picture, int *row) {
   return most;
 }
 
-/* Returns how many columns, or rows, of a picture with one panel contain a pixel in a full colour, outside the bands of text. */
+/* Returns how many columns or rows of a picture with one panel contain a pixel in a full colour, outside the bands of text. */
 static int count_coloured(const char *name, int by_rows) {
   pixels picture = read_pixels(name);
   const int y_end = picture.height - upper_band, n_lines = by_rows ? y_end : picture.width;
@@ -266,7 +266,7 @@ static void draw_unit(const char *name, const char *unit, const riis_vtk_mesh *d
   expect_fine(riis_vtk_draw(surface, drawn, &options, scratch_path(name)));
 }
 
-/* If a file may have only n_bytes, as on a full disk, neither a picture nor a temporary file is left. */
+/* If a file may have only n_bytes, as on a full disk, neither a picture nor a temporary file remains. */
 TEST(test_full_disk) {
   struct rlimit limit, small;
   getrlimit(RLIMIT_FSIZE, &limit);
@@ -294,7 +294,7 @@ TEST(test_refusals) {
   assert_int_equal(scratch_n_files(), n_before);
 }
 
-/* If one scene draws several views, each equals the picture that a separate call draws. */
+/* If one scene draws several views, each view equals the picture of a separate call. */
 TEST(test_one_scene) {
   const int32_t views[4] = {RIIS_VTK_VIEW_TOP, RIIS_VTK_VIEW_THREE, RIIS_VTK_VIEW_VALVE_OBLIQUE, RIIS_VTK_VIEW_TOP};
   const char *paths[4] = {scratch_path("s0.png"), scratch_path("s1.png"), scratch_path("s2.png"),
@@ -429,7 +429,7 @@ TEST(test_edge_on) {
   riis_valve_destroy(&valve);
 }
 
-/* A unit follows the number at the scale bar unchanged. The unit replaces the words that stand there otherwise. */
+/* A unit follows the number at the scale bar without changes. The unit replaces the default words. */
 TEST(test_unit) {
   for (int with_mesh = 0; with_mesh < 2; ++with_mesh) {
     const riis_vtk_mesh *const drawn = with_mesh ? mesh : NULL;
@@ -448,7 +448,7 @@ TEST(test_unit) {
 
 enum { wide = 900, high = 300, n_pictures = 4 };
 
-/* A valve in a mesh, both turned and moved together. */
+/* A valve in a mesh, turned and moved together. */
 typedef struct {
   riis_surface *surface;
   riis_vtk_mesh *mesh;
@@ -569,8 +569,9 @@ TEST(test_valve_axes) {
   free(xyz);
 }
 
-/* A picture of three views has a column for each, and the columns have one scale: the surface is as wide from the side as from
- * above. Each column has panels for the surface and the marks. Widths that three does not divide are filled with white. */
+/* A picture of three views has one column for each. All columns have the same scale: the surface is as wide from the side as from
+ * above. Each column has panels for the surface and the marks. If the width is not a multiple of three, the rest is filled with
+ * white. */
 TEST(test_three_views) {
   static const int widths[3] = {1200, 1201, 1202};
   for (int i = 0; i < 3; ++i) {

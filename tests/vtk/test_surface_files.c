@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests surfaces that are read from files and written. Written files contain the surface that queries return. Surfaces
- * that are read keep winding, order and leaflets. */
+ * Tests surfaces that are read from files and written. Written files contain the surface that queries use. Surfaces
+ * that are read keep their winding, order and leaflets. */
 #include <locale.h>
 #include <math.h>
 #include <riis/riis_vtk.h>
@@ -195,7 +195,7 @@ static void expect_faces(const char *name, int64_t n_triangles, double area, con
 }
 
 TEST(test_mixed_polygons) {
-  /* A triangle, a quad, a pentagon, and a strip of two triangles give 1 + 2 + 3 + 2 triangles. */
+  /* A triangle, a quad, a pentagon and a strip of two triangles give 1 + 2 + 3 + 2 triangles. */
   write_polydata("mixed.vtp", "NumberOfPolys=\"3\" NumberOfStrips=\"1\"", CELLS("0 1 3 1 4 5 2 0 1 2 6 3", "3 7 12"),
                  CELLS("0 1 3 2", "4"), LEAFLETS("Float64", "4 1 0 2"));
   const int32_t leaflets[8] = {4, 1, 1, 0, 0, 0, 2, 2};
@@ -334,7 +334,7 @@ static void write_ascii_stl(const char *name, int n_written, int with_end) {
   scratch_write_text(name, text);
 }
 
-/* A triangle without area keeps its position, so the ids of later triangles stay. */
+/* A triangle without area keeps its position, so the ids of later triangles stay the same. */
 static void expect_stl(const char *name) {
   riis_surface_options options;
   riis_surface_arrays arrays;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Tests surfaces of other programs: .obj, .ply and legacy .vtk. One surface is written in each format by this test, and read
- * with the same vertices and faces to the last bit. Damaged files are refused by their names. */
+ * Tests surfaces of other programs: .obj, .ply and legacy .vtk. This test writes one surface in each format, and reads the
+ * same vertices and faces to the last bit. Damaged files are refused with their names. */
 #include <math.h>
 #include <riis/riis_vtk.h>
 #include <stdarg.h>
@@ -62,7 +62,7 @@ static void add_points(int is_binary, int is_big) {
   }
 }
 
-/* Vertices have several texture coordinates and normals, as a textured model has. Corners count from the start or the end. */
+/* As in a textured model, vertices have several texture coordinates and normals. Corners count from the start or the end. */
 static void write_obj(void) {
   add_text("# a model in C:\\models\\\nmtllib model.mtl\no valve\nvt 0 0\nvt 0.5 1\nvn 0 0 1\n");
   for (int i = 0; i < n_vertices; ++i)
@@ -219,7 +219,7 @@ static void insert_text(size_t at, const char *text) {
 
 static size_t random_below(random_source *random, size_t n) { return (size_t)(random_bits(random) % n); }
 
-/* Chooses a number of the text behind `from`. Returns where it begins, and its length. */
+/* Chooses a number in the text after `from`. Returns where it begins, and its length. */
 static size_t random_number(random_source *random, size_t from, size_t *length) {
   for (;;) {
     size_t at = from + random_below(random, n_bytes - from);
@@ -230,7 +230,7 @@ static size_t random_number(random_source *random, size_t from, size_t *length) 
   }
 }
 
-/* A file for damage: it has only what is read. Returns where its numbers begin. */
+/* A file to be damaged, which contains only the data that riis reads. Returns where its numbers begin. */
 static size_t write_for_damage(int kind) {
   write_kind(kind);
   if (kind == OBJ) {
@@ -246,8 +246,8 @@ static size_t write_for_damage(int kind) {
   return (size_t)(strchr(begin, '\n') + 1 - bytes);
 }
 
-/* Damages that no reader may overlook: a letter in a number, a number that is missing, a vertex that does not exist, a file cut
- * short, a line of other content. */
+/* Faults that no reader may overlook: a letter in a number, a missing number, a missing vertex, a truncated file, a line of
+ * other content. */
 TEST(test_damaged_texts) {
   random_source random = random_start("damaged texts");
   for (int kind = OBJ; kind <= VTK_NEW_TEXT; ++kind) {
@@ -266,7 +266,7 @@ TEST(test_damaged_texts) {
           bytes[n_bytes] = 0;
           insert_text(kind == PLY_TEXT ? (size_t)(strstr(bytes, " 1 0.5\n1 2") - bytes) : n_bytes - 1, "99999");
           break;
-        case 3: /* a cut before the last number; a cut .obj has vertices only */
+        case 3: /* a cut before the last number; a cut .obj file has only vertices */
           if (kind == OBJ) {
             bytes[n_bytes] = 0;
             n_bytes = 1 + random_below(&random, (size_t)(strstr(bytes, "f ") - bytes));

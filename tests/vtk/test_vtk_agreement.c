@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Closest distances of random points are compared with VTK's searches on the same triangles. VTK's searches are another
- * implementation in double precision. RIIS_TEST_SEED repeats a run. */
+ * Closest distances of random points are compared with the results of VTK's searches on the same triangles. VTK's
+ * searches are another implementation in double precision. RIIS_TEST_SEED repeats a run. */
 #include <math.h>
 #include <riis/riis.h>
 #include <stdint.h>

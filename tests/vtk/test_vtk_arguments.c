@@ -72,7 +72,7 @@ TEST(test_null) {
   riis_vtk_surface_destroy(&file);
 }
 
-/* Refusals of a list of pieces, and the roles of the nodes of a mesh without neighbours. */
+/* Refusals of a list of pieces, and the roles of nodes in a mesh without neighbours. */
 TEST(test_pieces) {
   riis_vtk_pieces *pieces = NULL;
   riis_vtk_mesh *piece = NULL;
@@ -256,7 +256,7 @@ TEST(test_axes_of_valve) {
   expect_refused(riis_vtk_draw(surface, NULL, &options, scratch_path("a.png")), RIIS_INVALID_ARGUMENT, "width is 1");
 }
 
-/* A name with a line break still gives a message of one line. The message for a very long name keeps the reason. */
+/* If a name contains a line break, the message still has one line. The message for a very long name keeps the reason. */
 TEST(test_odd_names) {
   riis_vtk_mesh *other = NULL;
   expect_refused(riis_vtk_mesh_read(scratch_path("a\nb.vtu"), &other), RIIS_FILE_ERROR,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * Every allocation of riis_vtk's own code fails once. The call must then return RIIS_OUT_OF_MEMORY, leave no half-written file
+ * Every allocation by riis_vtk's own code fails once. The call must then return RIIS_OUT_OF_MEMORY, leave no half-written file
  * and leak no memory. The same call must succeed afterwards. Failures of VTK's own allocations are not tested. */
 #include <riis/riis_vtk.h>
 #include <stdint.h>
@@ -13,7 +13,7 @@
 #include "scratch.h"
 #include "vtk_shim.h"
 
-/* The objects of the scenarios, of which one exists at a time. The tested call makes it, or it is made before the call. */
+/* The objects of the scenarios. One of them exists at a time. The tested call makes the object, or it is made before the call. */
 static riis_vtk_mesh *mesh;
 static riis_vtk_surface *read_surface;
 static riis_adjacency *adjacency;

@@ -109,7 +109,7 @@ TEST(test_full_disk) {
   assert_int_equal(n_points, 12 * 12 * 12);
 }
 
-/* If the file's name is a link, the write replaces the link's target, not the link. A file may be written over its own source. */
+/* If the file's name is a link, the file behind it is replaced, and the link stays. A file may be written over its own source. */
 TEST(test_links_and_sources) {
   scratch_write_text("target.vtu", "old");
   assert_int_equal(symlink("target.vtu", scratch_path("link.vtu")), 0);

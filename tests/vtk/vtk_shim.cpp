@@ -63,7 +63,7 @@ std::vector<int> shuffled(int n) {
 }
 
 void add_tetrahedra(vtkUnstructuredGrid *grid, int n, const std::vector<vtkIdType> &node_at) {
-  // The six paths along the edges of a box from one corner to the opposite one.
+  // The six paths along the edges of a box from one corner to the opposite corner.
   const int paths[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   for (int k = 0; k + 1 < n; ++k) {
     for (int j = 0; j + 1 < n; ++j) {

@@ -36,8 +36,8 @@ int shim_write_legacy(const char *path, int binary, int version);
  * xyz is NULL. point_type gets VTK's name of the points' type. Returns 0 if VTK cannot read the file. */
 int shim_read_points(const char *path, int64_t *n_points, int64_t *n_cells, char point_type[32], double *xyz);
 
-/* Writes the pieces of a .vtu or .pvtu file to a .pvtu file with as many pieces, by VTK's parallel writer. Returns 1 on
- * success. */
+/* With VTK's parallel writer, writes the pieces of a .vtu or .pvtu file to a .pvtu file with the same number of pieces.
+ * Returns 1 on success. */
 int shim_write_pieces(const char *path, const char *pvtu, int n_pieces);
 /* Reads a .pvtu file by VTK's reader, as ParaView does. Adds up a point array over all points of all pieces. Returns the number
  * of points, or -1. */
@@ -61,8 +61,8 @@ int shim_shape_functions(int cell_type, const double point[3], double *values, d
 
 /* Writes a .vtu of random cells of all types of higher order, among n_nodes nodes, 64 or more. Returns 1 on success. */
 int shim_write_curved(const char *path, int n_nodes, uint32_t seed);
-/* Reads the edges of such cells from a .vtu, as pairs of nodes. The edges are found from the nodes' positions in unit cells.
- * Returns their number. edges may be NULL. */
+/* Reads the edges of such cells from a .vtu file, as pairs of nodes. The edges are found from the nodes' positions in unit
+ * cells. Returns their number. edges may be NULL. */
 int64_t shim_read_curved_edges(const char *path, int64_t *edges);
 
 /* Writes a .vtu of the tetrahedra that vtkDelaunay3D makes between the points xyz (3, n). All points are kept in their order, as
@@ -83,8 +83,8 @@ int shim_read_png(const char *path, int *width, int *height, int *n_colours, int
 unsigned char *shim_read_pixels(const char *path, int *width, int *height);
 
 /* Compares the outside of a grid's volume cells, as pictures draw it, with VTK's. Returns how many faces only one of them has,
- * or -1 if the grid cannot be read. *n_faces gets the number of faces in pictures, and *n_inwards how many of these point into
- * their cell. */
+ * or -1 if the grid cannot be read. *n_faces gets the number of faces in pictures, and *n_inwards gets the number of these
+ * that point into their cell. */
 int64_t shim_compare_outside(const char *path, int64_t *n_faces, int64_t *n_inwards);
 
 /* VTK's searches for the distance from a point to triangles. */
@@ -95,7 +95,7 @@ void shim_distances(int method, int64_t n_vertices, const double *vertices, int6
 /* Replaces VTK's output window by a counter. shim_n_messages returns the number of messages since then. */
 void shim_watch_window(void);
 int shim_n_messages(void);
-/* Sends an error to the current output window, as VTK code of the caller would. */
+/* Sends an error to the current output window, as VTK code of the caller would do. */
 void shim_say_error(void);
 
 #ifdef __cplusplus

@@ -20,7 +20,7 @@ def section(p):
 
 
 def power_of(curve):
-    """Returns the exponent with which the power profile has the curve's tangent at its end. It is the tangent's slope divided by
+    """Returns the exponent for which the power profile has the curve's tangent at its end. It is the tangent's slope divided by
     the chord's slope."""
     first, _, before, last = curve[0]
     return ((last[0] - before[0]) / (last[1] - before[1])) / ((last[0] - first[0]) / (last[1] - first[1]))
@@ -66,7 +66,7 @@ def half(panel, kind, curve, color, up):
     panel.length(f"{kind}_radius_in", axis_point, first, at, shift=shift, color=color, ha="right", share=0.2)
     panel.length(f"{kind}_radius_out", axis_point, last, (-0.24, 0.92 * up), color=color, ha="right", share=0.42)
     panel.angle(f"{kind}_angle", axis_point, (1, 0), last, 0.3, (-0.24, 0.56 * up), color=color, ha="right", sense=up, share=0.8)
-    # t0 and t3 only give the y of the inner control points, as a fraction of the way from the ends.
+    # t0 and t3 only give the y of the inner control points, as a fraction of the way between the ends.
     level = (first[0], after[1])
     panel.length(f"t0_{kind}", first, level, T0_PLACE[kind], shift=(0.1, 0), color=color)
     level = (last[0], before[1])
@@ -121,7 +121,7 @@ INNER_PLACES = {"xq": (0.64, 0.54), "zq": (0.64, 0.3), "inner": (0.64, 0.1), "mi
 
 def first_inner(panel, root, low, inner, places=INNER_PLACES, ha="right"):
     """Draws xq and zq, the position of the first inner control point relative to the middle between root and bending curve. `ha`
-    aligns three of the labels; the middle's label is always on the left."""
+    aligns three of the labels. The label at the middle is always on the left."""
     sheet, middle = panel.sheet, along(root, low, 0.5)
     width, height = root[0] - low[0], low[1] - root[1]
     for p, q in (((low[0], root[1]), low), (low, (root[0], low[1])), ((root[0], low[1]), root)):

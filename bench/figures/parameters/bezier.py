@@ -61,8 +61,8 @@ def at_share(pieces, share):
 
 
 def parameter(piece, where):
-    """Returns the parameter of the piece's point nearest to `where`. The search begins at the best of many samples and narrows
-    the interval around it."""
+    """Returns the parameter of the piece's point nearest to `where`. The search starts from the best of many samples, and
+    narrows the interval around it."""
     n = 64
     best = min(range(n + 1), key=lambda i: math.dist(point(piece, i / n), where))
     low, high = max(0, best - 1) / n, min(n, best + 1) / n

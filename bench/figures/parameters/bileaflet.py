@@ -85,7 +85,7 @@ class Drawing:
         self.draw_opening()
 
     def draw_opening(self):
-        """Draws the opening on the leaflet at x < 0. The opening is the fraction of the way from the closed to the open angle."""
+        """Draws the opening at the leaflet at x < 0. The opening is the fraction of the way from the closed to the open angle."""
         panel, sheet = self.panel, self.sheet
         lines = [symmetry_line(state, 1) for state in self.states]
         closed, half_open, opened = map(slope, lines)

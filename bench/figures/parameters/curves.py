@@ -21,7 +21,7 @@ def split(piece, t):
 
 
 def join(a, b):
-    """Returns the piece whose parts are a and b, by de Casteljau's algorithm in reverse, or None if there is none."""
+    """Returns the piece with the parts a and b, by de Casteljau's algorithm in reverse, or None if there is none."""
     before, after = math.dist(a[-2], a[-1]), math.dist(b[0], b[1])
     if len(a) != len(b) or not (before > 0 and after > 0):
         return None
@@ -33,7 +33,7 @@ def join(a, b):
 
 
 def joined(pieces):
-    """Rejoins the parts of curves that were cut. Pieces that were separate from the start stay separate."""
+    """Rejoins the parts of curves that were cut. Pieces that were separate from the beginning stay separate."""
     made = []
     for piece in pieces:
         whole = join(made[-1], piece) if made else None
@@ -63,7 +63,7 @@ def cusp_curves(images, cusp, frame="placed"):
 def mitral_curves(images):
     """Returns the annulus, once around from the posterior point, and the free edges from one commissure to the other. The
     patches of one half of the valve are listed from the anterior point of the annulus to the posterior point."""
-    annulus, anterior, posterior = ([], []), ([], []), ([], [])  # each has a curve and its mirror image
+    annulus, anterior, posterior = ([], []), ([], []), ([], [])  # each entry has a curve and its mirror image
     for i, image in enumerate(images):
         annulus[i % 2].extend(image["placed"]["v0"])
         if image["lengths"]["v1"] > 0:

@@ -202,8 +202,8 @@ def hang(panel, arc, name, at, color, inwards):
 
 
 def draw_arc(sheet, valve):
-    """Draws the free edge before its ends and tip are moved into place: the cubic in the frame where it approximates a
-    circle's arc."""
+    """Draws the free edge before its ends and tip are moved to their places. This is the cubic in the frame where it
+    approximates an arc of a circle."""
     panel = sheet.panel((12.45, 4.1), (2.45, 3.45), "e   A free edge", (-1.35, -1.6), 1.1)
     (edge,) = valve.anterior
     chord = [b - a for a, b in zip(edge[0], edge[3])]
@@ -211,7 +211,7 @@ def draw_arc(sheet, valve):
     # share: the distance of the inner control points from the chord's middle, divided by half the chord. It satisfies 1 - share =
     # 2/3 (1 - tan(angle / 4)^2).
     share = sum(a * b for a, b in zip(inner, chord)) / sum(a * a for a in chord)
-    height = math.sqrt(1 - 1.5 * (1 - share))  # the tip's height, divided by half the chord, if the arc is part of a circle
+    height = math.sqrt(1 - 1.5 * (1 - share))  # the tip's height divided by half the chord, if the arc is part of a circle
     angle = 4 * math.atan(height)
     sheet.check("leaflet_arc_angle", math.degrees(angle))
     cubic = [(-1, 0), (-share, -4 / 3 * height), (share, -4 / 3 * height), (1, 0)]

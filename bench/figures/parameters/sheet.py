@@ -28,7 +28,7 @@ class Refused(Exception):
 
 
 def plain(value):
-    """Returns the number as short as possible, with a typographic minus sign."""
+    """Returns the shortest text of the number, with a typographic minus sign."""
     return f"{value:.6g}".replace("-", "−")
 
 
@@ -41,7 +41,7 @@ def distance(p, q):
 
 
 class Sheet:
-    """A drawing of several panels for one kind of valve. If the three cusps differ, `cusp` is drawn."""
+    """A drawing of several panels for one kind of valve. If the three cusps differ, the drawing shows `cusp`."""
 
     def __init__(self, title, parameters, size, cusp=None):
         self.parameters = {each["name"]: each for each in parameters}
@@ -96,8 +96,8 @@ class Sheet:
     # ------------------------------------------------------------------------------------------------------------ texts
 
     def text(self, x, y, text, axis=None, **style):
-        """Adds a text, which is checked for overlaps with other texts. x and y are coordinates of the axis, or else fractions
-        of the figure."""
+        """Adds a text, which is checked for overlaps with other texts. x and y are coordinates of the axis, otherwise
+        fractions of the figure."""
         made = (axis.text if axis else self.figure.text)(x, y, text, **{"fontsize": NORMAL, "color": DARK, **style})
         self.texts.append(made)
         return made
@@ -117,7 +117,7 @@ class Sheet:
         return [name for name in self.parameters if name not in self.named]
 
     def overlaps(self):
-        """Returns pairs of texts that overlap, and texts that leave the sheet."""
+        """Returns pairs of texts that overlap, and texts that extend beyond the sheet."""
         renderer = self.figure.canvas.get_renderer()
         boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in self.texts]
         width, height = self.figure.canvas.get_width_height()
@@ -153,8 +153,8 @@ class Sheet:
 
 
 class Panel:
-    """One view, with plane coordinates in centimetres that begin at left_bottom. Both axes have the same number of centimetres
-    per inch of the sheet."""
+    """A view with plane coordinates in centimetres. Its lower left corner is left_bottom. Both axes have the same number of
+    centimetres per inch of the sheet."""
 
     def __init__(self, sheet, corner, size, title, left_bottom, centimetres):
         self.sheet = sheet
@@ -192,7 +192,7 @@ class Panel:
 
     def label(self, name, at, to=None, ha="left", color=DARK, shown=None, value=None):
         """Adds a name and its value at a position. If `to` is given, a leader goes from the texts to this point. `shown` is the
-        name if it is inside a formula."""
+        name as shown, if it is inside a formula."""
         self.sheet.mark_named(name)
         if at is None:  # the name is elsewhere in the panel
             return
@@ -208,7 +208,8 @@ class Panel:
             self.points(to, color=color, size=2.2, zorder=6)
 
     def edge_towards(self, to, *texts):
-        """Returns the point where a leader leaves texts: the point of their bounding box that is nearest to the leader's end."""
+        """Returns the point from which a leader leaves texts: the point of their bounding box that is nearest to the leader's
+        end."""
         renderer = self.sheet.figure.canvas.get_renderer()
         boxes = [text.get_window_extent(renderer) for text in texts]
         x, y = self.axis.transData.transform(to)
@@ -219,7 +220,7 @@ class Panel:
     def length(
         self, name, p, q, at, shift=(0, 0), ha="left", color=DARK, shown=None, value=None, factor=1.0, share=0.5, example=None
     ):
-        """Draws a length from p to q: a dimension line moved by `shift`, with extension lines, and its name. The drawn length
+        """Draws a length from p to q: a dimension line that is moved by `shift`, extension lines, and its name. The drawn length
         is `factor` times the parameter, or an example of it. The leader ends at the fraction `share` of the dimension line."""
         self.sheet.check(name, distance(p, q) / abs(factor), example)
         moved = [(a[0] + shift[0], a[1] + shift[1]) for a in (p, q)]

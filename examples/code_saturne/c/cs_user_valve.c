@@ -143,7 +143,7 @@ static void create_valve(void) {
   cs_parall_max(3, CS_DOUBLE, mesh_upper);
 }
 
-/* Advances the law by the solver's pressures and flow of the last time step, which are means over slabs of the tubes. */
+/* Advances the law by the pressures and the flow of the last time step, as means over slabs of the tubes. */
 static void advance_law(void) {
   const cs_mesh_quantities_t *q = cs_glob_mesh_quantities;
   const cs_real_3_t *u = (const cs_real_3_t *)CS_F_(vel)->val;
@@ -169,8 +169,8 @@ static void advance_law(void) {
   check(riis_opening_switch_advance(&law, &state, time, drop, flow, &state));
 }
 
-/* Refuses a valve that left the mesh. Its cells would not be marked, and the flow would pass as if there were no valve. The
- * attachment of an open valve is up to a half thickness outside the wall. */
+/* Refuses a valve that left the mesh. Outside the mesh no cell would be marked, and the flow would pass as if there were no
+ * valve. The attachment of an open valve is up to a half thickness outside the wall. */
 static void check_place(void) {
   riis_surface_info info;
   check(riis_surface_get_info(surface, &info, sizeof info));

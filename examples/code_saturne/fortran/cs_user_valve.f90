@@ -162,7 +162,7 @@ contains
     end do
   end subroutine create_valve
 
-  ! Advances the law by the solver's pressures and flow of the last time step, which are means over slabs of the tubes.
+  ! Advances the law by the pressures and the flow of the last time step, as means over slabs of the tubes.
   subroutine advance_law()
     use mesh
     use numvar

@@ -122,7 +122,7 @@ contains
     call demand(all(abs(order - 2) < 0.2_dp), 'both are of second order')
   end subroutine check_duct
 
-  ! (b) A plate closes a duct with a given flow. The whole drop must be there in the next step, for every size of the time step.
+  ! (b) A plate closes a duct with a given flow. The next step must have the whole drop, for every size of the time step.
   subroutine check_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp
     type(flow) :: fluid
@@ -149,14 +149,14 @@ contains
     call demand(worst < 0.05_dp, 'each is within 5 % of (R/eps) u')
   end subroutine check_drop
 
-  ! (b) A plate closes the same duct, but K is missing in the pressure equation. The drop of each face then lacks the share
-  ! (1 + rho/(K dt))^-steps.
+  ! (b) A plate closes the same duct, but the pressure equation has no K. The drop of each face then lacks the share (1 +
+  ! rho/(K dt))^-steps.
   subroutine check_slow_drop()
     real(dp), parameter :: h = 1e-3_dp, R = 1e4_dp, eps = 1.5_dp * h, u = 0.1_dp, dt = 1e-3_dp
     integer, parameter :: seen(5) = [1, 10, 100, 1000, 10000]
     real(dp), parameter :: stages(3) = [8 / 15._dp, 2 / 15._dp, 1 / 3._dp]
     type(flow) :: fluid
-    real(dp), allocatable :: K_dt(:), missing(:)  ! K dt/rho of faces, and this times the share of the drop that is missing
+    real(dp), allocatable :: K_dt(:), missing(:)  ! K dt/rho of faces, and its product with the missing share of the drop
     real(dp) :: drop, expected, worst
     integer :: i, stage
     print '(a)', 'The same with K in the momentum equation alone, and pressure increments: share of (R/eps) u, dt 1 ms'
@@ -267,9 +267,9 @@ contains
   end subroutine check_u_surface
 
   ! (g) An explicit K makes the flow grow without limit where K dt/rho is too large. The scheme is
-  ! sum over j of a(j) u(n+1-j) = -(K dt/rho) sum over j of b(j) u(n+1-j), with b(0) = 0. The check lets u decay from a history
-  ! that changes its sign in each step, and bisects the largest K dt/rho at which u decays. Algebra gives the value at which the
-  ! scheme has the root -1.
+  ! sum over j of a(j) u(n+1-j) = -(K dt/rho) sum over j of b(j) u(n+1-j), with b(0) = 0. From a history whose sign changes in
+  ! each step, the check finds by bisection the largest K dt/rho at which u decays. Algebra gives the value at which the scheme
+  ! has the root -1.
   subroutine check_explicit()
     integer, parameter :: n_schemes = 6
     character(len=33), parameter :: names(n_schemes) = [character(len=33) :: 'forward Euler', 'BDF2, EXT2', &
@@ -317,7 +317,7 @@ contains
     decays = maxval(abs(u(1:3))) < 1
   end function decays
 
-  ! (f) Prints the effect of R and eps on the drop of a plate at ten places between faces, and on the leak of the closed valve.
+  ! (f) Prints how R and eps change the drop of a plate at ten places between faces, and the leak of the closed valve.
   subroutine study()
     real(dp), parameter :: h = 1e-3_dp, u = 0.1_dp, &
       cells_of_eps(8) = [0.35_dp, 0.5_dp, 0.75_dp, 1._dp, 1.25_dp, 1.5_dp, 2._dp, 3._dp]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Counts the iterations of conjugate gradients for the pressure of a fractional step with K, if a solver for constant
-coefficients, by cosine transforms, is the preconditioner. The band crosses a duct: a plate, a leaning plate, a cap, and a
+"""Counts the iterations of conjugate gradients for the pressure of a fractional step with K. The preconditioner is a
+solver by cosine transforms, for constant coefficients. The band crosses a duct: a plate, a leaning plate, a cap, and a
 leaning plate with a slit through which the flow can pass."""
 
 import numpy as np

@@ -74,8 +74,8 @@ contains
     share_of = seen%displaced(1, at) / seen%displaced(2, at)
   end function share_of
 
-  !> (g) Repeats the check with other settings. The name of a row tells the difference from the default, the trileaflet valve that
-  !! opens within 40 ms in 24 cells.
+  !> (g) Repeats the check with other settings. A row's name tells how it differs from the default: the trileaflet valve opens
+  !! within 40 ms in 24 cells.
   subroutine check_beside(rows)
     integer, intent(in) :: rows(:)                ! indices of the rows to run, in the list of names
     character(len=36), parameter :: names(9) = [character(len=36) :: 'it closes', 'steps of 0.25 ms', 'steps of 0.1 ms', &
@@ -187,7 +187,7 @@ contains
       'without the source the tilted plate misses the volume, and pressures are above 10 kPa where walls are in the way')
   end subroutine check_plates
 
-  !> (i) While the valve opens in a heartbeat, the largest pressure difference so far bounds the speed of the jet.
+  !> (i) While the valve opens in a heartbeat, the speed of the jet is bounded by the largest pressure difference so far.
   subroutine check_jet(cells)
     integer, intent(in) :: cells(:)
     type(flow), target :: fluid

@@ -176,7 +176,7 @@ class elastanceMotion : public points0MotionSolver {
     if (time.timeIndex() != timeIndex_) {
       checkCase();
       timeIndex_ = time.timeIndex();
-      // All trials of the step have the same base, because the valves are marked once in a step, and follow it.
+      // All trials of a step have the same base, because the valves follow the base and are marked once in a step.
       descended_ = amplitude_;
       reach(search_.begin(time.deltaTValue(), elastanceAt(time.value()), unstressed_));
     } else {

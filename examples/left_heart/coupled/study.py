@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tries volumeSearch.H in a heart without space: a table of the pressures and trials of each variant of the search.
+"""Tries volumeSearch.H in a heart without space: prints the pressures and the trials of each variant of the search.
 
     python3 study.py LIBRARY         # LIBRARY: libvolumeSearch.so
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The annulus of a valve, and its placement by three points on it.
 
-The three points lie on one circle. The valve is moved, turned and grown in proportion until the circle through three points of
-its own annulus is this circle.
+The three points lie on one circle. The valve is moved, turned and scaled in proportion until this circle passes through three
+points of its own annulus.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from riis.view._valves import ValveState, plain, refuse, rotation_of, values_tha
 
 Reals = NDArray[numpy.float64]
 
-_LEAST, _MOST = 0.3, 3.5  # factors of a valve's lengths; a larger or smaller factor means that the mesh has another unit
+_LEAST, _MOST = 0.3, 3.5  # limits of the factor of a valve's lengths; beyond them the mesh has another unit
 
 
 class Annulus(NamedTuple):
     """A circle of the closed valve in its own frame, centimetres. The normal is on the side of the z axis."""
 
-    points: Reals  #: (3, 3), on the circle; the first is where the first click belongs
+    points: Reals  #: (3, 3), on the circle; the first is the place for the first click
     centre: Reals
     normal: Reals
     radius: float
@@ -109,7 +109,7 @@ def checked_clicks(points3: Any) -> Reals:
 
 
 def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
-    """Returns the changes of a state by which its annulus goes through three points."""
+    """Returns the changes of a state after which the annulus passes through three points."""
     clicks = checked_clicks(points3)
     known = annulus_of(state)
     centre, normal, radius = _circle(clicks)
@@ -134,14 +134,15 @@ def placed_by(state: ValveState, points3: Any) -> dict[str, Any]:
     about = numpy.array([[math.cos(turn), -math.sin(turn), 0.0], [math.sin(turn), math.cos(turn), 0.0], [0.0, 0.0, 1.0]])
     matrix = frames[1] @ about @ frames[0].T
     grown = _grown(state, growth)
-    # The lengths grew, but a length may be bounded or follow a rule: the circle is measured again.
+    # The lengths grew, but a length may be bounded or follow a rule, so the circle is measured again.
     again = annulus_of(grown)
     origin = centre - state.scale * (matrix @ again.centre)
     return {"parameters": grown.parameters, "rotation": rotation_of(matrix), "origin": vector(origin)}
 
 
 def _mean_turn(known: Annulus, own: Reals, centre: Reals, frame: Reals, clicks: Reals) -> float:
-    """Returns the turn about the axis by which the nadirs are nearest to the clicks, which the first click assigns."""
+    """Returns the turn about the axis after which the nadirs are nearest to the clicks. The first click tells which cusp is
+    meant."""
 
     def angles(points: Reals, middle: Reals, axes: Reals) -> Reals:
         local = (points - middle) @ axes
@@ -149,13 +150,13 @@ def _mean_turn(known: Annulus, own: Reals, centre: Reals, frame: Reals, clicks: 
 
     cusps, places = angles(known.points, known.centre, own), angles(clicks, centre, frame)
     cusps[0] = places[0] = 0.0
-    # Both lists go the same way round from the first.
+    # Both lists go in the same direction from the first.
     off = numpy.sort(places) - numpy.sort(cusps)
     return float(off.mean())
 
 
 def _grown(state: ValveState, growth: float) -> ValveState:
-    """Returns the valve with all lengths multiplied. A length that follows a rule and was not set follows by itself."""
+    """Returns the valve with all lengths multiplied. A length that follows a rule and was not set follows without being set."""
     valve = state.valve()
     assert valve is not None
     wanted = {}

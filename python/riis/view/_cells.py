@@ -35,15 +35,15 @@ _FACES = {
     6: ((0, 1, 2, 2), (3, 5, 4, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     8: ((0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2), (0, 3, 2, 1), (4, 5, 6, 7)),
 }
-_MARGIN = 0.4  # of the size of the valves: how far the region near them reaches beyond them
-# The edges of a cell by its number of corners, and for cells of second order the nodes in the middles of these edges.
+_MARGIN = 0.4  # the distance by which the region extends beyond the valves, as a share of their
+# size
 _EDGES = {
     4: ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
     5: ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
     6: ((0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)),
     8: ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)),
 }
-_CHUNK = 2_000_000  # rows that one step gathers, so that a large mesh needs little memory besides its arrays
+_CHUNK = 2_000_000  # rows that one step gathers, so that a large mesh needs little memory in addition to its arrays
 
 
 @dataclass(frozen=True)
@@ -151,7 +151,7 @@ def _alone(quads: Ids) -> Ids:
     """Returns the rows of the faces that only one cell has. A face of three nodes has its last node twice."""
     key = numpy.sort(quads, axis=1)
     is_triangle = quads[:, 2] == quads[:, 3]
-    # The three least nodes tell a face. For a triangle these are its nodes, each once.
+    # The three least nodes identify a face. For a triangle these are its nodes, each once.
     second = numpy.where(is_triangle & (key[:, 0] == key[:, 1]), key[:, 2], key[:, 1])
     third = numpy.where(is_triangle, key[:, 3], key[:, 2])
     order = numpy.lexsort((third, second, key[:, 0]))
@@ -164,7 +164,7 @@ def _alone(quads: Ids) -> Ids:
 
 
 class _Incidence:
-    """For each node of a block, the rows of the cells that have it."""
+    """For each node of a block, the rows of the cells with this node."""
 
     def __init__(self, nodes: AnyIds, n_nodes: int) -> None:
         flat = nodes.ravel()
@@ -174,7 +174,7 @@ class _Incidence:
         numpy.cumsum(numpy.bincount(flat, minlength=n_nodes), out=self.start[1:])
 
     def rows_at(self, nodes: AnyIds) -> AnyIds:
-        """Returns the rows of all these nodes, a row as often as it has one of them."""
+        """Returns the rows of all these nodes. A row occurs as often as it has one of them."""
         first = self.start[nodes]
         count = self.start[nodes + 1] - first
         total = int(count.sum())
@@ -183,7 +183,7 @@ class _Incidence:
 
 
 def _links(n_corners: int, n_nodes: int) -> list[tuple[int, int]]:
-    """Returns the pairs of a cell's nodes that are neighbours, as in the program.
+    """Returns the pairs of a cell's nodes that are neighbours, by the program's rules.
 
     The edges of a cell of second order have two halves, and the middles of a face's edges form a ring.
     """
@@ -221,7 +221,7 @@ def _rows_of(blocks: list[Block], n_nodes: int) -> Rows:
 
 
 class Region:
-    """The nodes and cells in which the view works: the whole mesh, or the part near the valves.
+    """The nodes and cells with which the view works: the whole mesh, or the part near the valves.
 
     Nodes have local numbers; ``node_ids`` has the caller's, or is None if they are the same.
     """
@@ -234,7 +234,7 @@ class Region:
         self.node_ids = node_ids
         self.box = box  # None: the whole mesh
         self.mesh = Mesh(points)
-        self._cut = cut  # nodes on the cut, whose faces are no wall
+        self._cut = cut  # nodes on the cut, whose faces are not part of the wall
         self._incidence: list[_Incidence] | None = None
         self._rows: Rows | None = None
         self._wall: Surface | None = None
@@ -271,7 +271,7 @@ class Region:
 
     @property
     def has_edges(self) -> bool:
-        """Whether there are volume cells, and the edges of all of them are known."""
+        """Whether there are volume cells, and whether the edges of all of them are known."""
         n_known = [(block.n_corners, block.n_corners + len(_EDGES[block.n_corners])) for block in self.blocks]
         return self.has_cells and all(block.nodes.shape[1] in n for block, n in zip(self.blocks, n_known, strict=True))
 
@@ -297,7 +297,7 @@ class Region:
         return self._rows
 
     def path(self, start: int, end: int, is_open: Bools) -> Ids:
-        """Returns the nodes of a shortest path along edges through open nodes; empty if there is none."""
+        """Returns the nodes of a shortest path along edges through open nodes; empty if there is no path."""
         rows = self.adjacency()
         offsets, columns = rows.offsets, rows.columns
         before = numpy.full(len(self.points), -1, numpy.int64)
@@ -321,7 +321,7 @@ class Region:
         return numpy.array(path[::-1], numpy.int64)
 
     def wall(self) -> Surface | None:
-        """Returns the boundary of the volume cells, with normals outwards. None if there is none nearby."""
+        """Returns the boundary of the volume cells, with normals outwards. None if there is no boundary nearby."""
         if not self._knows_wall:
             self._knows_wall = True
             self._wall = self._made_wall()

@@ -71,7 +71,7 @@ def _read_cycle(path: str) -> tuple[Reals, Reals]:
 
 
 def _number_in(text: str) -> float | None:
-    """Returns a finite number that the program also reads. Python alone would also take 1_000."""
+    """Returns a finite number that the program also reads. Python alone would also accept 1_000."""
     if not re.fullmatch(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?", text):
         return None
     made = float(text)

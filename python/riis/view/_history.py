@@ -19,7 +19,7 @@ _MOST_STEPS = 200  # of undo
 
 @dataclasses.dataclass
 class Placed:
-    """A valve's state with the objects that are made from it."""
+    """A valve's state, with the objects that are made from it."""
 
     state: ValveState
     surface: Surface
@@ -97,7 +97,7 @@ class Valves:
 
     @contextmanager
     def dragging(self) -> Iterator[None]:
-        """While this lasts, successive changes of one thing are one step of undo."""
+        """During this context, successive changes of one thing are one step of undo."""
         self._is_dragging, self._drag = True, None
         try:
             yield
@@ -105,7 +105,7 @@ class Valves:
             self._is_dragging, self._drag = False, None
 
     def forget_steps(self) -> None:
-        """Makes the present valves the first ones: there is nothing to undo or to make again."""
+        """Makes the present valves the first ones, so there is nothing to undo or redo."""
         self._undo.clear()
         self._redo.clear()
 
@@ -122,7 +122,7 @@ class Valves:
         return self._step(self._undo, self._redo)
 
     def redo(self) -> bool:
-        """Makes the change again that was taken back. Returns whether there was one."""
+        """Makes the change again that was undone last. Returns whether there was one."""
         return self._step(self._redo, self._undo)
 
     def _step(self, from_: list[Snapshot], to: list[Snapshot]) -> bool:
@@ -137,7 +137,7 @@ class Valves:
 
     @contextmanager
     def _one_step(self) -> Iterator[None]:
-        """While this lasts, all changes are one step of undo, and none of them stays if one is refused."""
+        """During this context, all changes are one step of undo. If one is refused, none of them stays."""
         before, undo, redo = Snapshot(self.valves, self._unit), list(self._undo), list(self._redo)
         try:
             yield

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The lights of the view name the faults of a valve in a mesh, their places and their cures.
+"""The lights of the view name the faults of a valve in a mesh, their places and their remedies.
 
 The size limits are those of the program's warnings (riis help warnings), from the same sources.
 """
@@ -23,7 +23,7 @@ from riis.view._valves import ValveState
 
 Reals = NDArray[numpy.float64]
 
-NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are cured
+NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are corrected
 LEVELS = ("bad", "warn", "good", "off")  # the worst first
 
 _N_LEAFLETS = {"aortic": 3, "coapting": 3, "trileaflet": 3, "mitral": 2}  # a skirt has the next leaflet id
@@ -39,13 +39,13 @@ class Light:
 
     name: str  #: one of "unit", "inside", "half_thickness", "crossing", "wall" and "sealed"
     level: str  #: "good", "warn", "bad", or "off" if the light does not apply
-    text: str  #: what it means here, with numbers
+    text: str  #: what this means for the present valves, with numbers
     advice: str = ""  #: what to do
     cure: tuple[str, str] | None = None  #: the label of a button, and the name that Model.cure takes
     points: Reals = field(default_factory=lambda: _NO_POINTS, repr=False)  #: (n, 3): places to draw
     edges: Reals = field(default_factory=lambda: _NO_EDGES, repr=False)  #: (n, 2, 3): lines to draw
-    valve: int = -1  #: the valve that the light is about; -1: none
-    value: float = 0.0  #: the length or the factor with which the cure works
+    valve: int = -1  #: the valve to which the light belongs; -1: none
+    value: float = 0.0  #: the length or the factor that the remedy uses
 
 
 @dataclass
@@ -123,7 +123,7 @@ def unit(scene: Scene) -> Light:
 
 
 def inside(scene: Scene) -> Light:
-    """Judges whether the valve lies in the mesh. A skirt may reach beyond the wall."""
+    """Judges whether the valve lies in the mesh. A skirt may extend beyond the wall."""
     faces = scene.surface.triangles
     of_leaflets = faces.leaflet_id < _N_LEAFLETS.get(scene.state.kind, 2**31 - 1)
     vertices = numpy.array(scene.surface.vertices)[numpy.unique(faces.vertex_id[of_leaflets])]
@@ -161,7 +161,7 @@ def _no_edges(scene: Scene) -> str:
 
 
 def half_thickness(scene: Scene) -> Light:
-    """Judges whether the band is thick enough for the mesh's edges, and thin beside the valve."""
+    """Judges whether the band is thick enough for the mesh's edges, and thin compared with the valve."""
     half, side = scene.state.half_thickness, scene.largest_side
     if half > LARGEST_HALF_THICKNESS * side:
         better = float(f"{USUAL_HALF_THICKNESS * side:.2g}")
@@ -268,7 +268,7 @@ def wall(scene: Scene) -> Light:
 
 
 def _ring(scene: Scene, boundary: Surface) -> Light:
-    """Judges the distance of a bileaflet valve's housing, or of its circle without one, from the wall."""
+    """Judges the distance from the wall to a bileaflet valve's housing, or to its circle without a housing."""
     state, valve = scene.state, scene.state.valve()
     assert valve is not None
     turn = numpy.linspace(0.0, 2.0 * math.pi, 72, endpoint=False)
@@ -281,7 +281,7 @@ def _ring(scene: Scene, boundary: Surface) -> Light:
     assert found.side is not None and found.distance is not None
     gap = numpy.where(found.side > 0, -found.distance, found.distance)
     text = f"the wall is {shown(float(gap.min()))} to {shown(float(gap.max()))} from the {'housing' if height else 'annulus'}"
-    # A wall that meets one of the housing's circles at each angle seals it.
+    # If the wall meets one of the housing's circles at each angle, it seals the valve.
     is_open = (gap.reshape(len(levels), 72) > state.half_thickness).all(axis=0)
     if not is_open.any():
         return Light("wall", "good", text, valve=scene.number)
@@ -331,7 +331,8 @@ def sealed(scene: Scene) -> Light:
 
 
 def _sides(scene: Scene) -> tuple[int, int] | None:
-    """Returns an unmarked node on each side of the valve, near its axis: upstream of the least z, downstream of the largest."""
+    """Returns an unmarked node on each side of the valve near its axis: one upstream of the least z, and one downstream of the
+    largest."""
     matrix, origin = scene.state.matrix, numpy.array(scene.state.origin)
     valve = (numpy.array(scene.surface.vertices) - origin) @ matrix
     middle = (valve[:, :2].min(axis=0) + valve[:, :2].max(axis=0)) / 2.0
@@ -361,5 +362,5 @@ JUDGES = {
 
 
 def worst(lights: list[Light]) -> Light:
-    """Returns the worst of the lights of several valves."""
+    """Returns the worst light of several valves for each subject."""
     return min(lights, key=lambda light: LEVELS.index(light.level))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The outline of a valve's free orifice, to be drawn: the edge of the area that the leaflets leave uncovered along the axis.
+"""The outline of a valve's free orifice, for a drawing: the edge of the area that the leaflets leave uncovered along the axis.
 
 Surface.orifice measures this area exactly. The outline is traced on a grid, so it is off by up to half a grid's step.
 """
@@ -115,7 +115,8 @@ def _loops(free: Bools) -> list[NDArray[numpy.int64]]:
 
 
 def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
-    """Returns the closed lines (n, 3) around the free orifice, mesh units; none if the orifice is closed or has no outline.
+    """Returns the closed lines (n, 3) around the free orifice, in mesh units. There are none if the orifice is closed or has no
+    outline.
 
     centre  a point on the axis of the valve's disc
     """
@@ -153,7 +154,7 @@ def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
 
 
 def _raised(flat: Reals, seen: Reals) -> Reals:
-    """Gives each point of an outline the height of the vertex that is nearest as seen along the axis."""
+    """Gives each point of an outline the height of the vertex that is nearest to it, as seen along the axis."""
     height = numpy.empty(len(flat))
     for k in range(0, len(flat), 256):
         part = flat[k : k + 256]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The view's files: a case of the program riis, a command, a script, OpenFOAM's dictionary, and the session.
 
-Numbers are written with all their digits, so that each file gives the same marks, to the last bit.
+Numbers are written with all their digits, so each file gives the same marks, to the last bit.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _FORMAT, _VERSION = "riis view", 1
 
 
 def has_unit(states: Iterable[ValveState], unit: str | None) -> bool:
-    """Returns whether the unit gives the scale of all valves, so that files may name the unit."""
+    """Returns whether the unit gives the scale of all valves. If so, files may state the unit."""
     return unit is not None and all(state.scale == UNITS[unit] for state in states)
 
 
@@ -76,7 +76,7 @@ def _times_of_surfaces(states: Iterable[ValveState]) -> list[float] | None:
 
 
 def case_of(states: tuple[ValveState, ...], unit: str | None, path: str | None, times: list[float] | None) -> str:
-    """Returns a case. Without times the valves stay at their openings, and surfaces at their time."""
+    """Returns a case. Without times the valves keep their openings, and surfaces keep their time."""
     _check_paths(states)
     if not states:
         raise refuse("valves: there are none; a case needs one")
@@ -340,7 +340,7 @@ def _state_from(value: Mapping[str, Any]) -> ValveState:
 
 
 def read_session(path: str) -> tuple[dict[str, Any], tuple[ValveState, ...]]:
-    """Reads a session. Returns its root and its valves, whose values are checked by making their surfaces."""
+    """Reads a session. Returns the file's root and its valves. The valves' values are checked by making their surfaces."""
     try:
         with open(path, encoding="utf-8") as file:
             root = json.load(file)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the parts of a Page share. Each part is a class with functions of the page; Page itself has their attributes."""
+"""The common base of the parts of a Page. Each part is a class with functions of the page. Page itself has the attributes of all
+parts."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ class Part:
     model: Any  #: riis.view.model.Model, or None before the first mesh
     scene: Any  #: riis.view.scene.Scene, or None before the first mesh
     state: Any  #: trame's variables of the page
-    folder: Path  #: the folder to which the page writes, and at which relative paths begin
+    folder: Path  #: the folder to which the page writes, and from which relative paths start
     _grid: Any
     _shown: Any
     _busy: str

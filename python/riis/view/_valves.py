@@ -28,7 +28,7 @@ KINDS = ("coapting", "trileaflet", "aortic", "mitral", "bileaflet")
 TRIANGULATIONS = ("adapted", "fixed")
 SURFACE = "surface"  # the kind of a surface from a file
 
-# The sizes that matter first. Names by a surgeon, such as annulus, come first in any case.
+# The sizes that matter first. Names that surgeons use, such as annulus, come first in any case.
 _FIRST = {
     "aortic": ("bending_height", "skirt_length"),
     "coapting": ("coaptation_height", "gap", "skirt_length"),
@@ -40,7 +40,7 @@ _FIRST = {
 
 
 class Parameter(NamedTuple):
-    """A size of a kind of valve, as a slider and a table need it. Lengths are in centimetres, angles in degrees."""
+    """A size of a kind of valve, with what a slider and a table need. Lengths are in centimetres, angles in degrees."""
 
     name: str
     unit: str  #: "length", "degree" or "1"
@@ -48,13 +48,13 @@ class Parameter(NamedTuple):
     greatest: float  #: the library refuses more
     default: Value
     description: str
-    first: bool  #: whether it is one of the sizes that matter first
+    first: bool  #: whether it is one of the most important sizes
     n_values: int  #: 1 or 3
-    low: float  #: where a slider begins: a size that a valve may have
+    low: float  #: the value at which a slider begins: a size that a valve may have
     high: float  #: where a slider ends
-    rule: str  #: the value unless it is set, such as "0.5 leaflet_height"; "": the default
-    other_name: str  #: a surgeon's name of the same size, such as "annulus", which is then a parameter of its own
-    other_factor: float  #: the other name's value is the parameter's value times this factor
+    rule: str  #: the value while the size is not set, such as "0.5 leaflet_height"; "": the default
+    other_name: str  #: a surgeon's name of the same size, such as "annulus", which is then a separate entry
+    other_factor: float  #: the factor from the parameter's value to the other name's value
 
 
 class Cycle(NamedTuple):
@@ -83,7 +83,7 @@ class SurfaceSource:
 
 @dataclass(frozen=True)
 class ValveState:
-    """A valve in the view. It is a snapshot: the model makes a new one for each change.
+    """A valve in the view. It is a snapshot, because the model makes a new one for each change.
 
     The placement takes a point x of the valve to scale * rotation * x + origin. ``axis`` and ``reference`` are the directions of
     the valve's z and x axes in the mesh.
@@ -169,7 +169,7 @@ def refuse(message: str) -> InvalidArgumentError:
 
 
 def number(value: Any, name: str) -> float:
-    """Returns a finite number, or refuses the value under this name."""
+    """Returns a finite number, or refuses the value with this name."""
     try:
         made = float(value) if not isinstance(value, str) else math.nan
     except (TypeError, ValueError):
@@ -201,14 +201,14 @@ def share(value: Any, name: str) -> float:
 
 
 def check_valve_name(value: Any) -> str:
-    """Returns a name that the program takes as the name of a valve and of its arrays."""
+    """Returns a name that the program accepts for a valve and its arrays."""
     if not isinstance(value, str) or not re.fullmatch("[A-Za-z0-9_.-]{1,64}", value) or value == "riis":
         raise refuse(f"name: is {value!r}; it must be 1 to 64 letters, digits, _, - and ., and not riis")
     return value
 
 
 def point(value: Any, name: str) -> Reals:
-    """Returns three finite numbers, or refuses the value under this name."""
+    """Returns three finite numbers, or refuses the value with this name."""
     try:
         made = numpy.asarray(value, numpy.float64)
     except (TypeError, ValueError):
@@ -243,7 +243,7 @@ def check_kind(kind: Any) -> str:
 
 
 def _slider(unit: str, least: float, greatest: float, default: Value) -> tuple[float, float]:
-    """Returns the ends of a slider. Lengths reach from 0.4 to 2 times the default."""
+    """Returns the ends of a slider. Lengths range from 0.4 to 2 times the default."""
     largest = max(abs(part) for part in default) if isinstance(default, tuple) else abs(default)
     if unit == "length":
         if isinstance(default, tuple) or (least < 0 and largest == 0.0):
@@ -259,7 +259,8 @@ def _slider(unit: str, least: float, greatest: float, default: Value) -> tuple[f
 
 @lru_cache(maxsize=None)
 def parameters_of(kind: str) -> tuple[Parameter, ...]:
-    """Returns the parameters of a kind, the first sizes first. A size with a surgeon's name is listed under both names."""
+    """Returns the parameters of a kind, with the most important sizes first. A size with a surgeon's name is listed under both
+    names."""
     table = Valve(check_kind(kind)).parameters
     first: list[Parameter] = []
     rest: list[Parameter] = []
@@ -295,7 +296,7 @@ def parameters_of(kind: str) -> tuple[Parameter, ...]:
 
 
 def values_of(state: ValveState) -> dict[str, Value]:
-    """Returns the present values of all parameters, also under surgeons' names. Sizes that follow a rule are included."""
+    """Returns the present values of all parameters, and of surgeons' names. Sizes that follow a rule are included."""
     valve = state.valve()
     if valve is None:
         return {}

@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who may see the page: the key, the addresses, and the life of the server.
 
-The server listens on 127.0.0.1 only, so other machines never reach it. Other users and other pages on this machine do, and
-these rules keep them out:
+The server listens on 127.0.0.1 only, so other machines never reach it. Other users and other pages on this machine can
+reach it, and these rules keep them out:
 
 - A random key of 256 bits opens the WebSocket, over which all data of the mesh pass. The key is in a file and a folder that only
-  this user can read, and in the printed address. It is in no command line: the browser's command line has only the file's path.
+  this user can read, and in the printed address. - The key is in no command line, because the browser's command line has only the
+  file's path.
 - In the address the key stands behind '#', which browsers send to no server. The first page keeps it in the tab's session
-  storage, which no other origin, and so no other port, can read.
-- The WebSocket opens only for a request with the key. The first message must have it again, as trame requires.
-- A request must name this machine as its host, and a page of another origin is refused. So a foreign page cannot reach the server
-  through a name that it resolves to 127.0.0.1.
-- The files served without a key are the page's own programs and styles, which anybody can get from PyPI. They have no mesh data.
+  storage, which pages of other origins, and therefore of other ports, cannot read.
+- The WebSocket opens only for a request with the key. The first message must contain the key again, as trame requires.
+- A request must name this machine as its host, and a page of another origin is refused. A foreign page can therefore not reach
+  the server through a name that it resolves to 127.0.0.1.
+- The files that need no key are the page's own programs and styles, which anybody can get from PyPI. They have no mesh data.
 """
 
 from __future__ import annotations
@@ -42,9 +43,9 @@ _HEADERS = {
     "X-Frame-Options": "DENY",
 }
 
-# The first page takes the key from the address, and hands it to trame's page. A page that was reloaded has it in the storage.
-# The server answers a wrong key by the first page again. The page then forgets this key, because it may belong to an earlier
-# server.
+# The first page takes the key from the address, and passes it to trame's page. A page that was reloaded finds it in the
+# storage. If the key is wrong, the server answers with the first page again. This page then forgets the key, because it may
+# belong to an earlier server.
 _FIRST_PAGE = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>riis view</title></head>
 <body><p id="text">riis view needs the whole address that it printed in its terminal, with the part behind #.</p>
@@ -83,7 +84,7 @@ def has_desktop() -> bool:
 
 
 class Guard:
-    """The server of a page while it runs. Its folder, with the key, lives as long as the guard."""
+    """The server of a page while it runs. Its folder, with the key, exists as long as the guard."""
 
     def __init__(self, server: Any):
         self.server = server
@@ -143,7 +144,7 @@ class Guard:
             await self.server.stop()
 
     def _bind(self, wslink_server: Any) -> None:
-        """Puts the rules in front of everything that the server answers."""
+        """Puts the rules before everything that the server answers."""
         from aiohttp import web
 
         @web.middleware
@@ -171,5 +172,5 @@ class Guard:
         print("The address is a key to your mesh: do not pass it on. Ctrl C ends riis view.", flush=True)
         if browser and has_desktop():
             # A command line is visible to every user of the machine, so the browser gets the path of a file. Some browsers keep
-            # their caller waiting, so a thread calls them.
+            # their caller waiting, so a separate thread calls them.
             threading.Thread(target=webbrowser.open, args=(opener.as_uri(),), daemon=True).start()

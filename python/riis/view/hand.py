@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parts of the page of riis view that a hand changes: sliders and numbers, the placement, and the view of the
+"""The parts of the page of riis view that a person changes: sliders and numbers, the placement, and the view of the
 picture."""
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Hand(Part):
     def _move(self, change: Callable[[], Any], what: Any) -> None:
         """Makes a change. Changes of the same thing in one drag, or in quick succession, are one step of undo.
 
-        The time counts from the last picture, because a slow server answers late to a hand that still moves.
+        The time is counted from the last picture, because a slow server answers late to a hand that still moves.
         """
         self._need_model()
         now = time.monotonic()

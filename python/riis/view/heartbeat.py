@@ -14,7 +14,7 @@ from riis.view import reading, rows
 from riis.view._part import Part
 from riis.view.model import CYCLES
 
-UNSEEN = 4.0  # seconds after which a picture that no browser shows pauses a heartbeat
+UNSEEN = 4.0  # seconds after which a heartbeat pauses if no browser shows its picture
 
 
 class Heartbeat(Part):
@@ -103,7 +103,7 @@ class Heartbeat(Part):
             if now - self._seen_at > UNSEEN:  # the browser is gone
                 break
             if self._moved.is_set() or not self._seen.is_set():
-                continue  # the last picture is still under way
+                continue  # the last picture is still on its way
             begin, end = self.model.span
             if not end > begin:  # the valve that moved is gone
                 break

@@ -8,8 +8,8 @@
     for light in model.lights(): print(light.name, light.level, light.text, light.advice)
     print(model.command())                        # riis mark root.vtu --valve=coapting ...
 
-A change is checked when it is made. If it is refused, with a riis.Error that names the value, nothing changed. A model is for one
-thread at a time.
+A change is checked when it is made. If it is refused, with a riis.Error that names the value, nothing has changed. A model is for
+one thread at a time.
 """
 
 from __future__ import annotations
@@ -52,11 +52,11 @@ Ids = NDArray[numpy.int64]
 Integers = NDArray[numpy.int32]
 
 class ShownSurface(NamedTuple):
-    """The triangles of a valve as it is now."""
+    """The triangles of a valve in its present state."""
 
     points: Reals  #: (n, 3), mesh units
     triangles: Ids  #: (m, 3)
-    leaflet: Integers  #: (m,): the leaflet of each triangle; a skirt has a leaflet of its own
+    leaflet: Integers  #: (m,): the leaflet of each triangle; a skirt is a separate leaflet
 
 
 class Shown(NamedTuple):
@@ -65,11 +65,11 @@ class Shown(NamedTuple):
     surfaces: tuple[ShownSurface, ...]
     marked: Ids  #: (n,)
     leaflet: Integers  #: (n,): the leaflet that is nearest to each marked node
-    distance: Reals  #: (n,), of each marked node from it
+    distance: Reals  #: (n,), of each marked node, the distance from this leaflet
     valve: Ids  #: (n,): the valve of this leaflet
-    cells_marked: Ids  #: volume cells all of whose nodes are marked
+    cells_marked: Ids  #: volume cells whose nodes are all marked
     cells_partly: Ids  #: volume cells with some marked nodes
-    milliseconds: float  #: the time for the last change of the surfaces and for these marks
+    milliseconds: float  #: the time of the last change of the surfaces and of these marks
 
 
 class Model(Valves):
@@ -78,9 +78,9 @@ class Model(Valves):
     points   (n, 3): the nodes
     cells    volume cells as riis.Adjacency.from_cells takes them: (n, 4, 5, 6 or 8), or flat with offsets. None: nodes only
     offsets  (n_cells + 1,): where each cell begins in cells
-    types    (n_cells,): VTK's types of the cells. Then cells may also be triangles, lines or quadratic
+    types    (n_cells,): VTK's types of the cells. With types, cells may also be triangles, lines or quadratic
     unit     of the mesh: "mm", "cm" or "m". None: not known
-    path     the file that the mesh came from, for the files and commands that the model writes
+    path     the file of the mesh, for the files and commands that the model writes
     """
 
     def __init__(
@@ -107,7 +107,7 @@ class Model(Valves):
     def near(cls, points: Any, cells: Any = None, **options: Any) -> Model:
         """Makes a model of a large mesh. It keeps the whole mesh, and works with the cells near the valves.
 
-        The marks equal the whole mesh's marks. When a valve leaves the cells near it, the next update finds new ones, which takes
+        The marks equal the whole mesh's marks. If a valve leaves the cells near it, the next update finds new cells, which takes
         about a second for 5 million nodes.
         """
         return cls(points, cells, _near=True, **options)
@@ -140,15 +140,15 @@ class Model(Valves):
         return self._mesh.lower, self._mesh.upper
 
     def parameters(self, kind: str) -> list[Parameter]:
-        """Returns the sizes of a kind. The sizes that matter first are at the front."""
+        """Returns the sizes of a kind. The most important sizes come first."""
         return list(parameters_of(kind))
 
     def values(self, i: int) -> dict[str, Value]:
-        """Returns the present values of all parameters of a valve, also of unset ones."""
+        """Returns the present values of all parameters of a valve, including values that are not set."""
         return values_of(self._at(i).state)
 
     def surface(self, i: int) -> Surface:
-        """Returns the surface of a valve as it is now, for its measures. The next change replaces it."""
+        """Returns the present surface of a valve, for its measures. The next change replaces it."""
         return self._at(i).surface
 
     # ---- Valves ----
@@ -183,7 +183,7 @@ class Model(Valves):
 
         vertices    (n, 3), or (n_frames, n, 3) with times: in the mesh's unit
         faces       (n, 3 or 4)
-        times       (n_frames,): when the surface has the vertices of each frame; ``at`` moves it
+        times       (n_frames,): the times of the frames; ``at`` moves the surface
         path        the file, for the case and the command
         """
         array = numpy.ascontiguousarray(vertices, numpy.float64)
@@ -214,7 +214,8 @@ class Model(Valves):
         self._change(tuple(state for number_of, state in enumerate(self.valves) if number_of != i), self._unit)
 
     def change_kind(self, i: int, kind: str) -> None:
-        """Makes a valve one of another kind, with this kind's default sizes. Its placement, half thickness and cycle stay."""
+        """Turns a valve into one of another kind, with this kind's default sizes. Its placement, half thickness and cycle
+        stay."""
         state = self._at(i).state
         if state.surface is not None:
             raise refuse(f"i: valve {i} is a surface from a file, which has no kind")
@@ -275,11 +276,11 @@ class Model(Valves):
     def place(
         self, i: int, origin: Any = None, axis: Any = None, reference: Any = None, scale: float | None = None
     ) -> None:
-        """Places a valve. Arguments that are None leave its placement as it is.
+        """Places a valve. If an argument is None, its part of the placement stays as it is.
 
-        origin     the place of the valve's own origin, mesh units
-        axis       the direction of the valve's z axis, of any length. Without a reference the valve takes the smallest turn
-        reference  a direction to which the valve's x axis shall point as nearly as the axis allows
+        origin     the position of the valve's own origin, mesh units
+        axis       the direction of the valve's z axis, of any length. Without a reference, the valve takes the smallest turn
+        reference  a direction; the valve's x axis shall point as nearly to it as the axis allows
         """
         state = self._at(i).state
         changes: dict[str, Any] = {}
@@ -300,12 +301,13 @@ class Model(Valves):
         self._replace(i, ("flip", i), rotation=rotation_of(matrix), origin=vector(origin))
 
     def place_by_clicks(self, i: int, points3: Any) -> None:
-        """Places a valve and sizes it by three points of the annulus, so that its annulus goes through them.
+        """Places and sizes a valve by three points of the annulus, so that its annulus passes through them.
 
-        The first point tells how the valve is turned. For cusps the points are the nadirs, the lowest points of the attachment.
-        The first belongs to cusp 0, the right one of an aortic valve. For a mitral valve the first is the middle of the anterior
-        leaflet, and the others are anywhere on the annulus. For a bileaflet valve the first is at an end of its hinges. The
-        valve's axis stays on the side to which it points; ``flip`` turns it over. Lengths of the valve grow in proportion.
+        The first point determines the turn of the valve. For cusps the points are the nadirs, the lowest points of the
+        attachment. The first nadir belongs to cusp 0, the right cusp of an aortic valve. For a mitral valve the first point is
+        the middle of the anterior leaflet, and the other points are anywhere on the annulus. For a bileaflet valve the first
+        point is at an end of the hinges. The valve's axis keeps its side. ``flip`` turns the axis over. Lengths of the valve
+        grow in proportion.
         """
         state = self._at(i).state
         if state.surface is not None:
@@ -313,7 +315,7 @@ class Model(Valves):
         self._replace(i, ("clicks", i), **placed_by(state, points3))
 
     def place_by_landmarks(self, i: int, landmarks: Mapping[str, Any] | str | os.PathLike[str], **options: Any) -> PlaceResult:
-        """Places a valve and sizes it by a patient's landmarks, as riis.place does, with its options. Returns its result."""
+        """Places and sizes a valve by a patient's landmarks, as riis.place does, with its options. Returns its result."""
         state = self._at(i).state
         valve = state.valve()
         if valve is None:
@@ -344,7 +346,7 @@ class Model(Valves):
         return self._mesh.region(lower, upper)
 
     def update(self) -> Shown:
-        """Marks the nodes for the valves as they are now. Without a change since the last call, returns the same object."""
+        """Marks the nodes for the present valves. Without a change since the last call, returns the same object."""
         if self._shown is not None:
             return self._shown
         region = self._region()
@@ -374,7 +376,7 @@ class Model(Valves):
         return self._region().ids_of(marks.ids), marks.distance.copy(), marks.leaflet_id.copy()
 
     def orifice(self, i: int) -> list[Reals]:
-        """Returns the outline of a valve's free orifice: closed lines (n, 3), none if it is closed."""
+        """Returns the outline of a valve's free orifice as closed lines (n, 3). A closed orifice has none."""
         placed = self._at(i)
         return outline_of(placed.surface, self._disc_centre(placed.state))
 
@@ -389,9 +391,9 @@ class Model(Valves):
     # ---- Lights ----
 
     def lights(self) -> list[Light]:
-        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. Among several valves the worst counts.
+        """Judges the valves: unit, inside, half_thickness, crossing, wall and sealed. Of several valves, the worst counts.
 
-        This takes longer than the marks: about half a second for 100,000 nodes, so a page calls it when the hand rests.
+        This takes longer than the marks, about half a second for 100,000 nodes, so a page calls it when the hand rests.
         """
         if self._lights is None:
             self.update()
@@ -412,7 +414,7 @@ class Model(Valves):
         return worst([JUDGES[name](scene) for scene in scenes])
 
     def cure(self, name: str) -> None:
-        """Does what a light offers, as one step of undo. Refuses if the light offers nothing."""
+        """Does what a light proposes, as one step of undo. Refuses if the light proposes nothing."""
         if name not in NAMES:
             raise refuse(f"name: is {name!r}; the lights are {', '.join(NAMES)}")
         self.update()
@@ -491,7 +493,7 @@ class Model(Valves):
 
     @contextmanager
     def kept(self) -> Iterator[None]:
-        """Puts the valves back to the time and the openings that they had before, whatever ``at`` did meanwhile."""
+        """Restores the time and the openings that the valves had before, regardless of ``at``."""
         states, moment = self.valves, self._time
         try:
             yield
@@ -502,8 +504,8 @@ class Model(Valves):
     def beat(self, period: float, *, chosen: str | os.PathLike[str] | None = None, valve: int = 0) -> None:
         """Lets all valves beat with one period, as one step of undo.
 
-        chosen  a cycle as in set_cycle, for this valve alone. The others keep their cycles, and a valve without a cycle takes the
-                built-in one of its kind
+        chosen  a cycle as in set_cycle, for this valve alone. The other valves keep their cycles. A valve without a cycle gets
+                the built-in cycle of its kind
         """
         self._at(valve)
         with self._one_step():
@@ -519,8 +521,8 @@ class Model(Valves):
 
     @property
     def span(self) -> tuple[float, float]:
-        """The first and the last time of the motion: of the longest period, and from the first frame of surfaces that move. Both
-        are 0 if nothing moves."""
+        """The first and the last time of the motion. It has the longest period, and begins with the first frame of surfaces that
+        move. Both are 0 if nothing moves."""
         parts = []
         for k, state in enumerate(self.valves):
             source, length = state.surface, self.period(k)
@@ -530,7 +532,7 @@ class Model(Valves):
         return (min(part[0] for part in parts), max(part[1] for part in parts)) if parts else (0.0, 0.0)
 
     def period(self, i: int) -> float:
-        """Returns the period of a valve's cycle or of a moving surface. Returns 0 if there is none."""
+        """Returns the period of a valve's cycle or of a moving surface. Returns 0 if there is no period."""
         state = self._at(i).state
         if state.surface is not None:
             times = state.surface.times
@@ -574,13 +576,13 @@ class Model(Valves):
     # ---- Files ----
 
     def case(self, times: Any = None) -> str:
-        """Returns a case file of the program (riis help cases): of the valves as they are now, or with times of their motion."""
+        """Returns a case file of the program (riis help cases), either of the present valves or with times of their motion."""
         moments = None if times is None else [number(moment, "times") for moment in numpy.ravel(times)]
         return _outputs.case_of(self.valves, self._unit, self._path, moments)
 
     def command(self, *, case: str = "case.json", output: str = "marked.vtu", program: str = "riis") -> str:
         """Returns the command that gives the present marks. Several valves need the file of ``case()``, under the name case. If
-        one of several is a surface that moves, the output is a .pvd file, whose first step has the present marks."""
+        one of several valves is a surface that moves, the output is a .pvd file, whose first step has the present marks."""
         return _outputs.command_of(self.valves, self._unit, self._path, case, output, program)
 
     def python(self) -> str:
@@ -588,18 +590,19 @@ class Model(Valves):
         return _outputs.python_of(self.valves, self._path)
 
     def openfoam(self, density: float = 1060.0) -> str:
-        """Returns fvOptions of OpenFOAM, in metres. A mesh without a unit is taken as it is."""
+        """Returns fvOptions of OpenFOAM, in metres. A mesh without a unit counts as being in metres."""
         return _outputs.openfoam_of(self.valves, self._unit, density)
 
     def save(self, path: str | os.PathLike[str], page: Mapping[str, Any] | None = None) -> None:
-        """Writes the session. ``load`` opens it as it was. A page adds what it shows besides, such as its camera, as JSON."""
+        """Writes the session. ``load`` opens it as it was. A page adds further data that it shows, such as its camera, as
+        JSON."""
         text = _outputs.session_of(self.valves, self._unit, self._path, len(self.points), self._time, page)
         Path(path).write_text(text, encoding="utf-8")
 
     def restore(self, path: str | os.PathLike[str]) -> dict[str, Any]:
         """Reads the valves of a session into this model, as one step of undo. The mesh must have as many nodes.
 
-        Returns what the page saved besides.
+        Returns the data that the page added.
         """
         root, states = _outputs.read_session(os.fspath(path))
         if root["n_nodes"] != len(self.points):
@@ -618,7 +621,7 @@ class Model(Valves):
         """Opens a session.
 
         mesh  the arrays of its mesh, by the names of Model's arguments, such as {"points": ..., "cells": ..., "near": True}; or a
-              function that reads them from the path that the session has
+              function that reads these arrays from the session's path
         """
         root, _ = _outputs.read_session(os.fspath(path))
         if callable(mesh):

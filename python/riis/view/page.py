@@ -2,8 +2,8 @@
 """The page of riis view: a server on 127.0.0.1 with the picture of a Model, its sliders, lights and files.
 
 The page is page.html, a template of Vue. Its variables are the state of this server. browser.js hands the gestures on the
-picture to the functions that begin with _on_. Everything runs on one thread, but reading a mesh has one of its own. hand.py,
-heartbeat.py and saving.py have the parts of the page that change the valves, play them and write files.
+picture to the functions that begin with _on_. Everything runs on one thread, except that a separate thread reads a mesh.
+hand.py, heartbeat.py and saving.py have the parts of the page that change the valves, play them and write files.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Page(Hand, Heartbeat, saving.Files):
     path    the mesh to read, or None
     saved   a saved view to open, or None
     unit    of the meshes: "mm", "cm" or "m". None: not known
-    folder  the folder to which the page writes, and at which relative paths begin
+    folder  the folder to which the page writes, and from which relative paths start
     """
 
     def __init__(self, path: str | None, *, saved: str | None = None, unit: Any = None, folder: str = "."):
@@ -73,9 +73,9 @@ class Page(Hand, Heartbeat, saving.Files):
         self._slider_values: list[float] = []
         self._orifice_at = 0.0
         self._playing: asyncio.Task[None] | None = None
-        self._tasks: set[asyncio.Task[None]] = set()  # asyncio itself does not keep them
-        self._busy = ""  # names the present long task, in a sentence
-        self._wanted_size: tuple[int, int] | None = None  # a browser asked for it during a movie
+        self._tasks: set[asyncio.Task[None]] = set()  # asyncio itself does not keep these tasks
+        self._busy = ""  # the name of the present long task, as a sentence
+        self._wanted_size: tuple[int, int] | None = None  # a browser requested it during a movie
         self._shown: Any = None
         self._build()
 
@@ -123,7 +123,7 @@ class Page(Hand, Heartbeat, saving.Files):
         self.server.controller.on_server_ready.add(self._ready)
 
     def _told(self, function: Callable[..., Any]) -> Callable[..., Any]:
-        """Returns the function with its errors told in the page."""
+        """Returns the function, with its errors shown in the page."""
 
         @functools.wraps(function)
         def told(*values: Any, **_: Any) -> Any:
@@ -148,7 +148,7 @@ class Page(Hand, Heartbeat, saving.Files):
         self._say(f"{type(error).__name__}: {error} (this is a fault of riis view; its terminal has the details)")
 
     def _begin_task(self, work: Coroutine[Any, Any, None]) -> None:
-        """Begins a task, with its errors told in the page."""
+        """Begins a task, with its errors shown in the page."""
 
         async def told() -> None:
             try:
@@ -168,7 +168,7 @@ class Page(Hand, Heartbeat, saving.Files):
 
     @contextmanager
     def _alone(self, what: str) -> Iterator[None]:
-        """While this lasts, no other mesh is read and no movie is written."""
+        """During this context, no other mesh is read and no movie is written."""
         self._need_idle()
         self._busy = what
         try:
@@ -207,7 +207,8 @@ class Page(Hand, Heartbeat, saving.Files):
             self._renew_all()
 
     async def _read(self, path: str, saved: str | None = None) -> None:
-        """Reads a mesh, and a saved view of it, on a thread, and shows the progress. If one is refused, nothing changes."""
+        """On a thread, reads a mesh and a saved view of it, and shows the progress. If one of them is refused, nothing
+        changes."""
         parts = {"part": -1.0}
         with self._alone(f"{os.path.basename(path)} is being read"):
             work = asyncio.get_running_loop().run_in_executor(None, self._make_model, path, saved, parts)
@@ -239,7 +240,7 @@ class Page(Hand, Heartbeat, saving.Files):
     def _take(self, grid: Any, wall: Any, model: Any, path: str) -> None:
         if not model.valves:
             model.add(self.state.kind)
-        model.forget_steps()  # the page always has a valve, so undo must not take the first one away
+        model.forget_steps()  # the page always has a valve, so undo must not remove the first one
         scene = Scene(model, grid, wall=wall, size=self.scene.size if self.scene is not None else (900, 700))
         self._pause()
         self._end_drag()
@@ -258,7 +259,7 @@ class Page(Hand, Heartbeat, saving.Files):
         self._renew_all()
 
     async def _reopen(self, path: str, mesh: str | None = None) -> None:
-        """Opens a saved view, with its mesh, or with this mesh instead."""
+        """Opens a saved view, with its mesh or with this mesh instead."""
         mesh = mesh if mesh is not None else reading.mesh_of_saved(path)
         if mesh is not None and (self.model is None or os.path.abspath(mesh) != os.path.abspath(self.state.path)):
             await self._read(mesh, path)
@@ -284,7 +285,7 @@ class Page(Hand, Heartbeat, saving.Files):
         }  # fmt: skip
 
     def _show_as_saved(self, shown: dict[str, Any]) -> None:
-        """Shows what a saved view says. Views that the library or an older release saved lack these entries."""
+        """Shows the content of a saved view. Views that the library or an older release saved lack these entries."""
         if not shown:
             return
         with self.state as state:
@@ -305,7 +306,7 @@ class Page(Hand, Heartbeat, saving.Files):
         if self._busy == saving.FILMING:
             self._need_idle()
 
-    # what the page shows of the model
+    # the part of the model that the page shows
 
     def _valve(self) -> Any:
         return self.model.valves[self.state.current]
@@ -337,7 +338,7 @@ class Page(Hand, Heartbeat, saving.Files):
                         sliders.append(rows.slider_of(parameter, float(value)))
                     else:
                         table.append(rows.row_of(parameter, value, parameter.name in valve.parameters))
-            # The values are not in state.sliders: trame sends a list that was changed in place to no browser.
+            # The values are not in state.sliders, because trame does not send a list that was changed in place.
             self._slider_values = [float(slider.pop("value")) for slider in sliders]
             for k, value in enumerate(self._slider_values):
                 state[f"slider_{k}"] = value
@@ -356,7 +357,7 @@ class Page(Hand, Heartbeat, saving.Files):
         return legend + [{"label": "marked cells", "colour": "#56b4e9"}, {"label": "partly marked", "colour": "#f0e442"}]
 
     def _renew_all(self) -> None:
-        """Shows the model after more than a move of a slider."""
+        """Shows the model after a larger change than a move of a slider."""
         self._show_numbers()
         self._show_placement()
         self._show_curves()
@@ -377,7 +378,7 @@ class Page(Hand, Heartbeat, saving.Files):
         return float(numpy.linalg.norm(points - numpy.asarray(self._valve().origin), axis=1).max())
 
     def _touch(self) -> None:
-        """Makes the picture stale, so that a new one is drawn."""
+        """Marks the picture as stale, so that a new one is drawn."""
         self._stale = True
         with self.state as state:
             state.fresh = False
@@ -427,7 +428,7 @@ class Page(Hand, Heartbeat, saving.Files):
             state.fresh = state.at_rest = True
 
     async def _pictures(self) -> None:
-        """Draws and sends pictures: one at a time, and the next when a browser has shown the last."""
+        """Draws and sends pictures one at a time, each after a browser has shown the last."""
         while True:
             try:
                 await asyncio.wait_for(self._moved.wait(), REST if self._unsettled else None)
@@ -435,7 +436,7 @@ class Page(Hand, Heartbeat, saving.Files):
                 if self.scene is not None and self._busy != saving.FILMING:
                     self._told(self._settle)()
                 continue
-            if self._busy == saving.FILMING:  # a picture between two frames would change the size of the next
+            if self._busy == saving.FILMING:  # a picture between two frames would change the size of the next frame
                 await asyncio.sleep(0.1)
                 continue
             self._moved.clear()
@@ -478,7 +479,7 @@ class Page(Hand, Heartbeat, saving.Files):
     # the server
 
     def serve(self, *, port: int = 0, browser: bool = True) -> None:
-        """Serves the page on 127.0.0.1 until Ctrl C. A port of 0 takes a free one."""
+        """Serves the page on 127.0.0.1 until Ctrl C. A port of 0 means a free port."""
         with guard.Guard(self.server) as gate:
             gate.start(port, browser)
 

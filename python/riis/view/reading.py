@@ -159,7 +159,7 @@ def number_of(value: Any, name: str) -> float:
 def write_marked(grid: Any, model: Any, path: str) -> None:
     """Writes the mesh with the arrays that the program riis writes: riis_marked, riis_distance and riis_leaflet.
 
-    With several valves the names begin with a valve's name in place of riis, as in the program.
+    With several valves, the names begin with the name of a valve instead of riis, as in the program.
     """
     import pyvista
 

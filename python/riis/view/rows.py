@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The contents of the page of riis view, as plain values: sliders, rows, lights, curves; and placements after drags."""
+"""The contents of the page of riis view as plain values: sliders, rows, lights, curves, and placements after drags."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def placement_of(valve: Any) -> list[dict[str, Any]]:
     def row(name: str, label: str, values: Any, description: str) -> dict[str, Any]:
         return {"name": name, "label": label, "values": values, "description": description}
 
-    def direction(values: Any) -> list[str]:  # in one field, because a direction with one new component is another direction
+    def direction(values: Any) -> list[str]:  # in one field, because a direction with one new component is a different direction
         return [", ".join(f"{round(x, 6) + 0.0:g}" for x in values)]
 
     return [

@@ -53,7 +53,7 @@ class Files(Part):
             base = str(self.folder / self._name())
             case, before = base + ".now.case.json", ""
             words = shlex.split(self.model.command(case=case, output=base + ".vtu"))
-            if len(self.model.valves) > 1:  # the case file that the page writes may be one of a heartbeat
+            if len(self.model.valves) > 1:  # the page may have written a case file of a heartbeat
                 before = f"cat >{shlex.quote(case)} <<'END'\n{self.model.case()}END\n"
             lines = [shlex.join(words[: words.index("mark") + 1])]
             for word in words[words.index("mark") + 1 :]:
@@ -105,7 +105,7 @@ class Files(Part):
         self._wrote(path)
 
     async def _movie(self, path: Path, n_frames: int = 48) -> None:
-        """Writes one heartbeat as a movie. Browsers see its progress. A movie that fails leaves an older file as it is."""
+        """Writes one heartbeat as a movie. Browsers see its progress. If a movie fails, an older file stays as it is."""
         try:
             import imageio
         except ImportError:

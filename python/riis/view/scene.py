@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The picture of a Model: the mesh, the leaflets, the cells around them, and the places that the lights speak of.
+"""The picture of a Model: the mesh, the leaflets, the cells around them, and the places that the lights report.
 
 A scene draws into a PyVista plotter without a window, or into a plotter of a notebook. Its objects stay in place while a valve
 moves, and only their points and cells change. All calls of a scene must come from one thread.
@@ -23,13 +23,13 @@ WALL, PARTLY, LEAK, CROSSING, ORIFICE, HANDLE = "#c9ced6", "#9aa3b2", "#d50000",
 WALLS = ("cut", "clear", "none")
 CELLS = ("partly", "marked", "none")
 LOOKS = ("oblique", "top", "side")
-SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next one has fewer pixels
+SLOW = 0.12  # seconds; if a picture takes longer while a hand moves, the next picture has fewer pixels
 MANY_MARKED = 400_000  # if more cells are marked, they are drawn only while the hand rests
-MANY_CELLS = 2_000_000  # larger meshes show the cut through the cells near the valve only
+MANY_CELLS = 2_000_000  # larger meshes show only the cut through the cells near the valve
 
 
 def check_of_graphics() -> None:
-    """Raises RuntimeError with the packages that are missing if pictures cannot be drawn here.
+    """If pictures cannot be drawn here, raises RuntimeError with the packages that are missing.
 
     Without an X display VTK draws by EGL. The libraries of Debian for this are libegl1 and, without a graphics card,
     libgl1-mesa-dri.
@@ -86,7 +86,7 @@ def places_of(view: Mapping[str, Any]) -> dict[str, Any]:
 class Scene:
     """The picture of a riis.view.Model.
 
-    model    the Model. The scene reads it and never changes it
+    model    the Model. The scene reads the model and never changes it
     grid     the mesh as pyvista.UnstructuredGrid, with the nodes and cells of the model, or None for leaflets alone
     wall     the mesh's boundary as pyvista.PolyData. If None, the scene extracts it
     plotter  the pyvista.Plotter to draw into. If None, the scene makes one without a window
@@ -105,7 +105,7 @@ class Scene:
         self._wall = wall if wall is not None or grid is None else boundary_of(grid)
         self._how, self._cells_shown = "cut", "partly"
         self._plane: Any = None
-        self._waiting = False  # whether marked cells are drawn only once the hand rests
+        self._waiting = False  # whether marked cells are drawn only after the hand rests
         self._shown: Any = None
         self._data: dict[str, Any] = {}
         self._actors: dict[str, Any] = {}
@@ -135,9 +135,9 @@ class Scene:
             self._actors["riis cut"].SetVisibility(self._how == "cut")
 
     def freeze(self) -> None:
-        """Cuts the wall itself, where otherwise a plane hides the half towards the camera. vtk.js knows no such plane.
+        """Cuts the wall itself. Otherwise a plane hides the half towards the camera, but vtk.js knows no such plane.
 
-        It knows no scale bar either.
+        vtk.js knows no scale bar either.
         """
         drop_scale_bar(self.plotter)
         if self._plane is not None:
@@ -199,7 +199,7 @@ class Scene:
     # what moves
 
     def _put(self, name: str, data: Any, **how: Any) -> None:
-        """Draws data under this name, or gives the drawn object these data."""
+        """Draws data under this name. If an object has this name already, gives it these data."""
         if name in self._data:
             self._data[name].shallow_copy(data)
             self._actors[name].SetVisibility(data.n_points > 0)
@@ -215,7 +215,7 @@ class Scene:
         self.plotter.remove_actor(name, reset_camera=False)
 
     def show(self, shown: Any, quick: bool = False) -> None:
-        """Draws the leaflets, and the cells around them, of Model.update(). In a quick show, very many cells wait for rest()."""
+        """Draws what Model.update() returned: leaflets and cells near them. In a quick show, very many cells wait for rest()."""
         self._shown = shown
         add_scale_bar(self.plotter, self.model.unit, lift=0.03)  # above the page's legend
         self._waiting = quick and len(shown.cells_marked) + len(shown.cells_partly) > MANY_MARKED
@@ -268,7 +268,7 @@ class Scene:
             return self._pv.PolyData()
         return boundary_of(self.grid.extract_cells(cells))
 
-    # the things that the lights name, and handles
+    # things that the lights report, and handles
 
     def show_lights(self, lights: Any) -> None:
         """Draws the points and edges of the lights: passages in red, crossings in magenta."""
@@ -296,7 +296,8 @@ class Scene:
             self._drop(name)
 
     def show_orifice(self, lines: Any, axis: Any = (0.0, 0.0, 1.0), least: float = 0.0) -> None:
-        """Draws closed lines, each an array of shape (n, 3), around at least this area: smooth, and flat across the axis."""
+        """Draws closed lines, each an array of shape (n, 3), around at least this area. The lines are smooth, and flat across the
+        axis."""
         self._drop("riis orifice")
         lines = [numpy.asarray(line, float) for line in lines if len(line) > 8]
         lines = [_smooth(line, numpy.asarray(axis, float)) for line in lines if _area_of(line) > least]
@@ -319,7 +320,7 @@ class Scene:
             )
 
     def show_handle(self, origin: Any = None, axis: Any = None, length: float = 1.0) -> None:
-        """Draws the valve's axis as an arrow downstream from its origin, or nothing."""
+        """Draws the valve's axis as an arrow from its origin downstream, or nothing."""
         self._drop("riis handle")
         if origin is not None:
             arrow = self._pv.Arrow(
@@ -357,7 +358,7 @@ class Scene:
         return {name: [float(x) for x in place] for name, place in places.items()}
 
     def set_view(self, view: Mapping[str, Any]) -> None:
-        """Looks and cuts as view() said."""
+        """Looks and cuts as view() described."""
         places = places_of(view)
         for name in ("position", "focal_point", "up"):
             setattr(self.plotter.camera, name, tuple(places[name].tolist()))
@@ -368,7 +369,7 @@ class Scene:
             self._placed = None
 
     def turn_view(self, dx: float, dy: float) -> None:
-        """Turns the camera about its focal point. dx and dy are parts of the picture's height."""
+        """Turns the camera about its focal point. dx and dy are shares of the picture's height."""
         camera = self.plotter.camera
         camera.Azimuth(-180.0 * dx)
         camera.Elevation(-180.0 * dy)
@@ -406,7 +407,7 @@ class Scene:
         self.plotter.renderer.ResetCameraClippingRange()
 
     def pick(self, x: float, y: float) -> Any:
-        """Returns the point of the mesh's wall under a point of the picture, or None.
+        """Returns the point of the mesh's wall behind a point of the picture, or None.
 
         x and y are from 0 to 1, from the picture's lower left corner.
         """
@@ -443,7 +444,7 @@ class Scene:
             self.plotter.window_size = list(size)
 
     def quick_picture(self) -> bytes:
-        """Returns the picture as the bytes of a JPEG file, with as few pixels as needed to keep up with a hand that moves."""
+        """Returns the picture as the bytes of a JPEG file, with so few pixels that it keeps up with a moving hand."""
         self.plotter.render_window.SetMultiSamples(0)
         self._set_window(self._ratio)
         start = time.perf_counter()
@@ -461,7 +462,7 @@ class Scene:
         return self._jpeg(92)
 
     def sharpen(self) -> None:
-        """Makes the next picture one with all pixels and smooth edges."""
+        """Gives the next picture all pixels and smooth edges."""
         self.plotter.render_window.SetMultiSamples(4)
         self._set_window(1.0)
 
@@ -512,7 +513,7 @@ def widget(model: Any, grid: Any = None) -> Any:
 
 
 def _smooth(line: Any, axis: Any) -> Any:
-    """Returns a closed line in the plane of its mean height, and without the steps of the grid on which it was found."""
+    """Returns a closed line in the plane of its mean height, without the steps of the grid on which it was found."""
     height = line @ axis
     line = line + numpy.outer(height.mean() - height, axis)
     return numpy.mean([numpy.roll(line, k, axis=0) for k in range(-3, 4)], axis=0)

@@ -4,7 +4,7 @@
 //
 // It moves the valve by a law in time, and marks the cells once in a step. It adds K (U - U_valve) / rho to the equation of a
 // solver with kinematic pressure, such as the module incompressibleFluid. The source comes from ../riisNetSource.H. The solver
-// takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md says which entries it takes.
+// takes it by fvModels().sourceProxy(p), so no solver of matrices is needed here. ../../README.md lists the entries.
 #include "addToRunTimeSelectionTable.H"
 #include "fvMatrices.H"
 #include "fvModel.H"
@@ -23,7 +23,7 @@ class riisModel : public fvModel {
   riisTimeLaw law_;
 
   riis_surface_options placement_;
-  riisPtr<riis_valve> valve_, before_;  // before_ is the valve at the last step's end
+  riisPtr<riis_valve> valve_, before_;  // before_ is the valve at the end of the last step
   riisPtr<riis_surface> surface_;
   riisPtr<riis_mesh> cells_;
   riisPtr<riis_marks> marks_;
@@ -96,7 +96,8 @@ riisModel::riisModel(const word &name, const word &modelType, const fvMesh &mesh
 }
 
 void riisModel::readAll(const dictionary &whole) {
-  // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. Keys beside the part would do nothing.
+  // OpenFOAM reads the keys from a part of the entry, if the entry has such a part. If the entry has a subdictionary for the
+  // keys, OpenFOAM reads them from there.
   const word part = type() + "Coeffs";
   if (whole.found(part)) refuseOthers(whole, {"type", "libs", part.c_str()});
   const dictionary &dict = whole.optionalSubDict(part);

@@ -17,7 +17,7 @@ namespace {
 
 int own_rank = 0, number = 1;
 
-// An element of some bytes. Counts of elements stay below MPI's limit of 2^31 where counts of bytes would not.
+// An element of some bytes. Counts of elements are smaller than counts of bytes, so they stay below MPI's limit of 2^31.
 class ElementType {
  public:
   explicit ElementType(std::size_t size) {
@@ -117,7 +117,7 @@ void agree(const Refusal *failure) {
   if (failure) throw AgreedRefusal{*failure};
 }
 
-// With one rank, gather and exchange return their argument and do not come here.
+// With one rank, gather and exchange return their argument without this call.
 std::vector<std::byte> gather_bytes(const void *own, std::size_t n_bytes, std::size_t) {
   std::vector<std::byte> all(n_bytes);
   if (n_bytes > 0) std::memcpy(all.data(), own, n_bytes);

@@ -31,7 +31,7 @@ int n_ranks();
 // Only the first rank prints, and writes the files that all ranks share.
 inline bool is_first() { return rank() == 0; }
 
-// While an object of this type lives, the first rank works alone: its exchanges and agreements are with itself. The other ranks
+// While an object of this type lives, the first rank works alone: it exchanges and agrees only with itself. The other ranks
 // meanwhile wait in the agreement at the end of the program.
 class Alone {
  public:

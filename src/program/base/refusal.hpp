@@ -21,7 +21,7 @@ struct Refusal {
 [[noreturn]] inline void refuse_data(const std::string &text) { throw Refusal{exit_bad_data, text}; }
 [[noreturn]] inline void refuse_usage(const std::string &text) { throw Refusal{exit_wrong_usage, text}; }
 
-// Returns the library's message. A struct field at its start is replaced by the option of the command line that sets the field.
+// Returns the library's message. If it begins with a struct field, the command-line option that sets the field replaces it.
 inline std::string with_option_named(const std::string &text) {
   static const std::pair<std::string, std::string> options[] = {{"options.scale ", "--scale "},
                                                                 {"options.rotation_axis ", "--rotate: the axis "},
@@ -45,8 +45,8 @@ inline std::string with_option_named(const std::string &text) {
 }
 
 // Throws a Refusal with the library's own message, unless status is RIIS_OK. Faults of files, arrays and parameters are bad
-// data. A refused argument is wrong usage, because it comes from an option that is out of range. `subject`, such as a file's
-// name, begins messages that do not name it themselves.
+// data. A refused argument is wrong usage, because it comes from an option that is out of range. Messages that do not
+// contain `subject`, such as a file's name, begin with it.
 inline void check(riis_status status, const std::string &subject = "") {
   if (status == RIIS_OK) return;
   const bool data = status == RIIS_INVALID_SURFACE || status == RIIS_INVALID_MESH || status == RIIS_INVALID_PARAMETER ||

@@ -161,7 +161,7 @@ double tidied(double time, double step) {
 std::vector<double> stepped(double start, double stop, double step, const std::string &subject) {
   if (!(step > 0)) refuse_usage(subject + ": the step " + shortest(step) + " is not above 0");
   if (stop < start) refuse_usage(subject + ": the stop " + shortest(stop) + " is before the start " + shortest(start));
-  // The small additions keep rounding from losing the last step if the step divides the span.
+  // If the step divides the span, the small additions keep rounding from losing the last step.
   const double n = std::floor((stop - start) / step * (1 + 1e-12) + 1e-9) + 1;
   if (n > static_cast<double>(most_times)) refuse_count(subject, n);
   if (n < 2) refuse_usage(subject + ": the step " + shortest(step) + " is beyond the stop " + shortest(stop));

@@ -83,7 +83,7 @@ struct CsvFile {
   std::map<std::string, std::string> stated;
   std::vector<Row> rows;
 };
-// Refuses facts with other names than these, facts that are stated twice, and rows that do not have the form, such as "X,Y,Z".
+// Refuses facts with other names, facts stated twice, and rows that do not have the form, such as "X,Y,Z".
 CsvFile csv_of_text(const std::string &path, const std::string &text, const std::vector<std::string> &names,
                     const std::string &form, std::size_t n_cells);
 

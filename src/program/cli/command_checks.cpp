@@ -62,8 +62,8 @@ void check_open_state(const ValveOptions &options) {
     refuse_usage("--params-open has no effect with --valve " + options.valve + ": the open state is in that file");
 }
 
-// Refuses an open state without an opening. Most valves are closed by default, so it would have no effect, and the user would not
-// notice.
+// Refuses an open state without an opening. Most valves are closed by default, so the option would have no effect, and the user
+// would not notice.
 void check_open_state_is_met(const MarkOptions &options) {
   if (!options.params_open.empty() && !sets_opening(options) && options.series.cycle.empty())
     refuse_usage("--params-open needs --opening or --cycle: without either the valve does not open to that state");

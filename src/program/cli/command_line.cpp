@@ -53,8 +53,8 @@ void check_equals_signs(int argc, char **argv) {
   }
 }
 
-// Returns a hint about words that are left over on the command line. In most cases the user typed a value as several words
-// although the option takes one word.
+// Returns a hint about words that are left over on the command line. Usually the user typed a value as several words, but
+// the option takes one word.
 std::string hint_of(const CLI::App &app) {
   const struct {
     const char *name;
@@ -81,8 +81,8 @@ std::string nearest_option(const CLI::App &app, const std::string &name) {
 
 bool looks_like_option(const std::string &argument) { return argument.size() > 1 && argument[0] == '-'; }
 
-// Returns a text that lists the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If
-// some of the words are unknown options, the text lists only these options. The other words may be their values.
+// Returns a list of the words that CLI11 did not understand, in the order of typing. (CLI11 does not keep this order.) If some of
+// the words are unknown options, the list has only these options. The other words may be their values.
 std::string text_of_leftovers(const CLI::App &app, int argc, char **argv) {
   std::vector<std::string> left = app.remaining();
   const bool has_options = std::any_of(left.begin(), left.end(), looks_like_option);
@@ -154,7 +154,7 @@ std::optional<Request> parse_command_line(int argc, char **argv) {
     made->footer(help_of(name));
     return made;
   };
-  // For each command that has options: the command, and the call that makes the request of these options.
+  // For each command with options: the command, and the call that turns these options into the request.
   std::vector<std::pair<const CLI::App *, std::function<Request()>>> commands;
   const auto add = [&](CLI::App &in, const char *name, const char *what, auto declare, auto finish, auto options) {
     const Command command(named(in, name, what));

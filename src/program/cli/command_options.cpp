@@ -278,7 +278,7 @@ CLI::Option *declare_case(Command &command, SeriesOptions &series) {
                       series.case_file);
 }
 
-// Excludes the options for which the case file contains its own values, as far as the command has them.
+// Excludes those of the command's options for which the case file has its own values.
 void exclude_by_case(const Command &command, CLI::Option *all_of_it) {
   for (const char *name :
        {"--surface", "--leaflets",      "--valve",         "--opening",        "--params",         "--params-open",

@@ -24,7 +24,7 @@ int give_up(int exit_code, std::string text) {
   return exit_code;
 }
 
-// Opens a substitute for each standard stream that is closed. Otherwise the next file to be opened would get the stream's
+// Opens a substitute for each standard stream that is closed. Otherwise the next opened file would get the stream's
 // number, and prints would go into that file. The substitute is opened for reading, so prints to it fail.
 void occupy_closed_streams() {
   for (const int stream : {0, 1, 2}) {

@@ -17,7 +17,7 @@ void run_states(const StatesOptions &options);
 // command takes, and as text for OpenFOAM, C and Fortran.
 void run_place(const PlaceOptions &options);
 
-// riis size-field. In: valves and their motion. Out: a grid of edge lengths, small near the valves, as gmsh reads it. The lengths
+// riis size-field. In: valves and their motion. Out: a grid of edge lengths that gmsh reads, small near the valves. The lengths
 // follow from the distances of the grid's points to the valves at all times.
 ExitCode run_size_field(const SizeFieldOptions &options);
 

@@ -29,8 +29,8 @@ constexpr std::int64_t most_field_points = 20'000'000;
 // Returns a law whose opening is the time, so that times stand for openings.
 OpeningLaw all_openings() { return OpeningLaw(OpeningTable{{0, 1}, {0, 1}}, ""); }
 
-// Returns the valves and their times. A valve of the command line without times moves through its openings, unless the user gave
-// one.
+// Returns the valves and their times. A valve of the command line without times moves through all openings, unless the user gave
+// an opening.
 Case case_of(const SizeFieldOptions &options) {
   const bool has_case = !options.series.case_file.empty();
   Case all = has_case ? read_case(options) : case_of_command_line(options);
@@ -97,8 +97,8 @@ struct Grid {
   }
 };
 
-// Returns the triangles of one valve at all times as one surface. The distance to this surface is the least distance of the whole
-// motion, so one marking per valve suffices.
+// Returns the triangles of one valve at all times as one surface. The distance to this surface is the least distance over the
+// whole motion, so one marking per valve suffices.
 Surface swept_surface(MovingValve &valve, double half_thickness, const Case &all) {
   const std::vector<double> &times = all.options.series.times;
   JoinedTriangles swept;
@@ -181,8 +181,8 @@ std::string text_of(const Grid &grid, const std::vector<double> &lengths) {
   return text;
 }
 
-// Returns the lines that load the field in a .geo file. The other sources of lengths are switched off, because gmsh takes the
-// least of all.
+// Returns the lines that load the field in a .geo file. gmsh takes the least length of all sources, so the other sources are
+// switched off.
 std::string gmsh_lines(const SizeFieldOptions &options, double largest) {
   return "gmsh      Field[1] = Structured;\n"
          "          Field[1].FileName = \"" +

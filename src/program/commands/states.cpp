@@ -46,8 +46,8 @@ struct States {
   bool has_edges() const { return why_no_edges.empty(); }
 };
 
-// The orifice of the triangles differs from that of the smooth surface. The difference is up to 0.3 % for the prosthesis at the
-// program's usual tolerance. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
+// The orifice of the triangles differs from that of the smooth surface. At the program's usual tolerance, the difference is up
+// to 0.3 % for the prosthesis. At this tolerance it is at most about 0.1 % for the prosthesis and for the aortic valve.
 constexpr double fine_tolerance = 0.01;
 
 riis_surface_options own_frame(const StatesOptions &options) {
@@ -83,7 +83,7 @@ class Measured {
     keyframes_ = std::move(source.keyframes);
   }
 
-  // Moves to a place: an opening of a valve, or a time of a surface that moves.
+  // Moves to a state: an opening of a valve, or a time of a moving surface.
   void move_to(double place) {
     if (keyframes_)
       check(riis_surface_update_from_keyframes(surface_, keyframes_, place, 0, nullptr), options_.surface);
@@ -285,7 +285,7 @@ std::string text_of_contact(const States &states) {
   return text;
 }
 
-// Lists the free edges that gain or lose more than a tenth, and the opening at which this begins.
+// Lists the free edges whose length changes by more than a tenth, and the opening at which this begins.
 std::string text_of_changes(const States &states) {
   std::string text;
   for (std::size_t i = 0; i < states.names.size(); ++i) {
@@ -304,7 +304,8 @@ std::string text_of_changes(const States &states) {
   return text.empty() ? "all " + range : "not " + range + ": " + text;
 }
 
-// Returns the names in letters, digits and _. If a name has other characters, such as "x > 0", numbers replace all names.
+// Returns the names in letters, digits and _. If a name has other characters, such as "x > 0", numbers replace the names of all
+// leaflets.
 std::vector<std::string> columns_of(const States &states) {
   std::vector<std::string> columns = states.names;
   bool are_words = true;

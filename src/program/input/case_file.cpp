@@ -218,7 +218,7 @@ class CaseReader {
     source.warp.apply(times.empty() ? 0 : times.front(), valve);
   }
 
-  // Sets parameters from an object, or from a file if the value is a path.
+  // Sets parameters from an object, or from a file if a path is given.
   void set_parameters_of(const CaseValues &values, const char *key, riis_valve *valve) {
     if (!values.has(key)) return;
     if (values.needed(key).is_string())

@@ -24,8 +24,8 @@ struct Side {
   std::int32_t leaflet;
 };
 
-// Pieces of faces that are joined by sides, and how each face is turned in its piece. In the sets, face i is the number i as it
-// is, and the number n + i turned over. Two numbers in one set face the same way.
+// Pieces of faces that are joined by sides, and how each face is turned in its piece. In the sets, the number i is face i as it
+// is, and the number n + i is face i turned over. Two numbers in one set face the same way.
 class Pieces {
  public:
   explicit Pieces(std::int64_t n) : n_(n), sets_(2 * n) {}

@@ -19,7 +19,7 @@ namespace {
 
 const std::vector<std::string> cusp_names = {"right", "left", "non_coronary"};
 
-// The words for roles. Some words may stand for several landmarks, because a valve has several of their role.
+// The words for roles. Some words may stand for several landmarks, because a valve has several landmarks of that role.
 struct RoleWord {
   const char *word;
   std::int32_t role;
@@ -68,7 +68,7 @@ std::int32_t take_cusp(std::string &text) {
 }
 
 // Reads a name: the word of a role, and perhaps more. A number may follow, or one cusp after a nadir, or two cusps after a
-// commissure. A cusp and a number may follow the word of a point of the attachment.
+// commissure. For a point of the attachment, a cusp and a number may follow.
 std::optional<Place> place_of_name(const std::string &name) {
   const std::string text = plain(name);
   for (const RoleWord &known : role_words) {
@@ -214,7 +214,7 @@ void read_json(const Json &root, LandmarkFile &file) {
 
 // ---- 3D Slicer ----
 
-// Returns the unit of a list of points. By 3D Slicer's schema it is a text, or an array that begins with the text, and the
+// Returns the unit of a list of points. By 3D Slicer's schema it is a text, or an array whose first entry is the text; the
 // default is mm.
 Unit slicer_unit(const std::string &path, const Json &list, const std::string &where) {
   const auto found = list.find("coordinateUnits");

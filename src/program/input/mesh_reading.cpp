@@ -47,8 +47,8 @@ class PassingFolder {
   const TemporaryFolder folder_;
 };
 
-// Limits the memory of this process, because damaged files may claim any size. Honest files need a few times their size, and up
-// to a thousand times if they are compressed. The address sanitizer reserves terabytes, so there is no limit under it.
+// Limits the memory of this process, because damaged files may claim any size. Sound files need a few times their size, and
+// compressed ones up to a thousand times. The address sanitizer reserves terabytes, so there is no limit under it.
 void limit_memory([[maybe_unused]] const std::string &path) {
 #ifndef __SANITIZE_ADDRESS__
   std::error_code error;
@@ -76,7 +76,7 @@ struct Answer {
   std::string text;
 };
 
-// Reads the mesh, writes it again as a .vtu, and answers through the pipe.
+// Reads the mesh, writes it to a .vtu, and answers through the pipe.
 [[noreturn]] void read_as_child(const std::string &path, const std::string &passed, int answer, pid_t parent) {
   // Readers print errors of their own. This process's message goes through the pipe.
   const int nowhere = open("/dev/null", O_WRONLY);

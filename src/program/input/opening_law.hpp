@@ -22,7 +22,7 @@ class OpeningLaw {
  public:
   // Makes a constant opening.
   explicit OpeningLaw(double opening) : law_(opening) {}
-  // `subject`, such as a file's name, begins the message if the library refuses the law.
+  // If the library refuses the law, the message begins with `subject`, such as a file's name.
   OpeningLaw(OpeningTable table, const std::string &subject);
   OpeningLaw(const riis_opening_times &times, const std::string &subject);
 

@@ -34,7 +34,7 @@ bool is_cusp(const riis_valve *valve, const std::string &name) {
   });
 }
 
-// Returns the parameter's own name for a name that may be its second name, such as "root_radius" for "annulus".
+// Returns a parameter's own name, given this name or its second name, such as "root_radius" for "annulus".
 std::string own_name(const riis_valve *valve, const std::string &name) {
   const std::size_t dot = name.rfind('.'), start = dot == std::string::npos ? 0 : dot + 1;
   for (const riis_parameter &parameter : all_parameters(valve)) {

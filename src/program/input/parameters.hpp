@@ -12,7 +12,7 @@
 namespace riis::program {
 
 // Reads, for example, {"root_radius": 1.29, "right": {"leaflet_angle": 61}, "left.leaflet_angle": 58.5}. Names without a cusp
-// are set first, so the order in the file does not matter. A repeated name is refused, and so are two names of one size, such as
+// are set first, so the order in the file does not matter. Refused are a repeated name, and two names of one size, such as
 // "annulus" and "root_radius".
 void set_from_json_file(riis_valve *valve, const std::string &path);
 

@@ -24,7 +24,7 @@ std::string option_text(Reader reader, const char *name, const std::string &valu
   return reader == Reader::program ? "--" + (name + (" " + value)) : name + ("='" + value + "'");
 }
 
-// Returns the names of the parameters that keep their values: the given ones and those of the landmarks' file. The library
+// Returns the names of the parameters that keep their values: those given and those in the landmarks' file. The library
 // refuses names that are not a parameter's.
 std::string held_names(std::vector<std::string> given, const LandmarkFile &landmarks, const riis_valve *valve) {
   if (landmarks.parameters.is_object())
@@ -192,7 +192,7 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
 
 namespace {
 
-// Returns the mean distance of the landmarks from their nearest nodes, after x and y are perhaps reversed and lengths multiplied.
+// Returns the mean distance of the landmarks from their nearest nodes, after a change of the axes and the unit.
 double distance_from_nodes(const LandmarkFile &landmarks, int64_t n_nodes, const double *nodes, double sign,
                            double factor) {
   double sum = 0;

@@ -16,7 +16,7 @@
 namespace riis::program {
 
 // In: a file of landmarks (docs/formats.md): JSON, 3D Slicer's .mrk.json, or CSV. Out: the landmarks as the library takes them.
-// Nothing is guessed: a file that does not state its unit and its axes is refused.
+// A file that does not state its unit and its axes is refused, so nothing is guessed.
 
 // The directions of x, y and z. LPS is left, posterior, superior; RAS is right, anterior, superior. `mesh` stands for the
 // mesh's own.
@@ -61,7 +61,7 @@ struct PlaceRequest {
 };
 // Changes landmarks as the user says.
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request);
-// Returns the kind of valve that the user gives, or "", or else the landmarks' own. Refuses two kinds that differ.
+// Returns the user's kind of valve, else that of the landmarks' file, else "". Refuses two kinds that differ.
 std::string kind_of(const LandmarkFile &landmarks, const std::string &given, Reader reader);
 
 // A size of the valve.

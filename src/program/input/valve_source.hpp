@@ -32,8 +32,8 @@ class NewValve {
   // `valve` is a kind, or a file of patches. `subject` begins the refusal of an unknown kind.
   NewValve(const std::string &valve, const std::string &subject);
   operator riis_valve *() const { return valve_; }
-  // Gives up the valve. Refuses an opening that needs an open state if its file has none, because the library's own message would
-  // advise another valve.
+  // Gives up the valve. Refuses an opening if the valve's file lacks an open state, because the library's message would advise
+  // another valve.
   Valve take();
   Valve take_unchecked() { return std::move(valve_); }
 
@@ -50,7 +50,7 @@ enum class OpeningCheck { no, yes };
 // Makes the valve of --valve, --params and the options that belong to them. `moving` receives the warp. If it is NULL, a warp
 // that moves is refused.
 Valve make_valve(const ValveOptions &options, OpeningCheck opening = OpeningCheck::yes, WarpSource *moving = nullptr);
-// Returns the beginning of refusals of a valve's shape: its file, or "" for a kind.
+// Returns how refusals of a valve's shape begin: with its file, or "" for a kind.
 std::string subject_of(const ValveOptions &options);
 double opening_of(const riis_valve *valve);
 // Returns n openings from 0 to 1.

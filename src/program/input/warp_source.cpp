@@ -29,7 +29,7 @@ void add_points(const CaseValues &values, const char *key, const Json &list, std
   }
 }
 
-// Landmarks are data of the case, so a refusal of them names the case.
+// Landmarks are data of the case, so their refusal names the case.
 void check_landmarks(riis_status status, const std::string &subject) {
   if (status == RIIS_INVALID_ARGUMENT || status == RIIS_INVALID_PARAMETER)
     refuse_data(subject + ": " + riis_last_error());

@@ -64,7 +64,7 @@ std::string leaflet_text(const ValveOptions &options, int32_t leaflet) {
   return at < names.size() ? names[at] : std::to_string(leaflet);
 }
 
-// --quiet does not silence this warning, because such a valve cannot be built, and its normals contradict each other.
+// --quiet does not silence this warning, because such a valve cannot exist, and its normals contradict each other.
 void warn_of_crossings(const ValveOptions &options, const CrossingReport &report, const std::string &part,
                        const std::string &advice) {
   const riis_crossing_list &found = report.found;
@@ -74,7 +74,8 @@ void warn_of_crossings(const ValveOptions &options, const CrossingReport &report
   const std::string who =
       is_one_leaflet ? "leaflet " + first + " crosses itself"
                      : "leaflets " + first + " and " + leaflet_text(options, found.deepest_leaflet_id[1]) + " cross";
-  // place_text rounds by an edge's length. The mean length of a pair's intersection serves, because it is about that of an edge.
+  // place_text rounds by an edge's length. The mean length of a pair's intersection stands for the edge length, because both are
+  // about equal.
   warn((part.empty() ? "" : part + ": ") + who + at + ": " + counted(found.n_pairs, "pair") +
        " of triangles go through each other, along a length of " + shown(found.total_length) + "; the deepest is " +
        shown(found.deepest_depth) + " deep, at " +

@@ -31,7 +31,7 @@ KeyedEdge edge_between(NodeKey p, NodeKey q, double length);
 // Returns the edges of all ranks in order, each once.
 std::vector<KeyedEdge> gathered(const std::vector<KeyedEdge> &own);
 
-// Returns the half thickness that the surface still needs if it has the given one, or nothing if it is closed.
+// Returns the half thickness that the surface needs, or nothing if the given one closes it.
 using Left = std::function<std::optional<double>(double half_thickness)>;
 // Returns a half thickness that closes the surface, or 0 if none is found. `valve` is null for a surface from a file.
 double closing_half_thickness(const riis_valve *valve, double half_thickness, const Left &left);
@@ -46,7 +46,7 @@ class MeshLeaks {
             std::string name);
   // Adds the leaks of a piece that was marked with this surface.
   void add(Piece &piece, riis_marks *marks);
-  // Puts the leaks of all ranks into the report, and warns if there are some or if some are unknown. If two points are checked,
+  // Puts the leaks of all ranks into the report, and warns of leaks, or if leaks are unknown. If two points are checked,
   // PassageCheck warns instead. The report has the marks, the surface and the numbers of volume cells.
   void judge(ValveReport &report);
 
@@ -69,7 +69,7 @@ class MeshLeaks {
 // In: a mesh and two points. Out: whether unmarked nodes join the points, the place of the widest passage, and a half thickness
 // that closes it.
 
-// The end of a passage: the node that is nearest to a point of the user's, among the nodes with a neighbour.
+// The end of a passage: of the nodes with a neighbour, the nearest to a point of the user.
 struct PieceEnd {
   NodeKey key;
   double point[3], distance, longest_edge;  // distance to the user's point
@@ -109,8 +109,8 @@ class PassageCheck {
   PieceEnd ends_[2] = {};
 };
 
-// In: the marked pieces of a mesh. Out: measures of one valve's band that matter for a flow: the mesh edges across it, and the
-// open regions that it parts.
+// In: the marked pieces of a mesh. Out: measures of one valve's band for a flow: the mesh edges across it, and the open
+// regions that it separates.
 class BandMeasures {
  public:
   // Adds a piece, which has its neighbours. Returns the open region of each node.

@@ -54,7 +54,7 @@ void report_leak(const MovingValve &valve, FlowReport &flow) {
   flow.drop = valve.options().drop;
 }
 
-// Moves each valve to the time at which its opening comes first in an order, and to the first such time if there are several.
+// Moves each valve to the first of the times whose opening is the first in an order.
 template <class Order>
 void move_to_first(const std::vector<double> &times, std::vector<MovingValve> &valves, Order order) {
   for (MovingValve &valve : valves) {
@@ -194,7 +194,7 @@ void Marking::find_neighbors_for_search(Piece &piece) {
   report_.seconds.adjacency += stage.seconds();
 }
 
-// Also notes the nodes near the motion, and the box that contains all of it.
+// Also notes the nodes near the motion, and the box around the whole motion.
 void Marking::mark_at_all_times(Piece &piece) {
   const Stage stage("marking", options().quiet || all_.is_series());
   std::vector<std::uint8_t> is_near(all_.is_series() ? static_cast<std::size_t>(piece.nodes.n()) : 0);

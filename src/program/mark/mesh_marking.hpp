@@ -16,7 +16,7 @@ namespace riis::program {
 Marks new_result();
 // Marks the nodes of a mesh by a surface.
 Marks marks_of(const riis_surface *surface, riis_mesh *mesh, const riis_mark_options &how);
-// Returns the options for another surface than that of the user's marks: any search, up to a limit.
+// Returns the options for a surface other than that of the user's marks: any search, up to a limit.
 riis_mark_options how_to_mark_again(const MarkOptions &options, double limit = RIIS_AUTO);
 
 // Marks a single node. So the library refuses bad options before a large mesh is read and marked.
@@ -44,9 +44,9 @@ class ResistanceSum {
   bool has_any_ = false;
 };
 
-// Measures, for --steps, the cost of a time step of a moving valve in a mesh that is prepared for many markings. It
-// moves the opening of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step.
-// Throws a Refusal for a valve that cannot move.
+// Measures for --steps what a time step of a moving valve costs in a mesh prepared for many markings. It moves the opening
+// of a copy of the valve back and forth between 0 and 1, and marks the nodes of the file after each step. Throws a Refusal
+// for a valve that cannot move.
 StepTimes time_steps(const MarkOptions &options, const riis_valve *valve, const riis_vtk_mesh *file);
 
 double distance_between(const double *p, const double *q);

@@ -71,8 +71,8 @@ struct NodeKey {
 };
 
 // The nodes of one piece. In a whole mesh, all nodes are inside, and a key is the node's number. In a piece with global ids, a
-// key is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of the coordinates. Among a billion nodes two
-// different ones have equal hashes with a probability below 1e-20.
+// key is the id and a hash of the coordinates. Without, a key is a hash of 128 bits of the coordinates. The probability that two
+// of a billion nodes have equal hashes is below 1e-20.
 class PieceNodes {
  public:
   // `how` has the mesh of which the file is a piece.
@@ -201,15 +201,15 @@ void warn_of_apart(const MeshCounts &counts, const MatchedNodes &matched, const 
 class LooseNodes {
  public:
   void add(const PieceNodes &nodes);
-  // Refuses a mesh in which a loose node is inside another piece, because it would count twice. Reads the pieces again if there
-  // are loose nodes.
+  // Refuses a mesh in which a loose node is inside another piece, because the node would count twice. Reads the pieces again if
+  // there are loose nodes.
   void check(const MeshPieces &mesh) const;
 
  private:
   std::vector<NodeKey> keys_;
 };
 
-// Returns memory that is free in this process to the system. Without this call, the memory of large pieces would stay between
+// Returns memory that is free in this process to the system. Without this call, large pieces' freed memory would stay between
 // the shared nodes.
 void release_free_memory();
 

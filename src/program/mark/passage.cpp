@@ -22,7 +22,7 @@ std::string text_of(const double *point) { return numbers_text(point, 3, " "); }
 // Refuses an end that is outside the mesh or has no node near it. `why_none` is the reason to give if no node has a neighbour.
 void check_end(const MarkOptions &options, int end, const std::optional<PieceEnd> &nearest, const std::string &name,
                const Box &box, const std::string &why_none) {
-  // A point inside a cell is at most one edge length away from one of the cell's nodes. This limit allows two.
+  // A point inside a cell is within one edge length of one of the cell's nodes. This limit allows two.
   constexpr double edges_away = 2;
   const LeakCheck &asked = *options.check_leaks;
   const double *const point = asked.point(end);
@@ -185,7 +185,7 @@ void PassageCheck::judge(const riis_surface *surface, const riis_valve *valve, c
   PassageReport passage;
   passage.found = found.found;
   passage.is_end = found.is_end;
-  // Unknown edges cannot close an open path, but they may open a path where the known edges have none.
+  // Unknown edges cannot close an open path, but may make one where the known edges have none.
   passage.is_unknown = found.found.state != RIIS_PASSAGE_OPEN && !unknown.empty();
   if (found.found.state == RIIS_PASSAGE_OPEN && !passage.is_end && unknown.empty())
     passage.closing_half_thickness = closing_half_thickness(valve, found.found.distance, [&](double wanted) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the widest passage in a mesh in pieces. Each piece is reduced to the ways between its shared nodes. All nodes beyond a
-// limit are open at first, and their connected regions are labelled. Then the nearer nodes open one by one, from far to near. If
-// a node joins two sets that both have a shared node or an end, this is a link, which has the node's distance. Regions with a
-// common node are joined, and links open from far to near until both ends are joined. If the ends are joined before any link
+// limit are open at first, and their connected regions are labelled. Then the nearer nodes open one by one, from far to near. A
+// node that joins two sets, each with a shared node or an end, is a link with the node's distance. Regions with a common node
+// are joined. Links are then opened from far to near, until both ends are joined. If the ends are joined before any link
 // opens, the limit was too small.
 #include <algorithm>
 #include <cmath>
@@ -202,7 +202,7 @@ std::optional<FoundPassage> passage_within(const MarkOptions &options, const Mes
 FoundPassage find_passage(const MarkOptions &options, const MeshPieces &mesh, const riis_surface *surface,
                           const PieceEnd (&ends)[2]) {
   const riis_surface_info info = info_of(surface);
-  // A path comes at least as near to the surface as its ends, and these are nearer than this.
+  // A path comes at least as near to the surface as its ends, which are nearer than this.
   double farthest = 0;
   for (const PieceEnd &end : ends)
     for (int k = 0; k < 3; ++k)

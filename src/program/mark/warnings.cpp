@@ -49,7 +49,7 @@ bool is_parametric(const MarkOptions &options) { return options.surface.empty() 
 
 bool has_all(const Situation &s) { return s.n_marked == s.n_nodes && s.n_nodes >= fewest_judged_nodes; }
 
-// Returns whether suspiciously few nodes are marked. A single layer of nodes over the surface would have about area / edge^2
+// Returns whether suspiciously few nodes are marked. A single layer of nodes on the surface would have about area / edge^2
 // nodes.
 bool has_hardly_any(const Situation &s) {
   if (s.n_marked == 0 || s.n_nodes < fewest_judged_nodes || s.median_edge == 0) return false;

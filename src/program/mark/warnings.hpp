@@ -41,7 +41,7 @@ std::optional<Warning> warning_of(const Situation &situation);
 
 // Prints the line on stderr, and counts it for --strict. --quiet does not silence it, because wrong marks look like right ones.
 void warn(const std::string &text);
-// Prints the texts of all warnings, but the advice only for the first cause. Later calls omit the advice for later causes. The
+// Prints the texts of all warnings, but advice only for the first cause. Later calls omit the advice for later causes. The
 // first advice may correct everything, and a second one could contradict it.
 void warn(std::vector<Warning> warnings);
 std::int64_t n_warnings();

@@ -108,8 +108,8 @@ NamedFiles outputs_of(const MarkOptions &options) {
   return outputs;
 }
 
-// Returns a text that is the same for all paths to one file. It consists of the device and the inode, or of the path to the file
-// if the file does not exist.
+// Returns a text that is the same for all paths to one file. It consists of the device and the inode, or of the path if the file
+// does not exist.
 std::string identity_of(const std::string &path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
@@ -358,8 +358,8 @@ void set_handlers(void (*from)(int), void (*to)(int)) {
   }
 }
 
-// While an object of this type lives, signals that end the process are blocked. So no signal can come between the making of a
-// lock file and the setting of the handlers.
+// While an object of this type lives, signals that end the process are blocked. So no signal can come after a lock file is
+// made and before the handlers are set.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -405,7 +405,7 @@ int take(const std::string &output, const std::string &lock) {
     if (file < 0) refuse_lock(output, "its lock " + lock + " cannot be made: " + system_text(errno));
     if (flock(file, LOCK_EX | LOCK_NB) == 0) {
       if (is_at(file, lock)) return file;
-      close(file);  // the run that held the lock has just removed its file, so this run makes a new one
+      close(file);  // the run that held the lock has just removed the lock file, so this run makes a new one
       continue;
     }
     const int error = errno;

@@ -71,9 +71,9 @@ class UnbrokenWrite {
   struct sigaction before_[3];
 };
 
-// Throws a Refusal for an output that would replace an input or another output, that has a wrong ending, or whose folder is
-// missing or not writable. Also throws one for a picture without a display, and for an output that another run is writing. The
-// caller must keep the returned locks until everything is written. more_inputs are other files that were read.
+// Throws a Refusal for an output that would replace an input or another output, has a wrong ending, or has no writable folder.
+// Also throws a Refusal for a picture without a display, and for an output that another run is writing. The caller must
+// keep the returned locks until everything is written. more_inputs are other files that were read.
 [[nodiscard]] OutputLocks check_outputs(const MarkOptions &options, const std::vector<std::string> &more_inputs = {});
 [[nodiscard]] OutputLocks check_outputs(const SizeFieldOptions &options, const std::vector<std::string> &more_inputs);
 [[nodiscard]] OutputLocks check_outputs(const StatesOptions &options);

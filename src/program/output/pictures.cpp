@@ -125,7 +125,7 @@ struct JoinedMarks {
   std::vector<double> marked, distance, leaflet;
 };
 
-// Returns the names of all leaflets. Leaflets without names get their numbers, except those of a single file at one time.
+// Returns the names of all leaflets. Leaflets without names get their numbers, except in a single file at one time.
 std::vector<std::string> leaflet_texts_of(const Case &all, const std::vector<MovingValve> &valves) {
   std::vector<std::string> texts;
   if (valves.size() == 1 && !all.is_series()) {
@@ -155,7 +155,7 @@ bool RunPictures::are_wanted(const MarkOptions &options) {
   return !options.pictures.empty() || !options.series.movie.empty();
 }
 
-// riis_vtk draws the arrays with the default names. The output, which may have other names, has its arrays in another mesh, or is
+// riis_vtk draws the arrays with the default names. The output's arrays, which may have other names, are in another mesh or
 // already written.
 void RunPictures::set_marks_of(std::vector<MovingValve> &valves) {
   if (!mesh_) return;

@@ -273,7 +273,7 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"n_cells_without_known_edges", leaks.n_cells_left_out}});
 }
 
-// Returns the keys of a valve. If it is the only one, the keys of the run are among them.
+// Returns the keys of a valve. The only valve also gets the keys of the run.
 nlohmann::ordered_json json_of_valve(const Report &report, const ValveReport &valve, bool is_only) {
   nlohmann::ordered_json json;
   if (is_only) json["version"] = riis_version_string();
@@ -335,7 +335,7 @@ std::string json_of(const Report &report) {
   return json.dump(2) + "\n";
 }
 
-// A series has a line for the times of each valve, and one state has lines for its surface and its marks.
+// For a series, each valve has a line about its times; for one state, it has lines about surface and marks.
 std::string table_of(const Report &report) {
   std::ostringstream out = table_stream();
   const bool is_series = !report.times.empty(), has_mesh = !report.mesh_name.empty();

@@ -71,7 +71,7 @@ Value hexahedron_shape(std::size_t n_nodes, const Place &node, const Place &at) 
     for (std::size_t k = 0; k < 3; ++k) v = product(v, quadratic(node[k], at[k], k));
     return v;
   }
-  // With 20 nodes, middles have (1 - x^2) along their edge, and corners have one more factor.
+  // With 20 nodes, a middle node has the factor (1 - x^2) along its edge, and a corner has one more factor.
   bool is_middle = false;
   for (std::size_t k = 0; k < 3; ++k) {
     if (node[k] != 0) {

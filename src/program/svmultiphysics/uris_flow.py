@@ -24,7 +24,7 @@ except ImportError as error:
         raise
     sys.exit(print("lacks", (error.name or "scipy").partition(".")[0]))
 
-# The share of R / eps^2 that resists the flow everywhere. This share replaces the inertia: otherwise the equations outside the
+# The share of R / eps^2 that resists the flow everywhere. This share replaces the inertia. Otherwise the equations outside the
 # band would have almost no velocity terms. It adds a thousandth to the drop.
 SHARE_EVERYWHERE = 1e-4
 # The constant of the solver's stabilisation.
@@ -61,7 +61,7 @@ class Region(NamedTuple):
 
 
 def faces_of(places):
-    """Returns the nodes of each face of an element, and its number of corners, from the places of its nodes."""
+    """Returns each face's nodes and the number of corners of an element, from the places of its nodes."""
     x, y, z = places.T
     n_corners = {4: 4, 10: 4, 6: 6}.get(len(places), 8)
     # Each of these functions vanishes on one face.
@@ -103,7 +103,7 @@ def region_of(problem):
         is_cut[cut] = True
         starts.append(np.repeat(cut[:, 0], len(face)))
         ends.append(cut.ravel())
-    # Each connected piece of the cut is on the side on which most of its nodes are.
+    # Each connected piece of the cut belongs to the side of most of its nodes.
     starts, ends = np.concatenate(starts), np.concatenate(ends)
     joins = sparse.coo_matrix((np.ones(len(starts)), (starts, ends)), shape=(n, n))
     n_pieces, piece = csgraph.connected_components(joins, directed=False)
@@ -175,8 +175,8 @@ def equations_of(problem, region):
 def parts_of(region, size):
     """Returns the part of each node. A part is a column through the valve, with about `size` nodes.
 
-    The nodes of the cut before the valve are halved across their longest extent until they are few. Each node of the region
-    belongs to the nearest of them. Columns let the flow through, so they need fewer iterations than other parts.
+    The nodes of the cut before the valve are halved across their longest extent until each part is small. Each node of the
+    region belongs to the nearest of them. Columns let the flow through, so they need fewer iterations than other parts.
     """
     inlet = region.xyz[region.is_inlet]
     most = max(1, size * len(inlet) // len(region.xyz))

@@ -18,7 +18,7 @@ namespace {
 
 // The solver's bands of pressure end at this many half thicknesses.
 constexpr double band_end = 5;
-// The share of (R / eps) u that counts as enough, and the largest half thickness, over the given one, that is tried for it.
+// The share of (R / eps) u that is enough, and the largest half thickness that is tried, over the given one.
 constexpr double enough = 0.95, most_thickness = 2;
 
 class Forecaster {
@@ -138,7 +138,7 @@ class Forecaster {
     warn_of_negative_shapes(distances);
     const std::vector<double> near =
         near_nodes(std::max(band_end * half_thickness_, most_thickness * half_thickness_ + 2 * median_edge_));
-    // The export of a larger half thickness has a larger box, and the sides must be known up to the reach.
+    // The export of a larger half thickness has a larger box, and the sides must be known up to this reach.
     const SolverDistances wide = solver_distances(mesh_, leaflets_, vertices_, true, half_thickness_,
                                                   band_end * most_thickness * half_thickness_ + 4 * median_edge_);
     const Expected expected = expected_at(half_thickness_, distances, wide, near);

@@ -175,7 +175,7 @@ void UrisLeaflets::add_boxes(const UrisMotion &motion) {
 namespace {
 
 // The solver widens its box by solver_share. Its pressure bands end at end_of_bands half thicknesses. The additional 1e-6 keeps
-// a node at the very end of the bands inside the box.
+// a node at the end of the bands inside the box.
 constexpr double solver_share = 0.1, end_of_bands = 5 * (1 + 1e-6);
 
 Box box_of(const std::vector<Corners> &triangles, const std::vector<double> &xyz) {

@@ -69,7 +69,7 @@ std::vector<double> frames_of(const OpeningLaw &law, const TimeSpan &span, doubl
   if (step > length * (1 + 1e-9)) {
     refuse_usage("--time-step: " + shortest(step) + " is longer than the " + what + ", " + shortest(length));
   }
-  // The small subtractions keep rounding from adding a short step if the step divides the span.
+  // If the step divides the span, the small subtractions keep rounding from adding a short step.
   const double n_steps = std::max(1.0, std::ceil(length / step * (1 - 1e-12) - 1e-9));
   if (n_steps >= static_cast<double>(most_times)) {
     refuse_usage("--time-step: " + shortest(step) + " makes " + shortest(n_steps + 1) + " frames of the " + what +

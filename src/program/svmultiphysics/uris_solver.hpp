@@ -85,11 +85,11 @@ SolverDistances solver_distances(const SolverMesh &mesh, const UrisLeaflets &lea
                                  bool is_closing, double half_thickness, double margin = 0);
 
 // Returns the solver's distance at a point of element e: the absolute distances at its nodes, interpolated. Quadratic shape
-// functions have negative values. At the border of the box, where nodes are far by the solver's large number, they make negative
-// distances, and the solver's condition for the band accepts them.
+// functions have negative values. At the box's border, nodes have the solver's large number, and some distances become negative.
+// The solver's condition for the band accepts them.
 double interpolated_distance(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at,
                              const std::vector<double> &distances);
-// Returns the solver's delta, which is K / R, at a point of element e.
+// Returns the solver's delta at a point of element e: K / R.
 double solver_delta(const SolverMesh &mesh, std::int64_t e, const ShapeFunctions &at, const SolverDistances &distances,
                     double half_thickness);
 // Returns (1 + cos(pi d / eps)) / (2 eps^2), or 0 beyond eps.

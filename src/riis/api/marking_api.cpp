@@ -57,7 +57,8 @@ riis::InstructionSet instructions_asked_for(std::int32_t instructions) {
   return set;
 }
 
-// Returns the arrays of a list, with NULL for an empty one. A field that the marking needed only to compute K stays NULL.
+// Returns the arrays of a list, with NULL for an empty one. The array of a field stays NULL if the marking needed the field only
+// to compute K.
 riis_mark_list arrays_of(const riis::ListedNodes &list, const riis::WantedData &data) {
   const auto array = [](const auto &values) { return values.empty() ? nullptr : values.data(); };
   const auto field = [&](std::int32_t which, const auto &values) {
@@ -178,7 +179,8 @@ const riis::Adjacency &require_adjacency(const riis::Mesh &mesh, const char *pur
   return *mesh.adjacency();
 }
 
-// Refuses marks of a mesh with another number of nodes. A different mesh with the same number of nodes is not noticed.
+// Refuses marks of a mesh with another number of nodes. A mesh with the same number of nodes passes, even if it is a different
+// mesh.
 void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
   if (!marks.was_marked) riis::fail(RIIS_INVALID_ARGUMENT, "marks are empty: call riis_mark_nodes with them first");
   if (marks.stats.n_nodes != mesh.nodes().n)
@@ -186,8 +188,8 @@ void check_are_of_mesh(const riis::Mesh &mesh, const riis::Marks &marks) {
                mesh.nodes().n);
 }
 
-// Refuses marks of a mesh with another number of nodes, or of a surface with another half thickness. Other differences are not
-// noticed.
+// Refuses marks of a mesh with another number of nodes, or of a surface with another half thickness. Other differences
+// pass.
 void check_are_of_marking(const riis::SearchRequest &request, const riis::Marks &marks) {
   require_adjacency(request.mesh, "which a search for leaks needs");
   check_are_of_mesh(request.mesh, marks);

@@ -61,7 +61,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis::Surface *wall,
           0};
 }
 
-// Tries openings of a valve in a mesh. It calls the public functions, so bad input is refused with their messages.
+// Tries openings of a valve in a mesh. It calls the public functions, so their messages refuse bad input.
 class PassageTrials {
  public:
   PassageTrials(const riis_valve *valve, const riis_mesh *mesh, const riis_passage_ends *ends,
@@ -131,7 +131,7 @@ riis_first_passage first_passage(PassageTrials &trials, double tolerance) {
   return found_at(open, closed, passage, RIIS_FIRST_PASSAGE_FOUND);
 }
 
-// Returns the volume of one leaflet, or the sum of all leaflets without the skirt, after the placement. `skirt` is -1 without a
+// Returns the volume of one leaflet after the placement, or the sum of all leaflets without the skirt. `skirt` is -1 without a
 // skirt.
 double placed_volume(const riis::SweptVolumes &volumes, std::int32_t leaflet_id, std::int32_t skirt,
                      const riis_surface_options &options) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every struct crosses the interface with its size, so that callers compiled against an older header keep working. If the
-// caller's header lacks a field, the field has its default when the library reads the struct. The library does not write such a
+// Every struct crosses the interface with its size, so that callers compiled against an older header keep working. If
+// the caller's header lacks a field, the library reads the field's default. The library does not write such a
 // field.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace riis {
 
 const riis_points default_points{sizeof(riis_points), 0, nullptr, nullptr, nullptr, 1, 64, 0};
 
-// The size that the struct had in the first release that contained it.
+// The size of the struct in the first release that contained it.
 constexpr std::int64_t first_size_of(const riis_points *) { return 56; }
 constexpr std::int64_t first_size_of(const riis_patches *) { return 72; }
 constexpr std::int64_t first_size_of(const riis_parameter *) { return 72; }
@@ -122,13 +122,13 @@ void write_struct(Struct *out, std::int64_t size, const char *name, const Struct
   copy_bytes(out, &value, size);
 }
 
-// Writes an output, unless the caller passed null to leave it out.
+// Writes an output, unless the caller left it out by passing null.
 template <class T>
 void put(T *to, T value) {
   if (to) *to = value;
 }
 
-// Refuses a value for far points that could be mistaken for a distance within the limit.
+// Refuses a far_distance that could be mistaken for a distance within the limit.
 inline void check_far_distance(const char *name, double far_distance, double distance_limit) {
   if (far_distance >= 0 && far_distance <= distance_limit)
     fail(RIIS_INVALID_ARGUMENT, name, " is ", far_distance, "; it must not lie between 0 and the distance limit ",

@@ -42,7 +42,7 @@ double distance_error_of(const riis_surface_options &options) {
          (options.measure_tolerance == RIIS_AUTO ? options.tolerance : options.measure_tolerance);
 }
 
-// Refuses a translation so large that rounding the coordinates would flatten the valve.
+// Refuses a translation so large that the rounding of the coordinates would flatten the valve.
 void check_precision(const riis_surface_options &options, const char *name, double wanted) {
   const double *t = options.translation;
   const double largest = std::max({std::abs(t[0]), std::abs(t[1]), std::abs(t[2])});
@@ -51,7 +51,7 @@ void check_precision(const riis_surface_options &options, const char *name, doub
                ", where coordinates round by more than a thousandth of ", name, " * half_thickness, ", wanted);
 }
 
-// Returns the request. It keeps an n_threads of 0, because the surface itself chooses the default number of threads.
+// Returns the request. It keeps an n_threads of 0, because the surface then chooses the number of threads itself.
 riis::SurfaceRequest request_of(const riis_surface_options &options) {
   return {riis::half_thickness_of(options), riis::placement_of(options), options.flip_normals != 0, options.n_threads};
 }
@@ -64,7 +64,7 @@ struct EarlierArguments {
 };
 
 riis::EarlierValve earlier_of(const EarlierArguments &given, const riis_surface_options &options_now) {
-  // A dt outside of these limits is a mistake. Within the limits no velocity comes near overflow.
+  // A dt outside of these limits is a mistake of the caller. Within the limits no velocity comes near overflow.
   if (!(std::abs(given.dt) >= 1e-30 && std::abs(given.dt) <= 1e30))
     riis::fail(RIIS_INVALID_ARGUMENT, "dt is ", given.dt,
                "; it must be the time from valve_before to valve, from 1e-30 to 1e+30 in magnitude");
@@ -88,7 +88,7 @@ void fill_from_valve(riis_surface &surface, const riis_valve *valve, const riis_
   surface.options = options;
 }
 
-// Returns the options, or the options of the surface's last update if the caller gives none.
+// Returns the caller's options, or the options of the surface's last update if the caller passes none.
 riis_surface_options options_for(const riis_surface &surface, const riis_surface_options *options,
                                  const char *name = "options") {
   return riis::completed(options, name, options ? riis::default_surface_options : surface.options);

@@ -41,7 +41,7 @@ class Keyframes {
   Keyframes(const riis_surface_arrays &arrays, const riis_keyframe_arrays &frames);
   Keyframes(Keyframes &&) = default;  // moving a vector leaves its elements, such as the times, at their address
 
-  // Writes positions and velocities (3, n_vertices). With dt == 0 the velocity is the derivative of the interpolation. At a
+  // Writes positions and velocities (3, n_vertices). For dt == 0 the velocity is the derivative of the interpolation. At a
   // linear key it is the derivative after the key. Otherwise the velocity is the mean from time - dt to time.
   void at(double time, double dt, std::vector<double> &xyz, std::vector<double> &velocity) const;
 
@@ -49,7 +49,7 @@ class Keyframes {
 
  private:
   std::vector<double> time_, xyz_;
-  KeyTimes keys_;  // borrows time_, whose elements stay at their address when the vector is moved
+  KeyTimes keys_;  // borrows the elements of time_, which stay at their address when the vector is moved
   UserFaces faces_;
 };
 

@@ -16,8 +16,8 @@ thread_local char last_error[message_size] = "";
 // Records the text as the calling thread's last error. Returns the status.
 riis_status record_error(riis_status status, const char *text) noexcept {
   const std::size_t n = std::min(std::strlen(text), message_size - 1);
-  std::memmove(last_error, text, n);  // memmove, because a component may pass the last error itself as `text`, and the
-                                      // two would overlap
+  std::memmove(last_error, text, n);  // memmove, because a component may pass the last error itself as `text`, which
+                                      // then overlaps with the target
   last_error[n] = '\0';
   return status;
 }

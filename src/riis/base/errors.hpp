@@ -17,7 +17,7 @@ struct Error {
   Message message;
 };
 
-// Throws an Error. The parts are the words and numbers of its message, which names the argument and its value.
+// Throws an Error. The parts are the words and numbers of the message, which names the argument and its value.
 template <class... Parts>
 [[noreturn]] void fail(riis_status status, const Parts &...parts) {
   throw Error{status, Message(parts...)};
@@ -48,8 +48,8 @@ T *require(T *pointer, const char *argument) {
   return pointer;
 }
 
-// Refuses a number outside of [least, most], and NaN. `owner` is the argument whose field has the number, or "" if the number
-// is itself an argument.
+// Refuses NaN and numbers outside of [least, most]. `owner` is the argument with the field that has the number, or "" if
+// the number itself is an argument.
 inline void check_range(const char *owner, const char *name, double value, double least, double most) {
   if (!(value >= least && value <= most))
     fail(RIIS_INVALID_ARGUMENT, owner, *owner ? "." : "", name, " is ", value, "; it must be from ", least, " to ",

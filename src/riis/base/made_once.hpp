@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value that is made when it is first needed. Several threads may need it at once.
+// A value that is made when it is first needed. Several threads may need the value at once.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,8 @@ namespace riis {
 template <class T>
 class MadeOnce {
  public:
-  // Returns the value. If it does not exist, one thread calls make(value) first. After a failure the next call tries again.
+  // Returns the value. If the value does not exist yet, one thread calls make(value) first. After a failure the next call tries
+  // again.
   template <class Make>
   T &get(const Make &make) {
     if (is_made_.load(std::memory_order_acquire)) return value_;

@@ -40,12 +40,12 @@ struct Block {
 constexpr int smallest = 6, largest = 22;
 constexpr std::size_t largest_block = std::size_t{1} << largest;
 
-// Each thread takes from its own pool first, so that threads seldom wait for each other. A thread may give back memory that
+// Each thread takes from its own pool first, so threads seldom wait for each other. A thread may give back memory that
 // another thread took. So a thread whose pool is empty looks into the other pools before it asks the system.
 constexpr unsigned n_pools = 16;
 
-// A lock for a few instructions, which two threads seldom want at once. With a mutex, half of the time to take memory for an
-// array would go into locking.
+// A lock for a few instructions, which two threads seldom want at once. A mutex would take half of the time that an array's
+// memory costs.
 class ShortLock {
  public:
   void lock() noexcept {

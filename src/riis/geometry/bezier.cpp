@@ -85,7 +85,8 @@ double length_tolerance(const Bezier &curve) {
     largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
   }
   // The second term of the tolerance covers rounding, which matters for a curve that is short compared with its coordinates. The
-  // third term is for a curve shorter than any triangle may be (triangulate/triangle_set.hpp), because its squares underflow.
+  // third term is for a curve shorter than the edges of any triangle (triangulate/triangle_set.hpp), because its squares
+  // underflow.
   return 1e-13 * control_length + 1e-14 * largest + 1e-74;
 }
 
@@ -129,7 +130,7 @@ double stepwise_quadrature(const Speed &speed, double t0, double t1) {
   return sum;
 }
 
-// A part of a curve, from one parameter to another. The length of the whole curve decides which errors of lengths are negligible.
+// A part of a curve, from one parameter to another. The length of the whole curve decides how large an error of a length may be.
 struct SpeedOnPart {
   Speed speed;
   double from, to, length, whole_length;
@@ -154,7 +155,7 @@ bool find_in_one_pass(const SpeedOnPart &part, const double *behind, std::size_t
                                              : stepwise_quadrature(speed, next, closer);
       next = closer;
     }
-    // Near a cusp, Newton's method may not have converged yet. Then this fast way gives up.
+    // Near a cusp, Newton's method may not have converged yet. Then this fast method gives up.
     if (!(std::abs(made - wanted) <= 1e-13 * part.whole_length)) return false;
     at = t[k] = next;
     at_length += made;
@@ -196,7 +197,7 @@ double arc_length(const Bezier &curve, double t0, double t1) {
   return length_between(Speed(curve), length_tolerance(curve), t0, t1);
 }
 
-// Every point has a variable of its own. In an array, the compiler would store points and load them again at once.
+// Every point has its own variable. In an array, the compiler would store points and load them again at once.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t) {
   const auto &q = curve.control;
   const Vec3 a = mix(q[0], q[1], t), b = mix(q[1], q[2], t), ab = mix(a, b, t);
@@ -244,7 +245,7 @@ static double rough_curvature(const Bezier &curve) {
 
 double rough_curvature(const Bezier &curve, double t0, double t1) {
   // Blossoms of B' and B'' give the control points of this part's derivatives. The part's chord is parallel to the sum of the
-  // three vectors `first`.
+  // three vectors in `first`.
   const Speed along(curve);
   const Vec3 first[3] = {along.constant + t0 * (along.linear + t0 * along.quadratic),
                          along.constant + (0.5 * (t0 + t1)) * along.linear + (t0 * t1) * along.quadratic,
@@ -254,8 +255,8 @@ double rough_curvature(const Bezier &curve, double t0, double t1) {
 }
 
 double largest_curvature(const Bezier &curve) {
-  // Bounds each quarter of the curve separately. The bound from control points is loose if these vary much, and within a quarter
-  // they vary little.
+  // Bounds each quarter of the curve separately. The bound from control points is loose if they vary much. Within a quarter they
+  // vary little.
   const auto [left, right] = split(curve, 0.5);
   const auto [first, second] = split(left, 0.5);
   const auto [third, fourth] = split(right, 0.5);
@@ -266,7 +267,7 @@ double parameter_at_length(const Bezier &curve, double curve_length, double behi
   if (!(curve_length > 0)) return 0;
   const Speed speed(curve);
   const double tolerance = length_tolerance(curve), close_enough = 1e-14 * curve_length;
-  // Newton's method for the length from 0 to t, inside a bracket that shrinks.
+  // Applies Newton's method to the length from 0 to t, inside a bracket that shrinks.
   double below = 0, above = 1, t = first_guess(speed, behind / curve_length);
   double excess = length_between(speed, tolerance, 0, t) - behind;
   for (int i = 0; i < 60 && !(std::abs(excess) <= close_enough); ++i) {

@@ -14,12 +14,12 @@ namespace riis {
 
 struct Bezier {
   int degree;                   // 2 or 3
-  std::array<Vec3, 4> control;  // the first degree + 1 are used
+  std::array<Vec3, 4> control;  // only the first degree + 1 points are used
 
   static Bezier quadratic(Vec3 q0, Vec3 q1, Vec3 q2) { return {2, {q0, q1, q2, Vec3{0, 0, 0}}}; }
   static Bezier cubic(Vec3 q0, Vec3 q1, Vec3 q2, Vec3 q3) { return {3, {q0, q1, q2, q3}}; }
   static Bezier line(Vec3 q0, Vec3 q1) { return quadratic(q0, 0.5 * (q0 + q1), q1); }
-  // Returns a curve that stays in one point, for the collapsed side of a patch.
+  // Returns a curve that stays in one point, for a collapsed side of a patch.
   static Bezier point(Vec3 q) { return quadratic(q, q, q); }
 
   Bezier reversed() const {
@@ -37,7 +37,7 @@ struct Bezier {
   Vec3 last() const { return view(control)[degree]; }
 };
 
-// Returns B(t) for t in [0,1]. At 0 and 1 it is exactly the end point.
+// Returns B(t) for t in [0,1]. At t = 0 and t = 1 it is exactly the end point.
 Vec3 evaluate(const Bezier &curve, double t);
 
 // Returns the first three derivatives by t.
@@ -53,22 +53,22 @@ double arc_length(const Bezier &curve, double t0 = 0.0, double t1 = 1.0);
 // Returns the two parts left and right of t, by de Casteljau's algorithm.
 std::pair<Bezier, Bezier> split(const Bezier &curve, double t);
 
-// Returns the t in [0,1] for which the curve from 0 to t is `behind` long, with 0 <= behind <= curve_length. curve_length is the
-// length of the whole curve. If it is 0, t is 0.
+// Returns the t in [0,1] for which the curve from 0 to t has the length `behind`, with 0 <= behind <= curve_length. curve_length
+// is the length of the whole curve. For a curve of length 0, t is 0.
 double parameter_at_length(const Bezier &curve, double curve_length, double behind);
 
-// Writes to t the results of parameter_at_length for ascending lengths `behind`. It goes over the curve once, in a fraction of
-// the time of separate calls.
+// Writes to t the results of parameter_at_length for ascending lengths `behind`. It goes over the curve once, which takes a
+// fraction of the time of separate calls.
 void parameters_at_lengths(const Bezier &curve, double curve_length, const Vector<double> &behind, double *t);
 
-// Divides the part of the curve between two parameters into eight parts of equal length, and writes their ends to t. The whole
-// part has this length. Returns false if one pass over the part does not find them.
+// Divides the part of the curve between two parameters into eight parts of equal length, and writes their ends to t. `length`
+// is the length of the whole part. Returns false if one pass over the part does not find the ends.
 bool divide_part(const Bezier &curve, double curve_length, double from, double to, double length,
                  std::array<double, 7> &t);
 
-// Returns kappa, the largest distance of an inner control point from the segment between the first and the last. The paper takes
-// the distance from the line through both. That distance is 0/0 for a closed curve, and it misses control points beyond the
-// ends.
+// Returns kappa, the largest distance of an inner control point from the segment between the first and the last. The paper uses
+// the distance from the line through both points. The paper's distance is 0/0 for a closed curve, and misses control points
+// beyond the ends.
 double flatness(const Bezier &curve);
 
 // Bounds the curvature everywhere on the curve. The bound is infinite if the curve may turn on the spot.

@@ -17,7 +17,7 @@ namespace riis {
 namespace {
 
 // Ball arithmetic: bounds a vector or a number on a range by a middle value and the largest distance from it.
-// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than the bounds.
+// In: ranges. Out: ranges that hold every value. Rounding of the bounds is ignored, because it is far smaller than they are.
 
 // All numbers within `radius` of `middle`.
 struct Interval {
@@ -49,7 +49,7 @@ inline Ball operator*(double a, const Ball &b) { return {a * b.middle, std::abs(
 inline Ball operator*(Interval a, const Ball &b) {
   return {a.middle * b.middle, std::abs(a.middle) * b.radius + a.radius * b.largest_length()};
 }
-// The radius of a product of two vectors, of either kind.
+// The radius of a product of two balls, which are vectors or numbers.
 inline double radius_of_product(const Ball &a, const Ball &b) {
   return length(a.middle) * b.radius + a.radius * b.largest_length();
 }
@@ -63,8 +63,8 @@ inline Interval square(const Ball &a) {
 // Inverts positive numbers.
 inline Interval inverse(double least, double largest) { return Interval::between(1 / largest, 1 / least); }
 
-// Returns a's part across unit vectors. The projections across two unit vectors differ by the sine of the angle between them,
-// which is at most the distance between the unit vectors.
+// Returns the part of a that is perpendicular to unit vectors. Across two unit vectors, the projections differ by the sine
+// of the angle between the vectors, which is at most their distance.
 inline Ball across(const Ball &a, const Ball &unit) {
   return {a.middle - dot(a.middle, unit.middle) * unit.middle, a.radius + length(a.middle) * unit.radius};
 }
@@ -127,7 +127,7 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
   const bool is_cubic = d.n == 3;
-  // In the middle, B' is this vector. B'' leads away from it for half of the range of t, to either side.
+  // In the middle, B' is this vector. From there B'' changes it for half of the range of t, to either side.
   const Vec3 middle = is_cubic ? 0.25 * (d.first[0] + 2 * d.first[1] + d.first[2]) : 0.5 * (d.first[0] + d.first[1]);
   const double size = length(middle);
   if (!(size > 0)) return std::nullopt;
@@ -144,7 +144,7 @@ std::optional<Along> along_span(const Bezier &span, double speed) {
   return along({direction, sideways / least}, least, largest, second, d.third, speed);
 }
 
-// Returns the tangent at the start or the end of a span, or nothing if the span stands still there.
+// Returns the tangent at the start or the end of a span, or nothing if B' is 0 there.
 std::optional<Along> along_end(const Bezier &span, double speed, bool at_end) {
   if (!(speed > 0)) return Along{};
   const Derivatives d(span);
@@ -160,7 +160,7 @@ class OffsetDerivatives {
   OffsetDerivatives(const Ball &w, const Along &base, const Along &edge, double factor)
       : w_(w), base_(base), edge_(edge), factor_(factor) {
     // E is the edge's tangent, and l and a are the speeds, so W' = l E - a T. M = W x T has the derivative M' = l E x T + W x T'.
-    // The product T x T vanishes, and is left out here because a ball of it would not vanish.
+    // The product T x T is 0, and is left out because a ball for it would not be 0.
     m_ = cross(w, base.tangent);
     if (!(m_.least_length() > 0)) return;
     has_direction_ = true;
@@ -175,7 +175,7 @@ class OffsetDerivatives {
     across1_ = across(m1_, normal_);
   }
 
-  // Whether O has a direction: W is nowhere parallel to T.
+  // Whether O has a direction: W is parallel to T at no point.
   bool has_direction() const { return has_direction_; }
 
   // O is factor |W| N with N = M / |M|, and N' is the part of M' across N, divided by |M|.
@@ -228,8 +228,8 @@ Bulge::Place Bulge::place(double u) const {
 OffsetBounds bound_offset(const ArcRange &range, double factor) {
   const Vec3 start = range.edge.front().first() - range.base.front().first();
   const Vec3 end = range.edge.back().last() - range.base.back().last();
-  // No point of a curve moves farther than its part of the curve is long. So the distance of W from the nearer one of its two end
-  // values is at most half the sum of both parts' lengths.
+  // No point of a curve moves farther than the length of its part of the curve. The distance of W from the nearer of its two
+  // end values is therefore at most half the sum of both parts' lengths.
   const double w_ends = std::max(length(start), length(end));
   const double w_far = w_ends + 0.5 * range.du * (range.base_length + range.edge_length);
   const OffsetBounds unknown{infinity, 2 * std::abs(factor) * w_far};
@@ -269,11 +269,11 @@ double Bulge::linear_error(const Place &from, const Place &to, double enough) co
   const Vector<Bezier> base = base_.spans_between(from.on_base, to.on_base);
   const Vector<Bezier> edge = edge_.length() > 0 ? edge_.spans_between(from.on_edge, to.on_edge) : edge_.spans();
   const OffsetBounds bounds = bound_offset({base, edge, base_.length(), edge_.length(), to.u - from.u}, factor_);
-  // If the bound on |O''| is not enough, O is evaluated at a few points, and the bound is used only between neighbouring points.
-  // With eight parts, this bound contributes 64 times less.
+  // If the bound on |O''| is too large, O is evaluated at a few points, and the bound is used only between neighbouring points.
+  // With eight parts, the bound then contributes 64 times less.
   double error = error_between(from.u, to.u, 1, bounds.second);
   if (!(error <= enough)) error = sampled_error(from, to) + error_between(from.u, to.u, 8, bounds.second);
-  return error <= bounds.largest ? error : bounds.largest;  // a NaN error also gives way to this bound
+  return error <= bounds.largest ? error : bounds.largest;  // an error that is NaN also gives way to this bound
 }
 
 // Returns the largest distance of O from its linear interpolation, at the points that divide the range into eight parts.
@@ -302,7 +302,7 @@ double Bulge::error_between(double u0, double u1, int n, double second) const {
   return between;
 }
 
-// Bounds the size of the jump of O' at u, which is the difference between its values on both sides.
+// Bounds the jump of O' at u, which is the difference between its values on both sides.
 double Bulge::jump(double u) const {
   const Ball w{edge_.at(u) - base_.at(u), 0};
   Ball first[2];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches of arcs from one curve to another (paper, appendix, "Leaflet surfaces"). Lines join the base (the annulus) to the edge
-// (the leaflet's free edge) at the same u. Each line is a quadratic Bézier curve. Its middle control point is the middle of the
+// (the leaflet's free edge) at equal u. Each line is a quadratic Bézier curve. Its middle control point is the middle of the
 // straight line plus the offset
 //     O(u) = factor |W| unit(W x T),  W(u) = edge(u) - base(u),  T(u) the base's direction.
-// So D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
-// length. That product vanishes where the edge stands still, and changes its sign at the edge's corners: docs/theory/mitral.md.)
-// In: two curves and the factor. Out: O(u), and a bound on its distance from linear between two u.
+// Thus D(u,v) = (1-v) base(u) + v edge(u) + 2 v (1-v) O(u). (The paper offsets along edge' x base', by a number that is not a
+// length. That product is 0 where the edge stands still, and changes its sign at the edge's corners: docs/theory/mitral.md.)
+// In: two curves and the factor. Out: O(u), and a bound on how far O deviates from linear between two u.
 #pragma once
 
 #include "base/recycled.hpp"
@@ -17,11 +17,11 @@ namespace riis {
 // Returns O from W and T, or 0 if O has no direction.
 Vec3 arc_offset(Vec3 width, Vec3 along, double factor);
 
-// Returns O on a side that is itself an arc, from the arc's control points. So the two patches that share the side get the same
-// bits.
+// Returns O on a side that is itself an arc, from the arc's control points. The two patches with this side therefore get the
+// same bits.
 inline Vec3 arc_offset(const Bezier &arc) { return arc.control[1] - 0.5 * (arc.control[0] + arc.control[2]); }
 
-// The parts of both curves on a range of u that is du wide, and the lengths of the whole curves.
+// The parts of both curves on a range of u with the width du, and the lengths of the whole curves.
 struct ArcRange {
   const Vector<Bezier> &base, &edge;
   double base_length, edge_length;
@@ -40,7 +40,7 @@ class Bulge {
   // Keeps copies of both curves. The edge may be a point.
   Bulge(Curve base, Curve edge, double factor);
 
-  // The place u on both curves, and O there.
+  // A place u on both curves, and O there.
   struct Place {
     double u;
     PointOnSpan on_base, on_edge;
@@ -48,12 +48,12 @@ class Bulge {
   };
   Place place(double u) const;
 
-  // Returns the point where the arc at u begins.
+  // Returns the start of the arc at u.
   Vec3 on_base(double u) const { return base_.at(u); }
 
-  // Bounds |O(u) - its linear interpolation between both places| for u from one place to a later place. The bound falls with the
-  // square of the distance. Where W gets parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. The bound is
-  // not refined further once it is at most `enough`.
+  // Bounds |O(u) - its linear interpolation between both places| for all u from one place to a later place. The bound falls with
+  // the square of the distance. If W becomes parallel to T, O has no direction, and the bound stays at 2 |factor| |W|. The bound
+  // is not refined further once it is at most `enough`.
   double linear_error(const Place &from, const Place &to, double enough) const;
 
   // Returns the u of the curves' joints, ascending. O may have kinks there.

@@ -21,7 +21,7 @@ double smallest_step(const Vector<double> &t) {
   return smallest;
 }
 
-// For each pair of neighbouring grid lines, bounds the distance between a side and its curve. The bound is the error of the
+// Bounds the distance between a side and its curve, for each pair of neighbouring grid lines. The bound is the error of the
 // side's segment there, plus the shift of shared lines along the side.
 Vector<double> errors_between(const Vector<GridLine> &lines, const Polyline &side, double GridLine::*t) {
   Vector<double> errors(lines.size() - 1, 0.0);
@@ -72,8 +72,8 @@ class ArcRefinement {
   }
 
  private:
-  // Returns the place at which to cut the range. A cut at a joint removes a kink, so joints that are not too near an end come
-  // first. Without such a joint, the cut is in the middle.
+  // Returns the place at which a range is cut. A cut at a joint removes a kink, so joints come first unless they are too
+  // near an end. Without such a joint, the cut is in the middle.
   double cut(double from, double to) const {
     for (const double joint : bulge_.joints())
       if (joint > 0.875 * from + 0.125 * to && joint < 0.125 * from + 0.875 * to) return joint;
@@ -178,7 +178,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines) {
     sides_on_lines.u1.push_back(evaluate(*sides.side_u1, line.t1));
   }
   grid.points = coons_combination(grid.u, grid.v, sides_on_lines);
-  // The error of a point of the patch combines the errors of four side points. The points' positions give the weights.
+  // The errors of four side points make the error of a point of the patch. Their weights follow from the points' positions.
   const Vector<double> error_v0 = errors_between(u_lines, *sides.side_v0, &GridLine::t0);
   const Vector<double> error_v1 = errors_between(u_lines, *sides.side_v1, &GridLine::t1);
   const Vector<double> error_u0 = errors_between(v_lines, *sides.side_u0, &GridLine::t0);

@@ -17,11 +17,11 @@ struct PatchSides {
   const Polyline *side_v0, *side_v1, *side_u0, *side_u1;
 };
 
-// A line of the grid. Two vertices on opposite sides share a line if their parameters nearly agree, so there are no sliver quads.
-// Neither vertex moves. Neighbouring patches fit without cracks, because no vertex of a shared curve is lost or moved.
+// A line of the grid. If the parameters of two vertices on opposite sides nearly agree, they share a line, so no sliver quads
+// arise. Neither vertex moves. Neighbouring patches fit without cracks, because each vertex of a shared curve keeps its place.
 struct GridLine {
-  double t0, t1;  // the line's parameter on the first and on the second of the two sides that it joins
-  double middle;  // the mean of both, which is the line's u (or v) in the grid
+  double t0, t1;                                // the line's parameters on the first and the second of its two sides
+  double middle;                                // the mean of both, which is the line's u (or v) in the grid
   bool is_vertex0 = false, is_vertex1 = false;  // whether the line ends on a vertex of that side
 };
 
@@ -38,8 +38,8 @@ struct GridLines {
 struct QuadGrid {
   Vector<double> u, v;  // ascending from 0 to 1
   Vector<Vec3> points;  // points[j * u.size() + i] at (u[i], v[j])
-  // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. It bounds the distance, at equal
-  // (u,v), between the quad and the patch that the exact curves bound.
+  // errors[j * (u.size() - 1) + i] belongs to the quad between lines i, i + 1 and j, j + 1. An error bounds the distance, at
+  // equal (u,v), between the quad and the patch of the exact curves.
   Vector<double> errors;
 
   GridLines lines{};  // the lines that the grid was made from; empty unless requested
@@ -59,7 +59,7 @@ struct SideVectors {
 Vector<Vec3> coons_combination(const Vector<double> &u, const Vector<double> &v, const SideVectors &sides);
 
 // Makes the grid of the Coons patch. The patch is bilinear inside every quad, so the grid represents it exactly. Lines are
-// merged if this moves a point along a side by at most max_merge_shift. Writes the lines to `lines` unless it is null.
+// merged if this moves no point along a side by more than max_merge_shift. Writes the lines to `lines` unless it is null.
 QuadGrid make_quad_grid(const PatchSides &sides, double max_merge_shift, GridLines *lines = nullptr);
 // Makes the grid on given lines, whose ends are vertices of the sides.
 QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
@@ -70,7 +70,7 @@ QuadGrid make_quad_grid(const PatchSides &sides, const GridLines &lines);
 struct ArcLines {
   Vector<GridLine> u_lines;
   Vector<Vec3> offsets;   // O on each line
-  Vector<double> errors;  // for each pair of neighbouring lines, a bound on O's distance from linear
+  Vector<double> errors;  // a bound on O's deviation from linear, for each pair of neighbouring lines
   double largest_offset() const;
 };
 
@@ -81,7 +81,7 @@ struct ArcLimits {
 
 // Returns the grid lines of the two sides side_v0 and side_v1. Adds lines until O is linear between neighbouring lines up to
 // max_error, or until there are more than max_lines. offset_u0 and offset_u1 are O at the two ends, with the same bits as in the
-// neighbouring patches. Fails with RIIS_INVALID_PARAMETER if O has no direction.
+// neighbouring patches. If O has no direction, fails with RIIS_INVALID_PARAMETER.
 ArcLines make_arc_lines(const PatchSides &sides, const Bulge &bulge, Vec3 offset_u0, Vec3 offset_u1,
                         const ArcLimits &limits);
 
@@ -100,7 +100,7 @@ Vector<double> middles(const Vector<GridLine> &lines);
 GridLines lines_of_arc_grid(const ArcLines &lines, const QuadGrid &grid);
 
 // Returns the index of the interval that holds x, between ascending values. An x that equals a value belongs to the interval
-// after it. An x at the upper end belongs to the last interval.
+// after that value. An x at the upper end belongs to the last interval.
 std::size_t interval_of(const Vector<double> &values, double x);
 
 // Returns S(u,v) by bilinear interpolation inside the quad that holds (u,v) in [0,1]^2. (The paper prints u - u_o as the

@@ -12,10 +12,10 @@
 namespace riis {
 namespace {
 
-// A curve has at most 2^20 parts. A request that reaches this limit would make more triangles than this library can hold.
+// A curve has at most 2^20 parts. A request with so many parts would make more triangles than this library can hold.
 constexpr int max_depth = 20;
-// Parts narrower than this are not halved for the sake of the velocity. Where a curve nearly turns on the spot, such halving
-// would not end.
+// The velocity does not halve parts narrower than this. If a curve nearly turns on the spot, such halving would not
+// end.
 constexpr double narrowest_for_velocity = 1.0 / 32;
 
 // Collects the chords of parts. Each part is within max_error of its chord.
@@ -73,8 +73,8 @@ class Flattening {
   }
 
   // Compares points of the part and of its chord at equal shares of their own lengths. Their distance is at most length^2 / 8
-  // times the largest curvature, as for the linear interpolation of a function with that second derivative. Joints do not
-  // matter, because the direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
+  // times the largest curvature, as for linear interpolation with that second derivative. Joints do not matter, because the
+  // direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
   template <class LargestCurvature>
   bool accept(Vec3 last, double distance_to_chord, double part_length, const LargestCurvature &largest_curvature,
               double t1) {
@@ -93,7 +93,7 @@ class Flattening {
            ": tolerance * half_thickness is too small for it");
   }
 
-  // A Bézier curve lies no farther from a segment than the farthest of the curve's control points.
+  // A Bézier curve is no farther from a segment than the farthest of its control points.
   static double distance_to_chord(const Curve &part) {
     double largest = 0;
     for (const Bezier &span : part.spans())
@@ -126,7 +126,7 @@ Vector<double> Curve::joints() const {
 PointOnSpan Curve::on_span(double share) const {
   if (share >= 1 || !(length() > 0)) return {spans_.size() - 1, 1};
   const double behind = std::max(share, 0.0) * length();
-  // A point at a joint belongs to the later span, also if rounding puts it slightly before the joint.
+  // A point at a joint belongs to the later span, even if rounding puts it slightly before the joint.
   std::size_t span = 0;
   while (span + 1 < spans_.size() && behind >= ends_[span] - negligible_share * length()) ++span;
   const double start = span == 0 ? 0 : ends_[span - 1];
@@ -297,7 +297,7 @@ CurvePoints::CurvePoints(const Curve &curve, bool is_reversed, const Vector<doub
   for (std::size_t span = 0; span < spans.size(); ++span) {
     const double length = curve.length(span);
     const bool is_last = span + 1 == spans.size();
-    // A share at a joint belongs to the later span, also if rounding puts it slightly before the joint.
+    // A share at a joint belongs to the later span, even if rounding puts it slightly before the joint.
     const double end = is_last ? curve.length() : start + length - negligible_share * curve.length();
     in_span.clear();
     for (std::size_t i = points_.size(); i < n && (is_last || behind(i) < end); ++i) {
@@ -363,7 +363,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
   Polyline polyline{{points.front()}, {0.0}, {}, 0.0};
   for (const Vec3 &point : points) {
     const double step = distance(polyline.points.back(), point);
-    // A step too short to change the sum is dropped, because it would give two points the same t.
+    // A step too short to change the sum is left out, because it would give two points the same t.
     if (!(polyline.length + step > polyline.length)) continue;
     polyline.length += step;
     polyline.points.push_back(point);
@@ -371,7 +371,7 @@ Polyline make_polyline(const Vector<Vec3> &points) {
     polyline.errors.push_back(0.0);
   }
   if (polyline.length > 0) {
-    // The last point is always the given one, even if the step to it was dropped, because neighbours share it.
+    // The last point is always the given point, even if the step to it was left out, because neighbours share it.
     polyline.points.back() = points.back();
     for (double &t : polyline.t) t /= polyline.length;
   }

@@ -12,7 +12,7 @@
 
 namespace riis {
 
-// A share of a curve's length that is negligible.
+// A share of a curve's length that counts as 0.
 inline constexpr double negligible_share = 1e-14;
 
 // A point of a curve: the index of its span, and the parameter on that span.
@@ -21,8 +21,8 @@ struct PointOnSpan {
   double t;
 };
 
-// Every span but the first begins where the previous span ends, and in the same direction. So the curve's curvature may jump
-// there, but its direction does not. (A curve with corners is several curves, and its patch is several patches.)
+// Every span but the first begins at the end of the previous span, and in the same direction. At a joint, the curve's curvature
+// may therefore jump, but not its direction. (A curve with corners is several curves, and its patch is several patches.)
 class Curve {
  public:
   Curve(const Bezier &span);  // NOLINT(google-explicit-constructor): a single span is a curve
@@ -66,7 +66,7 @@ class Curve {
 
   Curve reversed() const;
 
-  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The ends must differ by rounding only.
+  // Returns the same curve with its ends moved onto the ends of neighbouring curves. The moves must be within rounding.
   Curve through(Vec3 first, Vec3 last) const;
 
  private:
@@ -74,13 +74,13 @@ class Curve {
   Vector<double> ends_;  // the length from the start of the curve to the end of each span
 };
 
-// Turns the direction of successive spans.
+// Turns the successive spans around.
 void reverse(Vector<Bezier> &spans);
 
 // Returns whether both curves have exactly the same control points.
 bool are_equal(const Curve &a, const Curve &b);
 
-// Estimates the distance between the velocity of a curve's points and its linear interpolation along the curve. Each point keeps
+// Estimates how far the velocity of a curve's points deviates from its linear interpolation along the curve. Each point keeps
 // its share of the length while the curve moves.
 class VelocityBend {
  public:
@@ -107,7 +107,7 @@ class VelocityBend {
 
 // A polyline whose chords replace a curve.
 struct Flattened {
-  Vector<Vec3> points;    // on the curve, from its first to its last; only the first if the length is 0
+  Vector<Vec3> points;    // points of the curve, from its first to its last; only the first if the length is 0
   Vector<double> t;       // the share of the curve's length at every point, a binary fraction from 0 to 1
   Vector<double> errors;  // for every chord: a bound on its distance from the curve, at equal shares of their lengths
 };
@@ -115,14 +115,14 @@ struct Flattened {
 // Halves the curve until two conditions hold for every part. First, its flatness shows that it lies within max_error (> 0) of its
 // chord. A Bézier span is at most 3/4 (cubic) or 1/2 (quadratic) of its flatness away from its chord. Second, the part and its
 // chord are at most max_error apart at equal shares of their lengths. With `bend`, a part is also halved if its velocity is
-// estimated to differ from linear by more than max_bend. Parts are halved by length, whereas the paper (algorithm "Recursive de
-// Casteljau subdivision") halves the parameter. So shares of two curves either agree to the last bit or differ by at least a
-// part, and no slivers arise between them. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more than
-// 2^20 parts.
+// estimated to deviate from linear by more than max_bend. Parts are halved by length, whereas the paper (algorithm "Recursive de
+// Casteljau subdivision") halves the parameter. The shares of two curves therefore agree to the last bit or differ by at least
+// a part, so no slivers arise. A common point of two parts appears once. Fails with RIIS_LIMIT_EXCEEDED for more than 2^20
+// parts.
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend = nullptr, double max_bend = 0);
 
 // Points of a curve at many shares of its length, found in one pass.
-// In: a curve, ascending shares. Out: points, tangents, and bounds for the parts between them.
+// In: a curve, and ascending shares. Out: points, tangents, and bounds for the parts between them.
 class CurvePoints {
  public:
   // Finds the points at these shares, which ascend from 0 to 1. If is_reversed, the shares count from the curve's last point.
@@ -160,7 +160,7 @@ class CurvePoints {
 struct Polyline {
   Vector<Vec3> points;    // at least 1
   Vector<double> t;       // t of every point, ascending from 0 to 1; a single 0 if the length is 0
-  Vector<double> errors;  // for every segment, a bound on its distance at equal t from the curve that it replaces
+  Vector<double> errors;  // for every segment, a bound on its distance from the replaced curve at equal t
   double length;          // the length of that curve
 };
 
@@ -168,9 +168,9 @@ struct Polyline {
 // repeated points, so that t ascends strictly. Needs at least one point.
 Polyline make_polyline(const Vector<Vec3> &points);
 
-// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. A vertex's t is its share of
-// the curve's length, not of the polyline's length as in the paper. So the vertex is the curve's point at that t for any
-// tolerance.
+// Returns a polyline that replaces a curve. Every segment is within max_error (> 0) of the curve. The t of a vertex is its
+// share of the curve's length, not of the polyline's length as in the paper. For any tolerance, the vertex is therefore the
+// curve's point at its t.
 Polyline make_polyline(const Curve &curve, double max_error);
 // Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
 // each segment. `velocity` has the velocities of the spans' control points.

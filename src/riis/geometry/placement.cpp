@@ -4,7 +4,7 @@
 namespace riis {
 
 SineCosine sine_cosine_degrees(double degrees) {
-  // The reduction to an angle in [-45, 45] degrees and a number of quarter turns is exact.
+  // The reduction to a number of quarter turns and an angle in [-45, 45] degrees is exact.
   const double turned = std::remainder(degrees, 360.0);
   const double quarters = std::nearbyint(turned / 90.0);
   const double radians = (turned - 90.0 * quarters) * (pi / 180.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The decision kernel finds the point of one triangle closest to a given point, in double precision. Every mark and every
-// reported distance comes from it. It is compiled once, for the baseline instruction set and without contraction. So every
-// caller gets the same bits.
+// reported distance comes from this function. It is compiled once, for the baseline instruction set and without
+// contraction. So every caller gets the same bits.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@ namespace riis {
 struct PointOnTriangle {
   double distance_sq;
   Vec3 point;
-  std::array<double, 3> barycentric;  // >= 0; if the point is on an edge or a vertex, exactly 0 for the other corners
+  std::array<double, 3> barycentric;  // >= 0; for a point on an edge or a vertex, exactly 0 for the other corners
 };
 
 // The triangle must have an area (has_zero_area in triangulate/triangle_set.hpp). The result is the best of four candidates: the
 // clamped points of the three edges, and the foot of the perpendicular if it is inside. Each candidate lies on the triangle to
-// rounding. So a wrong answer to "inside" costs only rounding and never gives a distance that is too small.
+// rounding. A wrong answer to "inside" therefore costs only rounding, and never gives too small a distance.
 PointOnTriangle closest_point_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c);
 
-// The closest of several triangles has the smallest square and, among equals, the lowest position.
+// Of several triangles, the closest has the smallest square and, among equals, the lowest position.
 struct ClosestTriangle {
   double distance_sq;
   std::int64_t triangle;  // position in the set, -1 for none

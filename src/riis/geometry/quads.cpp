@@ -17,7 +17,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Bounds the distance between a quad and its triangles at a level of subdivision. The bound is refined no further than `enough`
 // requires.
 double split_error_at(const Quad &quad, int level, double enough) {
-  // Below this level, all parts are checked, because there are few. From this level on, the bound only uses that each halving
+  // Below this level, all parts are checked, because there are few. From this level on, the bound only uses that each level
   // divides the twist by exactly 4.
   constexpr int few = 5;
   const double at_equal_uv = std::ldexp(quad_flatness(quad), -2 * level);
@@ -34,8 +34,8 @@ double split_error_at(const Quad &quad, int level, double enough) {
   return std::min(largest, at_equal_uv);
 }
 
-// A level of subdivision (how often a quad's sides are halved), and a bound on the distance from the triangles to the smooth
-// patch.
+// A level of subdivision (how often the sides of a quad are halved), and a bound on the distance from the triangles to the
+// smooth patch.
 struct Level {
   int level;
   double error;
@@ -64,7 +64,7 @@ Quad without_shortest_edge(const Quad &quad, double &shortest) {
 }
 
 // Returns a planned level with its error. At a collapsed side, rounding may fold a quad at one opening and not at the next. A
-// bound without the collapsed edge ignores the fold.
+// bound for the quad without the collapsed edge ignores the fold.
 Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double max_error, int level) {
   const Quad quad = quad_of(grid, i, j);
   const double left = max_error - grid.error(i, j);
@@ -72,8 +72,8 @@ Level planned_level(const QuadGrid &grid, std::size_t i, std::size_t j, double m
   if (!(error <= left)) {
     double shortest = 0;
     const Quad merged = without_shortest_edge(quad, shortest);
-    // The quad and the merged quad are at most half the shortest edge apart, and so are their triangles. Hence the sum adds the
-    // whole edge.
+    // The quad and the merged quad are at most half the shortest edge apart, and so are their triangles. The sum therefore
+    // includes the whole edge.
     error = std::min(split_error_at(quad, level, infinity), split_error_at(merged, level, infinity) + shortest);
   }
   return {level, grid.error(i, j) + error};
@@ -93,7 +93,7 @@ void count(const Level &level, LevelledGrid &made) {
   if (n > 1) made.n_vertices += (n + 1) * (n + 1);
 }
 
-// Counts the triangles with two equal corners. Most are along a side of the patch that is a point, so only quads at the sides are
+// Counts the triangles with two equal corners. Most lie along a collapsed side of the patch, so only quads at the sides are
 // counted.
 void count_collapsed(LevelledGrid &made) {
   const QuadGrid &grid = made.grid;

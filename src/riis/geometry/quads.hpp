@@ -24,8 +24,8 @@ struct Quad {
 inline double quad_flatness(const Quad &quad) { return 0.25 * length((quad.p00 - quad.p10) + (quad.p11 - quad.p01)); }
 
 // Bounds the distance between the bilinear quad and its two triangles as surfaces. The bound is kappa_quad in general. If both
-// are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across that plane
-// (docs/theory/triangles.md).
+// surfaces are graphs over a plane parallel to both diagonals, the bound is at most half the component of the twist across
+// that plane (docs/theory/triangles.md).
 double split_error(const Quad &quad);
 
 inline Quad quad_of(const QuadGrid &grid, std::size_t i, std::size_t j) {
@@ -46,17 +46,17 @@ struct LevelledGrid {
   QuadGrid grid;
   Vector<int> levels;
   std::int64_t n_triangles = 0;  // for one image, including triangles that turn out to have no area
-  std::int64_t n_collapsed = 0;  // of these, triangles at the sides that have two equal corners, so surely no area
+  std::int64_t n_collapsed = 0;  // those of them at the sides that have two equal corners, and therefore surely no area
   std::int64_t n_vertices = 0;
   double error_bound = 0;  // bounds the distance between the triangles and the smooth patch
 };
 
 // Gives each quad the lowest level that keeps max_error.
 LevelledGrid with_levels(QuadGrid grid, double max_error);
-// Gives the quads the levels of a plan. The bounds of errors are refined no further than max_error requires.
+// Gives the quads the levels of a plan. The bounds of errors are only refined as far as max_error requires.
 LevelledGrid with_planned_levels(QuadGrid grid, double max_error, const Vector<int> &planned);
 
-// Raises levels to the levels that the quads of a grid need for max_error. An empty list stands for levels of 0.
+// Raises the levels where the quads of a grid need higher ones for max_error. An empty list stands for levels of 0.
 void raise_levels(const QuadGrid &grid, double max_error, Vector<int> &levels);
 
 }  // namespace riis

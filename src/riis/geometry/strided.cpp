@@ -20,7 +20,7 @@ struct Spread {
   }
 };
 
-// Takes two points. x and y of each point are in one register, and z of both points is in a third.
+// Takes two points at once. x and y of each point are in one register, and the z of both are in a third.
 struct PairSpread {
   Spread xy[2], z;
   Two sum{};
@@ -45,7 +45,7 @@ struct PairSpread {
 Bounds bounds_of(const StridedPoints &points, double &sum) {
   const double *const x = points.x, *const y = points.y, *const z = points.z;
   const std::int64_t stride = points.stride;
-  // Two separate spreads are faster, because each comparison has to wait for the previous comparison of the same bounds.
+  // Two separate bounds are faster, because each comparison waits for the previous comparison of the same bounds.
   PairSpread pairs[2];
   std::int64_t i = 0;
   for (; i + 4 <= points.n; i += 4)
@@ -64,7 +64,7 @@ Bounds bounds_of(const StridedPoints &points, double &sum) {
   return bounds;
 }
 
-// Single precision is rare, so reading one point at a time is fast enough.
+// Single precision is rare, so one point at a time is fast enough.
 Bounds bounds_of(const StridedReals<float> &points, double &sum) {
   Bounds bounds;
   for (std::int64_t i = 0; i < points.n; ++i) {

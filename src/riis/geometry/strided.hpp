@@ -18,7 +18,7 @@ struct StridedReals {
   std::int64_t stride;
 
   Vec3 operator[](std::int64_t i) const { return {x[i * stride], y[i * stride], z[i * stride]}; }
-  // Asks the processor to load the point's coordinates, which are read soon.
+  // Asks the processor to load a point's coordinates before they are read.
   void prefetch(std::int64_t i) const {
     for (const Real *coordinate : {x + i * stride, y + i * stride, z + i * stride}) __builtin_prefetch(coordinate);
   }
@@ -37,18 +37,18 @@ auto with_points(std::int64_t n, const void *const (&xyz)[3], std::int64_t strid
   return real_bits == 32 ? use(of(0.0f)) : use(of(0.0));
 }
 
-// Distances need fourth powers. Coordinates up to max_coordinate and edges from min_edge on keep these powers within the range
-// of doubles.
+// Distances need fourth powers. With coordinates up to max_coordinate and edges from min_edge on, these powers stay within the
+// range of doubles.
 inline constexpr double max_coordinate = 1e60, min_edge = 1e-60;
 
 // Returns whether a coordinate is finite and not too large. Returns false for NaN.
 inline bool is_usable(double coordinate) { return std::abs(coordinate) <= max_coordinate; }
 inline bool is_usable(Vec3 p) { return is_usable(p.x) && is_usable(p.y) && is_usable(p.z); }
 
-// Checks pointers, stride and every coordinate. Returns the points' box, which the same pass over memory finds. Fails with
+// Checks pointers, stride and every coordinate. Returns the points' box, which the same pass finds. Fails with
 // RIIS_INVALID_ARGUMENT, or with bad_coordinate for the first unusable coordinate. Then the message names the point by `what`
-// ("node", "point") and its number. Messages put `prefix`, such as "points.", before the names of arguments. Only the calling
-// thread runs: more threads would not pay off, and the caller may not want them.
+// ("node", "point") and its number. In messages, `prefix` precedes the names of arguments, such as "points.". Only the
+// calling thread runs, because more threads would save no time, and the caller may not want them.
 template <class Real>
 Bounds check_points(const StridedReals<Real> &points, const char *what, riis_status bad_coordinate,
                     const char *prefix = "");
@@ -57,11 +57,11 @@ Bounds check_points(const StridedReals<Real> &points, const char *what, riis_sta
 template <class Real>
 void check_pointers(const StridedReals<Real> &points, const char *what, const char *prefix = "");
 
-// Checks one point in the same way as check_points.
+// Checks one point as check_points does.
 template <class Real>
 void check_point(const StridedReals<Real> &points, std::int64_t i, const char *what, riis_status bad_coordinate);
 
-// Returns point i of points that were checked when the caller passed them. The caller may have written to them since then, so
+// Returns point i of points that were checked when the caller passed them. The caller may have changed them since then, so
 // the coordinates are checked again. Fails as check_points does.
 inline Vec3 checked_point(const StridedPoints &points, std::int64_t i, const char *what, riis_status bad_coordinate) {
   const Vec3 p = points[i];

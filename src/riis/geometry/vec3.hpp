@@ -34,7 +34,7 @@ inline void put_vector(double *list, std::int64_t i, Vec3 value) {
   list[3 * i + 2] = value.z;
 }
 
-// The box is empty until a point or a box is added.
+// The box is empty until it contains a point or a box.
 struct Bounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -54,7 +54,7 @@ struct Bounds {
     return std::max(riis::largest_coordinate(lower), riis::largest_coordinate(upper));
   }
 
-  // Returns the square of the distance from p to the box. For any point q in the box, the result is at most dot(q - p, q - p),
+  // Returns the square of the distance from p to the box. The result is at most dot(q - p, q - p) for any point q in the box,
   // even in the last bit, because rounding keeps the order of differences, squares and sums.
   double distance_sq_to(Vec3 p) const {
     const auto outside = [](double x, double least, double most) { return std::max({least - x, x - most, 0.0}); };

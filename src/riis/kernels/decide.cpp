@@ -66,11 +66,11 @@ RIIS_INLINE Doubles root(Doubles a) {
   return r;
 }
 
-// Returns 1 / sqrt(a), right to a few units in the last place. `a` must be a normal positive number. The last bits depend on the
-// instruction set, so no result that a caller sees may depend on them.
+// Returns 1 / sqrt(a) with an error of a few units in the last place. `a` must be a normal positive number. The last bits depend
+// on the instruction set, so no result that a caller sees may depend on them.
 RIIS_INLINE Doubles inverse_root(Doubles a) {
 #if defined(__AVX512F__)
-  // Newton's method doubles the 14 bits of the estimate twice. It takes less time than a root and a division.
+  // Newton's method doubles the 14 right bits of the estimate twice. It takes less time than a root and a division.
   count(&Counts::operations, Doubles::n);
   Doubles r{{(DoubleRegister)_mm512_rsqrt14_pd((__m512d)a.part[0])}};
   const Doubles half = Doubles::all(0.5) * a;
@@ -99,7 +99,7 @@ RIIS_INLINE Doubles segment_parameter(Doubles3 r, Doubles3 edge) {
   return least(greatest(dot(r, edge) / dot(edge, edge), Doubles::all(0)), Doubles::all(1));
 }
 
-// The closest points on eight triangles. If a caller reads only `distance_sq`, the compiler leaves out the other members.
+// The closest points on eight triangles. If a caller reads only `distance_sq`, the compiler drops the other members.
 struct ClosestPoints {
   Doubles distance_sq;
   Doubles3 point, weights;
@@ -218,7 +218,7 @@ void differentiate(const PointsAndTriangles &pairs, const PointsOnTriangles &loc
     (weight * unit.y).store(weighted[k][1]);
     (weight * unit.z).store(weighted[k][2]);
   }
-  // Gathering the rates of eight points costs more than the arithmetic of one point at a time.
+  // To gather the rates of eight points costs more than to compute one point at a time.
   for (int32_t lane = 0; lane < n_points; ++lane) {
     const int64_t a = 3 * vertex[lane][0], b = 3 * vertex[lane][1], c = 3 * vertex[lane][2];
     const auto part = [&](int k, const double *rate) RIIS_LAMBDA {
@@ -248,13 +248,13 @@ void take_corners(const double *vertices, const int64_t *vertex_id, int64_t n, d
   Point least_of = Point{} + __builtin_inf(), greatest_of = -least_of;
   const auto take = [&](int64_t i, int64_t size) RIIS_LAMBDA {
     const double *const from = vertices + 3 * vertex_id[i];
-    // Reads no fourth number, because the vertex may be the last one of the array.
+    // Reads only three numbers, because the vertex may be the last one of the array.
     const Point p = {from[0], from[1], from[2], 0};
     __builtin_memcpy(corners + 3 * i, &p, static_cast<__SIZE_TYPE__>(size));
     least_of = p < least_of ? p : least_of;
     greatest_of = greatest_of < p ? p : greatest_of;
   };
-  // Each store also writes the unused lane, and the next corner overwrites it. The last corner is stored without that lane.
+  // Each store also writes the fourth lane, which the next corner overwrites. The last corner is stored without the fourth lane.
   for (int64_t i = 0; i + 1 < 3 * n; ++i) take(i, sizeof(Point));
   take(3 * n - 1, 3 * sizeof *corners);
   for (int c = 0; c < 3; ++c) lower[c] = least_of[c], upper[c] = greatest_of[c];
@@ -280,7 +280,7 @@ void place_points(const PlacedBy &by, const double *points, int64_t n, double *p
     const Point at = by.scale * (image[0] * columns[4] + image[1] * columns[5] + image[2] * columns[6]) + columns[7];
     __builtin_memcpy(placed + 3 * i, &at, static_cast<__SIZE_TYPE__>(size));
   };
-  // Each store also writes the unused lane, and the next point overwrites it. The last point is stored without that lane.
+  // Each store also writes the fourth lane, which the next point overwrites. The last point is stored without the fourth lane.
   for (int64_t i = 0; i + 1 < n; ++i) place(i, sizeof(Point));
   if (n > 0) place(n - 1, 3 * sizeof *placed);
 }
@@ -351,8 +351,8 @@ RIIS_INLINE void put(Doubles3 v, float (*to)[triangles_per_group], int from) {
   put(v.z, to[2] + from);
 }
 
-// Stores an axis in single precision, and the origin that makes the coordinate of `middle` zero. The origin belongs to the
-// rounded axis, so the rounding of the axis matters only for the distance from `middle`.
+// Stores an axis in single precision, and the origin at which the coordinate of `middle` is zero. The origin belongs to
+// the rounded axis, so the axis's rounding only matters in proportion to the distance from `middle`.
 RIIS_INLINE void put_axis(Doubles3 axis, Doubles3 middle, float (*to)[triangles_per_group], float *origin, int from) {
   put(axis, to, from);
   const auto rounded = [](Doubles x) RIIS_LAMBDA {
@@ -378,8 +378,8 @@ RIIS_INLINE Direction direction(Doubles3 v, Doubles3 otherwise) {
 
 constexpr int halves = triangles_per_group / Doubles::n;
 
-// Both functions move a bound outwards by more than rounding to single precision may change a number. So the results also bound
-// numbers that were rounded to single precision.
+// Both functions move a bound outwards by more than a number can change when it is rounded to single precision. So the results
+// also bound numbers that were rounded to single precision.
 RIIS_INLINE float round_down(double x) {
   const double unit = (x < 0 ? -x : x) * 0x1p-22 + 0x1p-120;
   return static_cast<float>(x - unit);
@@ -387,7 +387,7 @@ RIIS_INLINE float round_down(double x) {
 RIIS_INLINE float round_up(double x) { return -round_down(-x); }
 
 void frame_leaf(const PlainFrame &frame, const double *xyz, Leaf &leaf, float *lower, float *upper) {
-  // Eight nodes have 24 coordinates, so the centres repeat after three times eight coordinates.
+  // Eight nodes have 24 coordinates, so the pattern of centres repeats every three registers.
   constexpr int n_in_turn = 3;
   alignas(64) double turn[n_in_turn * Doubles::n];
   for (int i = 0; i < n_in_turn * Doubles::n; ++i) turn[i] = frame.centre[i % 3];
@@ -450,9 +450,9 @@ struct Axes {
   alignas(64) double of[3][3][Doubles::n];
 };
 
-// Chooses the axes of eight groups: across a group's triangles, along its first edge, and at right angles to both. Any three
-// axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals, each as long
-// as twice the triangle's area.
+// Chooses the axes of eight groups: one across a group's triangles, one along its first edge, and one at right angles to both.
+// Any three axes at right angles would be correct, but these give a small box. `across` is the sum of the triangles' normals,
+// each as long as twice the triangle's area.
 RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles zero = Doubles::all(0), one = Doubles::all(1);
   // Divides by the largest component, so that the squares do not underflow for small triangles.
@@ -466,7 +466,7 @@ RIIS_INLINE void choose_axes(Doubles3 across, Doubles3 along, Axes &axes) {
   const Doubles::Mask has_edge = normalize(along);
   const Doubles::Mask steep = magnitude(across.x) < Doubles::all(0.6);
   along = choose(has_edge, along, {choose(steep, one, zero), choose(steep, zero, one), zero});
-  // Removes the part along `across` that rounding left. This part is large for an edge nearly along `across`.
+  // Removes the part along `across` that rounding has left. This part is large if the edge runs nearly along `across`.
   for (int i = 0; i < 2; ++i) {
     along = take_across_away(along);
     normalize(along);
@@ -546,8 +546,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     const Doubles3 middle = one_half * (a + b);
     put_axis(e.unit, middle, group.e, group.e_origin, from);
     put(half_ab, group.half_ab + from);
-    // Returns the part of v at right angles to e. It is called twice: in a needle-shaped triangle, rounding leaves a part along
-    // e, and the second call removes this part.
+    // Returns the part of v at right angles to e. It is called twice, because in a needle-shaped triangle rounding leaves a
+    // part along e, which the second call removes.
     const auto across = [&](Doubles3 v) RIIS_LAMBDA { return v - dot(v, e.unit) * e.unit; };
     // If rounding left nothing of the triangle's height, the part at right angles to e is noise and may again run along e.
     Doubles3 over = across(ac);
@@ -563,7 +563,8 @@ RIIS_INLINE void make_frames(const GroupCorners &corners, TriangleGroup &group,
     put_axis(f, middle, group.f, group.f_origin, from);
     put_axis(g, middle, group.g, group.g_origin, from);
     sum = sum + (e.length * c_f) * g;
-    // Stores the edge that goes by `along` from the place `start` on ab to the third corner. Places on ab count from its middle.
+    // Stores the edge with the direction `along`, from the place `start` on ab to the third corner. Places on ab are counted
+    // from its middle.
     const auto put_edge = [&](Doubles start, Doubles3 along, float *unit_e, float *unit_f, float *to_middle,
                               float *side, float *half_length) RIIS_LAMBDA {
       const Direction edge = direction(along, {one, zero, zero});

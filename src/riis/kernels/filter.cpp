@@ -23,8 +23,8 @@ RIIS_INLINE Floats outside(Floats x, Floats from, Floats to) {
 }
 
 // Computes the squares of a point's distances to sixteen triangles. Every result is the distance to some point of the triangle,
-// to rounding. A point counts as inside only if it is inside by a margin. A point inside by less gets the distance to the nearest
-// edge, which differs by at most that margin.
+// to rounding. A point counts as inside only if it is inside by a margin. A point that is inside by less gets the distance to the
+// nearest edge, which is wrong by at most the margin.
 RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Floats margin) {
   const auto along = [&](const float(*axis)[16], const float *origin) RIIS_LAMBDA {
     const Floats3 unit = load(axis);
@@ -35,7 +35,7 @@ RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Flo
   const Floats past_ab = beyond(e, Floats::load(group.half_ab));
   Floats in_plane = multiply_add(past_ab, past_ab, f * f), inside = f;
 
-  // Takes an edge into account, given by its direction, the place of its middle, its place across and its half length.
+  // Takes an edge into account. Its direction, the place of its middle, its place across and its half length are given.
   const auto offer_edge = [&](Floats x, Floats y, const float *unit_x, const float *unit_y, const float *middle,
                               const float *side, const float *half) RIIS_LAMBDA {
     const Floats to_x = Floats::load(unit_x), to_y = Floats::load(unit_y);
@@ -46,7 +46,7 @@ RIIS_INLINE Floats distances_to_group(const TriangleGroup &group, Floats3 p, Flo
     inside = least(inside, inside_edge);
   };
   offer_edge(e, f, group.ac_e, group.ac_f, group.ac_middle, group.ac_side, group.half_ac);
-  // The triangle is on the other side of bc, so the axes change places.
+  // The triangle is on the other side of bc, so the two axes are exchanged.
   offer_edge(f, e, group.bc_f, group.bc_e, group.bc_middle, group.bc_side, group.half_bc);
   return multiply_add(g, g, zero_where_at_least(inside, margin, in_plane));
 }
@@ -83,7 +83,7 @@ bool near_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candi
   return found != 0;
 }
 
-// Along an axis, a box reaches this far from its middle: the sum of its half sides, each times its component of the axis.
+// Along an axis, a box extends from its middle by the sum of its half sides, each times its component of the axis.
 bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                     uint16_t *near) {
   const Floats reach_sq = Floats::all(task.limits.reach_sq), one_half = Floats::all(0.5f);
@@ -118,14 +118,14 @@ bool near_own_boxes(const FilterTask &task, const Boxes &boxes, const int32_t *c
 }
 
 int32_t select(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to) {
-  // No more numbers are selected than were read, so even a whole register stays within the first n places.
+  // Of the selected numbers, no more are written than were read. A whole register therefore stays within the first n places.
   int32_t n_selected = 0, k = 0;
   for (; k + 16 <= n; k += 16) {
     const uint32_t lanes = lanes_with_bit(marks + k, bit);
     compress(lanes, numbers + k, to + n_selected);
     n_selected += __builtin_popcount(lanes);
   }
-  // Writes every number, but moves on only after a number that is kept. This avoids a branch that the processor could not
+  // Writes every number, but advances only after a number that is kept. This avoids a branch that the processor could not
   // predict.
   for (; k < n; ++k) {
     to[n_selected] = numbers[k];
@@ -158,12 +158,13 @@ void nearest_groups(const FilterTask &task, const Boxes &boxes, const int32_t *c
   for (int i = 0; i < 16; ++i) nearest[i] = static_cast<int32_t>(positions[i]);
 }
 
-// The square of a place's distance from a box minus the square of its distance from a point is a concave function of the place.
-// It is also a sum over the axes. So its least value in another box is the sum of the lesser values at both ends of each axis.
+// Take the square of the distance of a place from a box, minus the square of its distance from a point. This difference is a
+// concave function of the place. It is also a sum over the axes. So its least value in another box is the sum of the lesser
+// values at both ends of each axis.
 void competing_groups(const FilterTask &task, const Boxes &boxes, const PointsOfBoxes &points,
                       const int32_t *candidates, int32_t n_candidates, uint16_t *competes) {
   const Floats zero = Floats::all(0), tolerance = Floats::load(points.tolerance);
-  Extents box[3], to_point[3];  // to_point has the negated squares of the distances from the ends to the point
+  Extents box[3], to_point[3];  // to_point has the negative squares of the distances from the ends to the point
   for (int i = 0; i < 3; ++i) {
     box[i] = placed(task, boxes, i);
     const Floats x = Floats::load(points.xyz[i]), from_lower = box[i].lower - x, from_upper = box[i].upper - x;
@@ -275,8 +276,8 @@ RIIS_INLINE bool list_others(const LeafTask &leaf, ClusterTask &cluster, const f
   return k == leaf.n_groups;
 }
 
-// Computes the distances of the listed nodes to their groups, from the given place in the list on. Meanwhile, requests the last
-// n_lines lines ahead.
+// At the same time, prefetches the last n_lines cache lines. Meanwhile, requests the last n_lines lines
+// ahead.
 RIIS_INLINE void compare(const FilterTask &task, ClusterTask &cluster, int32_t from, int32_t n_lines) {
   constexpr int n = 4;
   const int32_t end = cluster.n_listed, n_batches = (end - from + n - 1) / n;
@@ -330,8 +331,8 @@ void begin_cluster(const FilterTask &task, ClusterTask &cluster) {
   cluster.is_done = false;
 }
 
-// Compares the nodes with their first groups, unless a call before has done so. Then lists and compares as many nodes and other
-// groups as there is room for.
+// Compares the nodes with their first groups, unless an earlier call has done so. Then lists other groups for as many nodes
+// as there is room for, and compares them.
 RIIS_INLINE void compare_all(const FilterTask &task, ClusterTask &cluster) {
   if (cluster.next_leaf < 0) {
     compare(task, cluster, 0, cluster.ahead.n / 2);
@@ -368,8 +369,8 @@ int32_t filter_cluster(const FilterTask &task, ClusterTask &cluster, const PairA
     compare_all(task, cluster);
     cluster.next_listed = 0;
   }
-  // Writes those listed nodes whose group is still near, now that all of the list is compared. The place moves on only after such
-  // a node. This avoids a branch that the processor could not predict.
+  // Writes the listed nodes whose group is still near after the whole list was compared. The position advances only after
+  // such a node. This avoids a branch that the processor could not predict.
   const GroupBounds *const bounds = task.bounds;
   int32_t *const node_of_pair = pairs.node, *const triangle_of_pair = pairs.triangle;
   const int32_t n_listed = cluster.n_listed;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Kernels compute sixteen floats or eight doubles at a time. They are compiled once for each instruction set, and one set is
-// chosen at run time. This header has only plain data and declarations: a function body here would be compiled for several
-// instruction sets under one name.
+// chosen at run time. This header has only plain data and declarations, because the compiler would compile a function body
+// here for several instruction sets under one name.
 //
 // filter_*: single precision, only to dismiss pairs that cannot matter. Results are accurate to filter_error
 // (docs/theory/clusters.md). Coordinates are in the surface's frame: relative to its middle, and scaled by a power of two so
@@ -19,10 +19,10 @@ constexpr int nodes_per_cluster = nodes_per_leaf * leaves_per_cluster;
 
 // Up to 16 neighbouring triangles abc, each in its own frame. The frame's axes are the unit vectors e along ab, f in the
 // triangle's plane, and g across the plane. A point p has the coordinates p.e + e_origin, p.f + f_origin and p.g + g_origin, and
-// the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e, ac_f). The coordinate along it is
-// e ac_e + f ac_f + ac_middle, from the middle of ac. The coordinate across it is e ac_f - f ac_e + ac_side. It is positive on
-// the side of the triangle. For bc, the coordinate across is f bc_e - e bc_f + bc_side. Lanes without a triangle repeat the first
-// triangle, except that their g_origin is beyond_limits.
+// the frame's origin is the middle of ab. In (e, f), the edge ac has the unit direction (ac_e, ac_f). Along ac, the point has the
+// coordinate e ac_e + f ac_f + ac_middle, counted from the middle of ac. Across ac, it has the coordinate e ac_f - f ac_e +
+// ac_side. This coordinate is positive on the side of the triangle. Across bc, the coordinate is f bc_e - e bc_f +
+// bc_side. Lanes without a triangle repeat the first triangle, except that their g_origin is beyond_limits.
 struct alignas(64) TriangleGroup {
   float e[3][triangles_per_group], f[3][triangles_per_group], g[3][triangles_per_group];
   float e_origin[triangles_per_group], f_origin[triangles_per_group], g_origin[triangles_per_group];
@@ -60,8 +60,8 @@ struct alignas(64) Leaf {
   uint32_t node[nodes_per_leaf];
 };
 
-// The boxes of up to 16 leaves or clusters along the coordinate axes, in the mesh's frame. In lanes without a box, lower is
-// above upper.
+// The boxes of up to 16 leaves or clusters along the coordinate axes, in the mesh's frame. In lanes without a box, the
+// lower bounds are above the upper bounds.
 struct alignas(64) Boxes {
   float lower[3][16], upper[3][16];
 };
@@ -69,7 +69,7 @@ struct alignas(64) Boxes {
 // Limits of a filter, in the surface's frame.
 struct FilterLimits {
   float reach_sq;   // (limit + 2 * error)^2
-  float tolerance;  // computed squares of two equal distances differ by at most this
+  float tolerance;  // the most by which the computed squares of two equal distances differ
   float margin;     // how far inside a triangle a point must be to count as inside
 };
 
@@ -84,30 +84,30 @@ struct FilterTask {
 // A point of the surface for each of 16 boxes. A group competes with the point if it may be nearer to some place in the box.
 struct alignas(64) PointsOfBoxes {
   float xyz[3][16];
-  float tolerance[16];  // computed squares of two equal distances from a place in the box differ by at most this
+  float tolerance[16];  // the most by which the computed squares of two equal distances from a place in the box differ
 };
 
 // One leaf of a cluster, and the groups that may be near it.
 struct LeafTask {
   const Leaf *leaf;
-  int32_t position;  // of the leaf in its cluster
+  int32_t position;  // the number of the leaf in its cluster
   uint32_t wanted;   // a bit for each node that is searched
   const int32_t *near_groups;
   int32_t n_groups;
   FilterLimits limits;
-  bool may_be_near;  // begin_cluster sets it to true if a wanted node may be near a group, and else to false
+  bool may_be_near;  // begin_cluster sets it to whether a wanted node may be near a group
   uint32_t found;    // after the last call of filter_cluster, a bit for each node that had pairs in any call
 };
 
-// Cache lines for the decision. The filter requests some after each few distances. Requested all at once, they would fill the
-// processor's queue, and its other loads would wait.
+// Cache lines for the decision. The filter requests some of them after every few distances. If it requested all at once, they
+// would fill the processor's queue, and other loads would wait.
 struct LinesAhead {
   int32_t n;
   const char *line[256];
 };
 
-// Leaves of one cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the
-// whole list. Nodes and pairs may be too many for the list and for the caller's arrays. Then the filter goes on in another call.
+// Leaves of one cluster, which are filtered together. The filter lists nodes with groups, and computes the distances of the whole
+// list. Nodes and pairs may be too many for the list and for the caller's arrays. The filter then continues in another call.
 constexpr int32_t most_listed = 2 * nodes_per_cluster;
 struct ClusterTask {
   int32_t n_leaves;
@@ -124,13 +124,13 @@ struct ClusterTask {
   uint16_t triangles[most_listed + 16];     // the group's triangles that are at this distance, to the tolerance
   FilterLimits limits[leaves_per_cluster];  // by the leaf's position
   alignas(64) float xyz[3][nodes_per_cluster];
-  float best[nodes_per_cluster];         // the least of reach_sq and of the squares of all computed distances
-  float limit[nodes_per_cluster];        // the square of how far a node's groups may be, or -1 if none is within reach
+  float best[nodes_per_cluster];         // the least of reach_sq and of all computed squares of distances
+  float limit[nodes_per_cluster];        // the square of the distance up to which groups are near, or -1 if none is
   float first_group[nodes_per_cluster];  // the group that the node was compared with first
 };
 
-// Pairs of a node, given by its position in the cluster, and a triangle. The arrays must have room for 16 more pairs than are
-// counted.
+// Pairs of a node, given by its position in the cluster, and a triangle. The arrays must have room for 16 more pairs than
+// they contain.
 struct PairArrays {
   int32_t *node, *triangle;
 };
@@ -146,7 +146,7 @@ struct alignas(64) PointsAndTriangles {
 struct alignas(64) PointsOnTriangles {
   double distance_sq[pairs_at_once];
   double point[3][pairs_at_once], barycentric[3][pairs_at_once];
-  uint32_t at_border;  // a bit for each lane, set if one of its weights is 0
+  uint32_t at_border;  // a bit for each lane, set if one of the weights is 0
 };
 
 // Numbers of a vertex that fields interpolate within a triangle: the velocity, then u and v, then three zeros.
@@ -155,7 +155,7 @@ struct alignas(64) VertexNumbers {
 };
 constexpr int uv_in_numbers = 3;
 
-// Measures of eight triangles: the unit normal, twice the area, and the dot products of the two edges at the first and at the
+// Data of eight triangles: the unit normal, twice the area, and the dot products of the two edges at the first and at the
 // second corner.
 struct alignas(64) TriangleMeasures {
   double normal[3][pairs_at_once], twice_area[pairs_at_once], product_at_a[pairs_at_once], product_at_b[pairs_at_once];
@@ -185,12 +185,12 @@ struct FilterKernels {
   // For each candidate group, writes a bit for each box within its reach. Returns false if no box is within any reach.
   bool (*near_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                      uint16_t *near);
-  // Clears the bits of boxes that are out of the reach of a group's box along its own axes. Returns false if no box is left.
-  // `near` comes from near_boxes, so lanes without a box have no bits.
+  // Clears the bits of boxes beyond the reach of a group's box along its own axes. Returns false if no box is left. `near`
+  // comes from near_boxes, so lanes without a box have no bits.
   bool (*near_own_boxes)(const FilterTask &task, const Boxes &boxes, const int32_t *candidates, int32_t n_candidates,
                          uint16_t *near);
-  // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns how many there are. `to` must have
-  // room for n numbers.
+  // Copies each numbers[k] of n whose marks[k] has the given bit, without gaps, and returns their number. `to` must have room
+  // for n numbers.
   int32_t (*select)(const int32_t *numbers, const uint16_t *marks, int32_t n, int32_t bit, int32_t *to);
   // For each of 16 boxes, finds the candidate group, n_candidates > 0, whose corner is nearest to the middle of the box. Writes
   // the position of that group among the candidates.
@@ -202,13 +202,13 @@ struct FilterKernels {
   // Compares the nodes of a cluster with the boxes of groups.
   void (*begin_cluster)(const FilterTask &task, ClusterTask &cluster);
   // Compares the nodes with the triangles of groups that may be near. Writes at most `room` pairs of a node and a triangle, and
-  // returns their number. For every node within the limit, its closest triangles are among the pairs. Each further call goes on
-  // where the last call stopped, until is_done. Room for triangles_per_group pairs is enough to go on.
+  // returns their number. For every node within the limit, its closest triangles are among the pairs. Each call goes on where
+  // the previous call stopped, until is_done is true. To go on, room for triangles_per_group pairs is enough.
   int32_t (*filter_cluster)(const FilterTask &task, ClusterTask &cluster, const PairArrays &pairs, int32_t room);
   // Computes the squares of the distances of a point to the triangles of a group, in single precision. The point is in the
   // surface's frame.
   void (*group_distances)(const TriangleGroup &group, const float *point, float margin, float *distance_sq);
-  // For each key, counts how many of the first n keys are less, n <= keys_at_once. If no two keys are equal, the count is the
+  // For each key, counts the lesser keys among the first n, n <= keys_at_once. If no two keys are equal, the count is the
   // key's position in ascending order. Both arrays are aligned to 64 bytes and have room for keys_at_once.
   void (*rank)(const int32_t *key, int32_t n, int32_t *n_less);
 };
@@ -236,7 +236,7 @@ struct DecisionKernels {
   // bounds[k].n must be set.
   void (*make_groups)(const GroupCorners *corners, int32_t n, TriangleGroup *groups, GroupBounds *bounds);
   // Computes the squares of the distances of n pairs of a point (x, y, z) and a triangle (9 doubles), both given by index.
-  // Writes up to n + 7 squares.
+  // May write up to 7 squares more than n.
   void (*decide)(int32_t n, const int32_t *point, const int32_t *triangle, const double *points, const double *corners,
                  double *distance_sq);
   // Finds the closest points themselves. They have the bits of closest_point_on_triangle.
@@ -246,16 +246,16 @@ struct DecisionKernels {
   void (*mix_at_vertices)(const VertexNumbers *numbers, const int64_t *const *vertex, const PointsOnTriangles &located,
                           VertexNumbers *mixed);
   // Computes the derivatives of the distances of the first n_points points, n_points > 0, when the triangles' vertices move.
-  // The search has computed the distances, so no root is taken again.
-  // `vertex` has the ids of each pair's three vertices, and rates[i] has the rates of all vertices in direction i. The
-  // derivatives of a point follow each other. At distance 0 a derivative is 0.
+  // The search has computed the distances, so no root is computed again. `vertex` has the ids of each pair's three
+  // vertices, and rates[i] has the rates of all vertices in direction i. The derivatives of a point follow each other.
+  // A derivative at distance 0 is 0.
   void (*differentiate)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                         const double (&distance)[pairs_at_once], const int64_t *const *vertex,
                         const double *const *rates, int64_t n_directions, int32_t n_points, double *derivatives);
   // Finds the side of each point, +1, -1 or 0. It is the sign of the point's height over the located point, along the normal.
   void (*find_sides)(const PointsAndTriangles &pairs, const PointsOnTriangles &located,
                      const double (&normal)[3][pairs_at_once], int32_t *side);
-  // Sums cubes of distances. The first function leaves the derivatives as they are. All instruction sets give the same bits.
+  // Sums cubes of distances. The first function does not change the derivatives. All instruction sets give the same bits.
   void (*sum_cubes)(const CubeSources &sources, const double *at, CubeSums &sums);
   void (*sum_cubes_with_derivatives)(const CubeSources &sources, const double *at, CubeSums &sums);
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes with sixteen floats or eight doubles at once, in the registers of the instruction set that the including file is
-// compiled for. Everything has internal linkage: files compiled for different instruction sets must not share a function,
-// because the linker could take it from the wrong file. For the same reason, this file includes no header whose inline functions
-// the compiler may emit as separate functions.
+// compiled for. Everything has internal linkage. Files for different instruction sets must not share a function, because the
+// linker could take it from the wrong file. For the same reason, this file includes no header whose inline functions the
+// compiler may emit as separate functions.
 #pragma once
 
 // RIIS_PORTABLE_LANES selects the code for processors without any of these instruction sets. Tests run that code on other
@@ -16,8 +16,8 @@
 namespace riis {
 
 // Counts the operations of kernels that are compiled with RIIS_COUNT_OPERATIONS. Only ./run bench roofline links such kernels.
-// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane,
-// with a multiply-add as one. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
+// In all other kernels, counting compiles to nothing. `operations` counts arithmetic instructions and comparisons in one lane.
+// A multiply-add counts as one. `pairs` counts the pairs of a node and a triangle whose distance the filter computed.
 struct Counts {
   int64_t operations, pairs;
 };
@@ -83,7 +83,7 @@ RIIS_INLINE FloatRegister greatest(FloatRegister a, FloatRegister b) {
 #endif
 }
 
-// Returns a < b ? a : b. So b is returned if one of the numbers is NaN.
+// Returns a < b ? a : b. If one of the numbers is NaN, b is therefore returned.
 RIIS_INLINE DoubleRegister least(DoubleRegister a, DoubleRegister b) {
 #if defined(__AVX512F__)
   return (DoubleRegister)_mm512_min_pd((__m512d)a, (__m512d)b);
@@ -109,7 +109,7 @@ RIIS_INLINE DoubleRegister greatest(DoubleRegister a, DoubleRegister b) {
 #endif
 }
 
-// Returns a * b + c, rounded only once if the instruction set can do that.
+// Returns a * b + c. It is rounded only once if the instruction set can do that.
 RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -120,7 +120,7 @@ RIIS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRe
 #endif
 }
 
-// Returns c - a * b, rounded only once if the instruction set can do that.
+// Returns c - a * b. It is rounded only once if the instruction set can do that.
 RIIS_INLINE FloatRegister subtract_product(FloatRegister a, FloatRegister b, FloatRegister c) {
 #if defined(__AVX512F__)
   return (FloatRegister)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
@@ -153,7 +153,7 @@ struct Lanes {
     return lanes;
   }
   // load and store need memory aligned to 64 bytes. Each register is moved as a whole. GCC copies longer memory in pieces of
-  // another size, and a register that is read from two pieces has to wait until both are written.
+  // another size. A register that is read from two such pieces has to wait until both are written.
   static RIIS_INLINE Lanes load(const Scalar *from) {
     Lanes lanes;
     for (int i = 0; i < n_registers; ++i) lanes.part[i] = reinterpret_cast<const InMemory *>(from)[i];
@@ -246,8 +246,9 @@ RIIS_INLINE Row high_halves(Row a, Row b) { return _mm256_permute2f128_pd(a, b, 
 template <int n, class Address>
 RIIS_INLINE void gather_points(const Address &address, Doubles (&xyz)[n][3]) {
 #if defined(__AVX2__)
-  // For each lane, a row has the three numbers of a point and the one behind them. The last point has no number behind it, so its
-  // row begins with the number before the point. A single point has neither, so a mask leaves out the fourth number.
+  // For each lane, a row has the three numbers of a point and the next number. No number follows the last point, so its row
+  // begins with the number before the point. A single point has no number before it either, so a mask leaves out the fourth
+  // number.
   constexpr int last = n - 1;
   const auto load = [](const double *from, int k) __attribute__((always_inline)) {
     if constexpr (n == 1) return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
@@ -351,7 +352,7 @@ RIIS_INLINE uint32_t bits_different(Floats a, Floats b) {
 #endif
 }
 
-// Returns how far x is outside the interval -half..half, perhaps with a minus sign.
+// Returns the distance of x from the interval -half..half, perhaps with a minus sign.
 RIIS_INLINE Floats beyond(Floats x, Floats half) {
 #if defined(__AVX512DQ__)
   // One instruction limits the magnitude of x and keeps its sign.
@@ -387,7 +388,7 @@ RIIS_INLINE Floats zero_where_at_least(Floats a, Floats b, Floats x) {
 #endif
 }
 
-// Takes 16 integers, and returns one bit for each. It is set if the integer has the given bit.
+// Takes 16 integers, and returns one bit for each. The bit is set if the integer has the given bit.
 RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 #if defined(RIIS_SSE2)
   // The bit becomes the sign, which survives the packing to bytes.
@@ -403,7 +404,7 @@ RIIS_INLINE uint32_t lanes_with_bit(const uint16_t *from, int32_t bit) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512F__)
-// For each set of eight lanes, the numbers of its lanes, in ascending order. The rest is 0.
+// For each set of eight lanes, the numbers of these lanes in ascending order. The rest is 0.
 struct LanesOfSets {
   alignas(64) uint8_t lane[256][8] = {};
   constexpr LanesOfSets() {
@@ -416,7 +417,7 @@ constexpr LanesOfSets lanes_of_sets;
 #endif
 
 // Takes 16 integers, and copies the integers whose bits are set, without gaps. It may write to all 16 places, even if it copies
-// fewer.
+// fewer integers.
 RIIS_INLINE void compress(uint32_t lanes, const int32_t *from, int32_t *to) {
 #if defined(__AVX512F__)
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), _mm512_loadu_si512(from)));
@@ -439,7 +440,7 @@ RIIS_INLINE void fill(int32_t x, int32_t *to) {
 
 RIIS_INLINE bool any(Doubles::Mask mask) { return bits(mask) != 0; }
 
-// For each of four Floats, writes the least of its lanes.
+// Writes the least lane of each of four Floats.
 RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
   count(&Counts::operations, 4 * (Floats::n - 1));
 #if defined(__AVX512F__)
@@ -465,7 +466,7 @@ RIIS_INLINE void least_lanes(const Floats (&of)[4], float *least_lane) {
     m[i] = (__m128)least(least(of[i].part[0], of[i].part[1]), least(of[i].part[2], of[i].part[3]));
 #endif
   }
-  // Combines neighbouring halves twice. Each time, keeps the lesser of two lanes.
+  // Combines neighbouring halves twice. Each step keeps the lesser of two lanes.
   const __m128 first = _mm_min_ps(_mm_unpacklo_ps(m[0], m[1]), _mm_unpackhi_ps(m[0], m[1]));
   const __m128 last = _mm_min_ps(_mm_unpacklo_ps(m[2], m[3]), _mm_unpackhi_ps(m[2], m[3]));
   _mm_storeu_ps(least_lane, _mm_min_ps(_mm_movelh_ps(first, last), _mm_movehl_ps(last, first)));

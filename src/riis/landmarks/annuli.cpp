@@ -53,7 +53,7 @@ Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
   };
   double squared = 0;
   Vec3 best = refined(*span, t, squared);
-  // The nearest sample may be the joint of two spans, so the neighbouring spans are also searched.
+  // The nearest sample may be the joint of two spans, so both neighbouring spans are searched.
   for (const std::size_t other : {index - 1, index + 1}) {
     if (other >= curve.size()) continue;
     double other_squared = 0;
@@ -142,7 +142,7 @@ Vec3 area_of(const Landmarks &landmarks, const std::vector<std::size_t> &ring) {
   return area;
 }
 
-// Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly across it.
+// Returns the cosine of the angle between the flow and a normal. Refuses a flow that is nearly perpendicular to the normal.
 double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose) {
   const double along = dot(landmarks.flow, normal);
   constexpr double most_degrees = 75;
@@ -152,7 +152,7 @@ double checked_flow(const Landmarks &landmarks, Vec3 normal, const char *whose) 
   return along;
 }
 
-// The direction towards the atrium, which the flow or the commissures show. It is 0 if the landmarks do not show it.
+// The direction towards the atrium, by the flow or the commissures. It is 0 if the landmarks show no direction.
 Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   const auto medial = landmarks.with_role(RIIS_LANDMARK_POSTEROMEDIAL),
              lateral = landmarks.with_role(RIIS_LANDMARK_ANTEROLATERAL);
@@ -241,8 +241,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   KindOfLandmarks made{std::move(model), {}, "AP_diameter", nullptr};
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
   if (known == Vec3{0, 0, 0}) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's. But the horns of a healthy annulus are
-    // nearer to the atrium than its sides.
+    // The points of the annulus alone do not tell the atrium's side from the ventricle's side. But in a healthy annulus,
+    // the horns are nearer to the atrium than the sides are.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);
@@ -315,7 +315,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
     const Vec3 p = landmarks.at(i) - middle;
     radius += length(p - dot(p, up) * up) / static_cast<double>(ring.size());
   }
-  // The hinge lines run in the direction in which the hinges' ends extend farthest.
+  // The hinge lines run in the direction of the hinge ends' largest extent.
   const Vec3 y = hinge_spread.direction[0];
   if (!(hinge_spread.deviation[0] > 0.2 * radius))
     fail(RIIS_INVALID_ARGUMENT, "the ends of the hinges are ", rounded(landmarks.scale * hinge_spread.deviation[0], 3),
@@ -324,7 +324,7 @@ KindOfLandmarks bileaflet_landmarks(const Valve &valve, const Landmarks &landmar
   if (std::abs(dot(y, up)) > 0.5)
     fail(RIIS_INVALID_ARGUMENT, "the hinges are at ", rounded(std::acos(std::abs(dot(y, up))) * 180 / pi, 3),
          " degrees to the ring's normal; they must be across it");
-  // If the landmarks are of one hinge only, it is the hinge of the leaflet at x > 0.
+  // If the landmarks belong to only one hinge, it is the hinge of the leaflet at x > 0.
   const Vec3 hinge_middle = landmarks.mean_of(hinges) - middle;
   Vec3 x = cross(y, up);
   if (dot(x, hinge_middle) < 0) x = -x;

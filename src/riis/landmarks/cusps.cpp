@@ -23,7 +23,7 @@ constexpr std::size_t next(std::size_t cusp) { return (cusp + 1) % n_cusps; }
 // The places of the landmarks on the valve.
 struct Order {
   std::array<std::size_t, n_cusps> nadir;       // landmark of each cusp
-  std::array<std::size_t, n_cusps> commissure;  // landmark between a cusp and the next
+  std::array<std::size_t, n_cusps> commissure;  // a landmark between a cusp and the next cusp
 };
 
 // Kinds whose three cusps are equal, with the names of their sizes.
@@ -57,7 +57,7 @@ void check_leaflet_ids(const Landmarks &landmarks) {
   }
 }
 
-// Returns whether the leaflets that the landmark names allow this place.
+// Returns whether this place agrees with the leaflets that the landmark names.
 bool fits_nadir(const Landmark &landmark, std::size_t cusp) {
   return landmark.leaflet_ids[0] == -1 || landmark.leaflet_ids[0] == static_cast<std::int32_t>(cusp);
 }
@@ -82,13 +82,13 @@ Order rotated(const Order &order, std::size_t by) {
   }
   return made;
 }
-// Returns the order in the opposite turn about the axis. Each commissure then follows the other one of its two cusps.
+// Returns the order for the opposite turn about the axis. Each commissure then follows the other of its two cusps.
 Order mirrored(const Order &order) {
   return {{order.nadir[0], order.nadir[2], order.nadir[1]},
           {order.commissure[2], order.commissure[1], order.commissure[0]}};
 }
 
-// Returns the landmarks in their turn about the axis. Refuses commissures and nadirs that do not alternate.
+// Returns the landmarks in the order of their angles about the axis. Refuses commissures and nadirs that do not alternate.
 Order turn_of(const Landmarks &landmarks, const std::vector<std::size_t> &nadirs,
               const std::vector<std::size_t> &commissures, Vec3 axis, Vec3 middle) {
   struct Seen {
@@ -133,7 +133,7 @@ Order turn_of(const Landmarks &landmarks, const std::vector<std::size_t> &nadirs
   fail(RIIS_INTERNAL_ERROR, "the names of the landmarks fit after all");
 }
 
-// Finds each landmark's place by the leaflets that it names. If no landmark names any, leaflet 0 is at the first nadir.
+// Finds each landmark's place by the leaflets that it names. If no landmark names a leaflet, leaflet 0 is at the first nadir.
 Order named_order(const Landmarks &landmarks, const Order &turn, bool needs_names) {
   std::size_t n_fitting = 0, fitting = 0;
   for (std::size_t by = n_cusps; by-- > 0;)
@@ -219,7 +219,7 @@ class CuspModel : public LandmarkModel {
   void add(std::size_t landmark, const std::vector<Vec3> &local, Vec3 place, std::vector<Offset> &out) const {
     out.push_back({landmark, local[landmark] - shift_ - place});
   }
-  // The closed cusps meet on the axis. The height of that point varies so much between people that it says little about the
+  // The closed cusps meet on the axis. The height of this point varies between people so much that it says little about the
   // sizes.
   void add_coaptation(const std::vector<Vec3> &local, std::vector<Offset> &out) const {
     for (const std::size_t i : coaptation_) {
@@ -284,14 +284,14 @@ double mean_radius(const Landmarks &landmarks, const std::array<std::size_t, n_c
   return sum / n_cusps;
 }
 
-// Returns a length for the fit, which begins at `start`. Its expected value `grown` is the template's length times the ratio of
-// the valves' sizes.
+// Returns a length for the fit, with `start` as its first value. Its expected value `grown` is the template's length times the
+// ratio of the valves' sizes.
 FittedSize length_size(const std::string &name, double start, double grown, double radius) {
   return {name, start, 1, 0.05 * radius, 10 * radius, grown, 0.3 * grown};
 }
 
 Pose start_of(const Landmarks &landmarks, const CuspAxes &axes, Vec3 shift, const std::array<double, n_cusps> &at) {
-  // The mean of the nadirs' directions, after each is turned back to the direction of the right cusp.
+  // The mean of the nadirs' directions, each turned back to the direction of the right cusp.
   const Rotation to = rotation_to(landmarks.at(axes.order.nadir[0]) - axes.middle, axes.axis), back = transposed(to);
   double x = 0, y = 0;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
@@ -307,7 +307,7 @@ void set_proportion(const Valve &own, Valve &valve, const std::string &name, dou
   valve.set(name, 1, std::array{value_of(own, name) / own_measure * measure}.data());
 }
 
-// Sizes that follow from others by a rule of the valve are left to that rule.
+// Sizes that follow from others by a rule of the valve keep that rule.
 void finish_trileaflet(const Valve &own, Valve &valve) {
   const auto middle_radius = [](const Valve &of) {
     return 0.5 * (value_of(of, "root_radius") + value_of(of, "leaflet_radius_out"));

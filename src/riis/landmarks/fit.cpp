@@ -13,11 +13,12 @@ namespace riis {
 namespace {
 
 // Landmarks determine a size if its standard error, at the stated noise, moves the valve by at most this share of its radius.
-// Residuals do not count here: a patient who differs from the model has large ones, but the sizes that fit best are still well
+// Residuals do not count here: they are large for a patient who differs from the model, but the best sizes are still well
 // defined.
 constexpr double determined_share = 1.0 / 15;
 
-// The least squares of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in centimetres.
+// The least-squares problem of the fit. The unknowns are the sizes that are not held, a rotation vector and a shift, all in
+// centimetres.
 class Problem {
  public:
   Problem(const LandmarkModel &model, const Landmarks &landmarks, const Pose &base)
@@ -35,8 +36,8 @@ class Problem {
     for (const auto &offset : offsets_) weights_.push_back(std::sqrt(1 / shares[offset.landmark]));
   }
 
-  std::vector<bool> with_prior;  // for each free size: whether it is drawn to its expected value
-  double prior_noise;            // the noise of the landmarks, with which the spread of expected values is compared
+  std::vector<bool> with_prior;  // for each free size, whether the fit draws it to its expected value
+  double prior_noise;            // the noise of the landmarks, which is compared with the spread of expected values
   const std::vector<std::size_t> &free_sizes() const { return free_; }
   std::size_t n_unknowns() const { return free_.size() + 6; }
   std::size_t n_residuals() const {
@@ -90,7 +91,7 @@ class Problem {
     return pose;
   }
   const std::vector<LandmarkModel::Offset> &offsets() const { return offsets_; }
-  // Returns the landmarks' places on the valve. A landmark without an offset has its own place.
+  // Returns the landmarks' places on the valve. A landmark without an offset is its own place.
   std::vector<Vec3> places() const {
     std::vector<Vec3> places = local_;
     for (std::size_t i = 0; i < offsets_.size(); ++i)
@@ -131,7 +132,7 @@ double sum_of_squares(const Problem &problem, std::vector<double> &longest) {
   return sum;
 }
 
-// Returns the noise for the standard errors: the stated noise or the noise of the residuals, whichever is larger.
+// Returns the noise for the standard errors: the larger of the stated noise and the noise of the residuals.
 double shown_noise(const LandmarkModel &model, const Landmarks &landmarks, double squares, std::size_t n_unknowns) {
   const std::size_t n = model.n_equations();
   const double seen = n > n_unknowns ? std::sqrt(squares / static_cast<double>(n - n_unknowns)) : 0;
@@ -179,8 +180,8 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   }
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
-  // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a size
-  // either, so the weakest one is also drawn to its expected value.
+  // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a
+  // size, so the weakest size is also drawn to its expected value.
   while (!minimum.converged) {
     std::size_t weakest = problem.free_sizes().size();
     for (std::size_t k = 0; k < problem.free_sizes().size(); ++k)

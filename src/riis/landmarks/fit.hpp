@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits a valve's sizes and its pose to landmarks by least squares.
-// In: a model, which says where each landmark of the valve is. Out: sizes, pose, offsets, and a mark for each size that the
-// landmarks determine.
+// In: a model, which gives the place of each landmark on the valve. Out: sizes, pose, offsets, and a mark for each size
+// that the landmarks determine.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace riis {
 // Small dense least squares (Levenberg 1944, Marquardt 1963) and symmetric eigenvalues (Jacobi 1846).
 // In: a function that gives residuals. Out: the unknowns for which the sum of their squares is least, and the covariance there.
 
-// Writes the residuals of the unknowns x. Their number is the same in each call.
+// Computes the residuals for the unknowns x. Their number is the same in each call.
 using Residuals = std::function<void(const std::vector<double> &x, std::vector<double> &residuals)>;
 
 struct Minimum {
@@ -27,8 +27,8 @@ struct Minimum {
   double cost;  // the sum of squares
 };
 
-// Changes x until the sum of squares is least. Unknowns have one unit, and `size` is a length in this unit over which the
-// residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
+// Changes x until the sum of squares is least. All unknowns have one unit, and `size` is a length in this unit over which
+// the residuals are smooth. Derivatives are central differences. The unknowns stay between their bounds.
 struct Bounded {
   std::vector<double> lower, upper;
 };
@@ -45,8 +45,8 @@ struct Eigen {
 };
 Eigen symmetric_eigen(std::vector<double> a, std::size_t n);
 
-// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entry of each
-// unknown in the combination is infinite. The other entries of its row and column are then 0.
+// Returns the inverse of J^T J. If the residuals do not depend on some combination of unknowns, the diagonal entries of
+// its unknowns are infinite. The other entries in the rows and columns of these unknowns are then 0.
 std::vector<double> covariance(const std::vector<double> &normal_matrix, std::size_t n);
 
 // A size of the valve that the fit adapts to the landmarks.
@@ -75,7 +75,7 @@ class LandmarkModel {
     Vec3 vector;
   };
   // Writes the offsets of landmarks whose coordinates in the valve's frame are `local`. Each call writes the same number, in the
-  // same order. `values` are the values of the sizes.
+  // same order. `values` contains the values of the sizes.
   virtual void offsets(const std::vector<double> &values, const std::vector<Vec3> &local,
                        std::vector<Offset> &out) const = 0;
   // Returns the number of independent equations that the landmarks give.
@@ -90,14 +90,14 @@ struct Pose {
 
 struct LandmarkFit {
   Pose pose;
-  std::vector<double> residuals;  // one for each landmark: the length of its longest offset, in centimetres
-  std::vector<Vec3> places;       // places of the landmarks on the valve, in its frame; with several offsets their mean
-  double noise;                   // the noise on which standard errors rest, in centimetres
+  std::vector<double> residuals;  // the length of each landmark's longest offset, in centimetres
+  std::vector<Vec3> places;       // places of the landmarks on the valve, in its frame; the mean for several offsets
+  double noise;                   // the noise from which the standard errors follow, in centimetres
   double rotation_error;          // degrees
   double position_error;          // standard error of the landmarks' mean, in centimetres
 };
 
-// Changes the model's sizes. Begins at each of the poses, with the model's values, and keeps the better end.
+// Changes the model's sizes. Fits from each of the poses with the model's values, and keeps the better result.
 LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vector<Pose> &starts);
 
 // Returns the rotation whose columns are unit vectors along x, y and z. `x` is first made perpendicular to z.
@@ -105,7 +105,7 @@ Rotation rotation_to(Vec3 x, Vec3 z);
 Rotation operator*(const Rotation &a, const Rotation &b);
 inline Vec3 unit(Vec3 a) { return (1 / length(a)) * a; }
 
-// The landmarks of each kind of valve: which ones are needed, where they lie on the valve, and which sizes they determine.
+// The landmarks of each kind of valve: which landmarks are needed, where they lie on the valve, and which sizes they determine.
 
 // Returns a parameter's value in the template. The template is the valve whose proportions the fit begins with.
 double value_of(const Valve &valve, const std::string &name);

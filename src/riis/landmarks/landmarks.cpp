@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// The smallest and the largest mean distance of a heart valve's landmarks from their middle, in centimetres. They range from a
-// newborn's aortic valve to a dilated mitral annulus, with room on both sides.
+// The smallest and the largest mean distance of a heart valve's landmarks from their middle, in centimetres. The range covers
+// a newborn's aortic valve and a dilated mitral annulus, with room on both sides.
 constexpr double least_size = 0.2, largest_size = 4;
 
 struct LengthUnit {

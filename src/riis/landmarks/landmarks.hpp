@@ -44,16 +44,16 @@ std::string words_for(const Landmarks &landmarks, std::size_t i);
 
 // The following checks fail with RIIS_INVALID_ARGUMENT and name the landmarks.
 
-// Refuses landmarks whose distance from their mean does not fit a heart valve. The message has the size in the other units.
+// Refuses landmarks whose distance from their mean does not fit a heart valve. The message also states the size in other units.
 void check_unit(const Landmarks &landmarks);
-// Refuses a landmark whose role is not one of `roles`. These are the roles that this kind of valve uses.
+// Refuses a landmark whose role is not one of `roles`. `roles` contains the roles that this kind of valve uses.
 void check_roles(const Landmarks &landmarks, const char *kind, const std::vector<std::int32_t> &roles);
 // Refuses a number of landmarks with this role that is out of range. `most` is 0 if there is no upper limit.
 void check_count(const Landmarks &landmarks, const char *kind, std::int32_t role, std::size_t least, std::size_t most);
 // Refuses two landmarks of the list whose distance is less than a share of their spread, and landmarks along one line.
 void check_spread(const Landmarks &landmarks, const std::vector<std::size_t> &numbers, double share);
 
-// The principal directions of points about their mean, the longest extent first, and their standard deviations.
+// The principal directions of points about their mean, in descending order of extent, and the standard deviations along them.
 struct Spread {
   std::array<Vec3, 3> direction;
   std::array<double, 3> deviation;
@@ -71,7 +71,7 @@ struct PlacedValve {
   Vec3 translation;               // mesh units
   std::vector<double> residuals;  // residuals of the landmarks, mesh units
   std::vector<Vec3> places;       // the landmarks' places on the closed valve, mesh units
-  double noise;                   // the noise on which standard errors rest, mesh units
+  double noise;                   // the noise from which the standard errors follow, mesh units
   double rotation_error;          // degrees
   double position_error;          // standard error of the valve's origin, mesh units
   // One entry for each parameter of the kind.
@@ -79,7 +79,7 @@ struct PlacedValve {
   std::vector<double> standard_error;    // infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT
 };
 
-// `held` names sizes that keep the valve's values, separated by blanks or commas.
+// `held` names sizes that keep the valve's values, with blanks or commas between the names.
 PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::string_view held);
 
 }  // namespace riis

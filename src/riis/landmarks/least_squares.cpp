@@ -9,14 +9,14 @@
 namespace riis {
 namespace {
 
-// The step of central differences, as a share of `size`. It balances the error of the differences, step^2, with rounding, 1e-16 /
-// step.
+// The step of central differences, as a share of `size`. It balances two errors: the error of the differences, step^2, and
+// rounding, 1e-16 / step.
 constexpr double difference_step = 1e-5;
 // The iteration ends if a step is shorter than this share of `size`.
 constexpr double negligible_step = 1e-13;
 // The iteration also ends if the sum of squares falls by less than this share of itself. The unknowns are then within a
-// thousandth of their standard errors of their final values. If residuals can vanish, the sum falls much faster, until only
-// rounding is left.
+// thousandth of their standard errors from their final values. If residuals can vanish, the sum falls much faster, until
+// only rounding is left.
 constexpr double negligible_decrease = 1e-9;
 constexpr int most_iterations = 400;
 
@@ -102,7 +102,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
       gradient[i] = std::inner_product(columns[i].begin(), columns[i].end(), r.begin(), 0.0);
       largest = std::max(largest, matrix[i * n + i]);
     }
-    // This step leaves out an unknown that would leave its bounds, so that it does not change the other unknowns' step.
+    // If an unknown would leave its bounds, this step leaves it out, so that it does not change the steps of the others.
     for (std::size_t i = 0; i < n; ++i) {
       const bool rests = gradient[i] > 0 ? x[i] <= bounds.lower[i] : x[i] >= bounds.upper[i];
       if (!rests) continue;
@@ -112,7 +112,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
     }
     for (bool accepted = false; !accepted; damping *= 8) {
       std::vector<double> damped = matrix, step(n);
-      // The second damping term keeps the step finite for an unknown on which no residual depends.
+      // The second damping term keeps the step finite if no residual depends on an unknown.
       for (std::size_t i = 0; i < n; ++i) damped[i * n + i] += damping * matrix[i * n + i] + 1e-3 * damping * largest;
       for (std::size_t i = 0; i < n; ++i) step[i] = -gradient[i];
       if (solve(std::move(damped), step)) {
@@ -133,7 +133,7 @@ Minimum minimize(const Residuals &residuals, std::size_t n_residuals, double siz
         }
         if (is_level || moved <= negligible_step * size) return {true, cost};
       }
-      if (damping > 1e12) return {true, cost};  // not even a tiny step downhill lowers the cost: only rounding is left
+      if (damping > 1e12) return {true, cost};  // no tiny step downhill lowers the cost, so only rounding is left
     }
   }
   return {false, cost};

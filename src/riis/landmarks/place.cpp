@@ -310,7 +310,8 @@ void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const s
     }
 }
 
-// Refuses sizes that do not fit together. The message begins with the sizes that the landmarks gave, because the others follow.
+// Refuses sizes that do not fit together. The message begins with the sizes that come from the landmarks, because the others
+// follow from them.
 void check_sizes(const Valve &valve, const std::vector<FittedSize> &sizes) {
   try {
     valve.make_patches();
@@ -350,7 +351,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   for (const FittedSize &size : model.sizes)
     if (size.name == of_kind.size_name) size_now = size.value;
   const double grown = size_now / value_of(valve, of_kind.size_name);
-  // Lengths that follow from others by a rule of the valve grow with these.
+  // Lengths that follow from others by a rule of the valve grow with those lengths.
   for (const ParameterSpec &spec : specs) {
     if (!grows(spec) || (spec.rule.value && !valve.is_set(spec.name))) continue;
     double values[3] = {0, 0, 0};

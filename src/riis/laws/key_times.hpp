@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interpolates between keys in time, once or periodically. It serves openings (laws/opening_laws.hpp) and the vertices of
 // keyframes (arrays/user_arrays.hpp).
-// In: times of keys, a period. Out: the keys around a time, and values and rates between them.
+// In: times of keys, a period. Out: the keys around a time, and the values and rates between them.
 #pragma once
 
 #include <riis/riis.h>
@@ -21,18 +21,18 @@ class KeyTimes {
   // RIIS_INVALID_ARGUMENT. The message names the field or key, and its value.
   KeyTimes(const char *name, std::int64_t n_keys, const double *time, double period, std::int32_t interpolation);
 
-  // Returns whether the last key is one period after the first. Then the values of the two keys must be equal.
+  // Returns whether the last key is exactly one period after the first. The values of these two keys must then be equal.
   bool is_closed() const { return is_closed_; }
 
   // The keys around a time and the times between these keys. These keys and times determine the value. A key is a position in the
   // arrays, so a time one period later has the same keys.
   struct KeysAround {
     std::array<std::int64_t, 4> key;  // before the interval, at its two ends, after it
-    std::array<double, 3> width;      // from each of these keys to the next; infinite if one of the two is missing
+    std::array<double, 3> width;      // the time from each of these keys to the next; infinite if one is missing
     double since;                     // time since the interval's first end
-    bool is_at_rest;                  // before the first or after the last key; key[1] gives the value there
+    bool is_at_rest;                  // true before the first key and after the last; key[1] then gives the value
   };
-  // A time counts as a key if it is within 8 units of rounding of that key, after subtracting whole periods. The key is then the
+  // A time counts as a key if, apart from whole periods, it is within 8 units of rounding of that key. The key then becomes the
   // first end of the interval. The unit is 2^-52 times the largest of time, key and period. Fails with RIIS_INVALID_ARGUMENT for
   // a time that is not finite. `name` is the time's name in the message.
   KeysAround around(double time, const char *name = "time") const;
@@ -45,8 +45,8 @@ class KeyTimes {
   double time(std::int64_t i) const {
     return i < 0 ? time_[i + n()] - period_ : i >= n() ? time_[i - n()] + period_ : time_[i];
   }
-  // Returns the distance of a time from a key, after subtracting whole periods. Returns infinity if the time does not count as
-  // the key.
+  // Returns the distance of a time from a key, apart from whole periods. Returns infinity if the time does not count as the
+  // key.
   double from_key(std::int64_t i, double time) const;
   std::int64_t position(std::int64_t i) const { return i < 0 ? i + n() : i >= n() ? i - n() : i; }
 

@@ -41,7 +41,7 @@ ValueAndRate opening_from_table(const riis_opening_table &table, double time) {
   std::array<double, 4> openings;
   for (std::size_t k = 0; k < 4; ++k) openings[k] = table.opening[around.key[k]];
   const ValueAndRate made = keys.between(around, openings);
-  // The opening is limited to its range, because rounding could take it out.
+  // The opening is limited to its range, because rounding could take it outside.
   return {std::clamp(made.value, 0.0, 1.0), made.rate};
 }
 
@@ -65,7 +65,7 @@ ValueAndRate opening_from_times(const riis_opening_times &times, double time) {
   const double opened = since / times.opening_duration;
   const double closed = (since - (times.closing_start - times.opening_start)) / times.closing_duration;
   const double height = times.open - times.closed;
-  // The opening is limited to its range, because rounding could take it out.
+  // The opening is limited to its range, because rounding could take it outside.
   return {std::clamp(times.closed + height * (ramp(opened) - ramp(closed)), std::min(times.closed, times.open),
                      std::max(times.closed, times.open)),
           height * (ramp_rate(opened) / times.opening_duration - ramp_rate(closed) / times.closing_duration)};
@@ -123,8 +123,8 @@ riis_opening_switch_state advance(const riis_opening_switch &law, const riis_ope
     now.phase = opens ? RIIS_PHASE_OPENING : RIIS_PHASE_CLOSING;
     now.turn_time = time;
   }
-  // During a step, the valve moves in the phase that it had at the start. A change of phase is known only at the end of the
-  // step.
+  // During a step, the valve moves in the phase that it had at the start. A change of phase becomes known only at the end
+  // of the step.
   const bool is_opening = before.phase == RIIS_PHASE_OPENING;
   const double per_second = is_opening ? 1 / law.opening_duration : -1 / law.closing_duration;
   now.progress = std::clamp(before.progress + step * per_second, 0.0, 1.0);
@@ -144,7 +144,7 @@ struct AngleState {
 AngleState operator+(AngleState a, AngleState b) { return {a.angle + b.angle, a.rate + b.rate}; }
 AngleState operator*(double s, AngleState a) { return {s * a.angle, s * a.rate}; }
 
-// The law of Korakianitis and Shi. Its drive is a pressure difference and a flow, both linear in time during a step.
+// The law of Korakianitis and Shi. The drive is a pressure difference and a flow, both linear in time during a step.
 class AngleLaw {
  public:
   struct Drive {
@@ -182,7 +182,7 @@ AngleState runge_kutta(const AngleLaw &law, AngleState at, double from, double t
   return at + (seconds / 6) * (k1 + 2 * k2 + 2 * k3 + k4);
 }
 
-// Keeps the leaflet between its stops. A leaflet at a stop has no speed towards this stop.
+// Keeps the angle between its stops. At a stop, the leaflet has no speed towards this stop.
 AngleState stopped(AngleState at, double least, double most) {
   if (at.angle <= least) return {least, std::max(at.rate, 0.0)};
   if (at.angle >= most) return {most, std::min(at.rate, 0.0)};
@@ -212,8 +212,8 @@ riis_opening_angle_state advance(const riis_opening_angle &law, const riis_openi
 
   const AngleLaw::Drive to{pressure_difference, flow};
   const AngleLaw angle_law(law, has_drive ? AngleLaw::Drive{before.pressure_difference, before.flow} : to, to);
-  // The method's error falls with the fourth power of the step. With steps of this size, that error is far below the error of
-  // assuming a linear drive.
+  // The error of the method falls with the fourth power of the step. With steps of this size, it is far below the error
+  // that a linear drive makes.
   constexpr double largest_step = 0.05;
   const double n_wanted = std::ceil(step * angle_law.fastest() / largest_step);
   constexpr double max_steps = 1e6;

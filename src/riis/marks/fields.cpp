@@ -32,8 +32,8 @@ void for_each_array(const FieldSet &fields, const Visit &visit) {
   if (has(RIIS_FIELD_GRADIENT)) visit(&NodeFields::distance_gradient, fields.n_directions);
 }
 
-// Finds the position of a triangle in the set from its id. A triangle's position equals its id, unless the set left out some of
-// the caller's triangles.
+// Finds the position of a triangle in the set from its id. The position of a triangle equals its id, unless the set left out
+// some of the caller's triangles.
 class Positions {
  public:
   explicit Positions(const TriangleSet &set)
@@ -49,8 +49,8 @@ class Positions {
 };
 
 // The mean of the velocities of the leaflets that tie at a node. A leaflet's velocity is the mean over its tied points. The
-// constructor takes the velocity at the closest triangle. After that, the caller adds the tied points, one other leaflet after
-// another.
+// constructor takes the velocity at the closest triangle. Afterwards the caller adds the tied points of the other leaflets,
+// leaflet by leaflet.
 class MeanOfLeaflets {
  public:
   MeanOfLeaflets(std::int32_t closest_leaflet, Vec3 velocity) : closest_leaflet_(closest_leaflet) {
@@ -123,7 +123,7 @@ class TriangleFields {
   }
 
   // Replaces the velocity of each node with ties by the mean over all leaflets that are equally near. A leaflet's velocity is
-  // the mean over its tied points. A node belongs to the range that holds its first tie.
+  // the mean over its tied points. A node belongs to the range that contains its first tie.
   void take_means(const Range &range) const {
     const std::int64_t begin = next_node(range.begin), end = next_node(range.end);
     MeanOfLeaflets mean(-1, {0, 0, 0});
@@ -191,7 +191,7 @@ class TriangleFields {
 
   std::int64_t n_directions() const { return view(rates_).size(); }
 
-  // Writes the velocities and (u,v). They are interpolated from the vertices by the weights.
+  // Writes the velocities and (u,v). They are interpolated from the vertices with the weights.
   void write_mixed(const std::int64_t *triangle, const PointsOnTriangles &on, std::int64_t first,
                    std::int64_t n) const {
     const std::int64_t *vertex[pairs_at_once];
@@ -208,7 +208,7 @@ class TriangleFields {
     }
   }
 
-  // Returns the first position from `tie` on at which the ties of a node begin, or the number of all ties if there is none.
+  // Returns the first position from `tie` on where the ties of a node begin, or the number of all ties if there is none.
   std::int64_t next_node(std::int64_t tie) const {
     while (tie > 0 && tie < ties_.size() && ties_[tie].point == ties_[tie - 1].point) ++tie;
     return tie;
@@ -260,7 +260,7 @@ struct TieOrder {
   }
 };
 
-// Stores the numbers that the fields need vertex by vertex, so that a node's fields read few places in memory.
+// Stores the numbers that the fields need vertex by vertex, so that the fields of a node read few places in memory.
 void gather_at_vertices(const TriangleSet &set, std::int32_t fields, int n_threads, FieldScratch &scratch) {
   const bool has_velocity = fields & RIIS_FIELD_VELOCITY, has_uv = fields & RIIS_FIELD_UV;
   if (!has_velocity && !has_uv) return;
@@ -319,8 +319,8 @@ void FieldScratch::prepare(const SearchRequest &request, std::int32_t fields, co
   const auto is_one_leaflet = [&](const Tie &a, const Tie &b) {
     return rule.leaflet_id[a.triangle.triangle] == rule.leaflet_id[b.triangle.triangle];
   };
-  // For each leaflet, keeps its closest triangle. Also keeps one triangle on each other patch of the leaflet that ties with the
-  // closest one.
+  // Keeps the closest triangle of each leaflet. On each other patch of the leaflet, it also keeps a triangle that ties with
+  // the closest one.
   auto closest = ties.begin(), end = ties.begin();
   for (const Tie &tie : ties) {
     const bool is_first = end == ties.begin() || tie.point != closest->point || !is_one_leaflet(*closest, tie);
@@ -358,7 +358,7 @@ void check_fields(const Surface &surface, std::int32_t fields) {
 bool need_normals(const Surface &surface, std::int32_t fields, std::int64_t n_nodes) {
   if (surface.other_distance()) return false;
   if (fields & (RIIS_FIELD_SIDE | RIIS_FIELD_RIM)) return true;
-  // If there are fewer triangles than nodes, one normal for each triangle costs less than one for each node.
+  // If there are fewer triangles than nodes, a normal for each triangle costs less than a normal for each node.
   return (fields & RIIS_FIELD_NORMAL) && n_nodes > surface.triangles().n_triangles();
 }
 

@@ -21,8 +21,8 @@ namespace riis {
 
 // The arrays that a caller gets from a marking. They have one entry for each node, in ascending order.
 
-// Makes room for n elements. If it has to reserve memory, it reserves half as much again. Without this surplus, a moving valve
-// would need new memory each time its number of nodes reaches a new maximum.
+// Makes room for n elements. If it has to reserve memory, it reserves half as much again as needed. Without this reserve, a
+// moving valve would need new memory at each new maximum of its number of nodes.
 template <class Array>
 void reserve_amply(Array &array, std::int64_t n) {
   const auto needed = static_cast<std::size_t>(n);
@@ -67,8 +67,8 @@ struct NodeList {
   }
 };
 
-// Fields. A field is a number or vector at a node's closest point, such as the velocity, which a solver's force needs besides the
-// distance.
+// Fields. A field is a number or vector at a node's closest point. An example is the velocity, which a solver needs for its
+// force.
 // In: nodes within the limit, each with the closest triangle that the search found. Out: an array for each requested field.
 
 // Fields, and the number of the surface's directions, which RIIS_FIELD_GRADIENT needs.
@@ -84,7 +84,7 @@ struct NodeFields {
   UnfilledVector<double> distance_gradient;                     // (n_directions, n)
   UnfilledVector<std::int32_t> side, rim, patch_id;             // (n)
 
-  // Reserves memory for n nodes. Then resize(m) with m <= n does not throw.
+  // Reserves memory for n nodes. After that, resize(m) with m <= n does not throw.
   void reserve(const FieldSet &fields, std::int64_t n);
   bool has_room(const FieldSet &fields, std::int64_t n) const;
   void resize(const FieldSet &fields, std::int64_t n);
@@ -116,12 +116,12 @@ void make_fields(const SearchRequest &request, std::int32_t fields, const NodeLi
 void select_fields(const FieldSet &fields, const NodeList &all, const NodeFields &fields_of_all, const NodeList &some,
                    NodeFields &made);
 
-// Turns the lists of several threads into lists in ascending order of nodes.
+// Merges the lists of several threads into lists in ascending order of nodes.
 // In: found nodes. Out: the nodes within the limit and, if the limit is wider than the half thickness, the marked nodes.
 
-// A bin is a range of node numbers. This is a set of nodes of one bin, with a bit for each number of the bin. It gives each node
-// a rank, which is the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written
-// and read.
+// A bin is a range of node numbers. The set holds nodes of one bin, with a bit for each number of the bin. It gives each node
+// a rank: the number of lesser nodes in the set. A stretch is 64 words of bits. Only stretches with nodes are written and
+// read.
 class NodeRanks {
  public:
   // Makes room for bins of n_numbers. Only this function allocates memory.
@@ -130,13 +130,13 @@ class NodeRanks {
   void clear();
   // `node` is a number within the bin.
   void add(std::int64_t node);
-  // Call this after all nodes were added, and before the first rank is requested.
+  // Call this after all nodes were added, and before the first call of rank.
   void count();
   std::int64_t rank(std::int64_t node) const;
 
  private:
   UnfilledVector<std::uint64_t> words_;
-  UnfilledVector<std::uint32_t> before_;  // for each word, the number of nodes in the words before it
+  UnfilledVector<std::uint32_t> before_;  // for each word, the number of nodes in the earlier words
   std::vector<std::uint8_t> stretch_has_nodes_;
 };
 
@@ -153,8 +153,8 @@ struct OrderScratch {
     std::vector<std::int64_t> end;  // for each bin, the end of its nodes
   };
   std::vector<List> lists;
-  std::int64_t n_lists = 0;      // the number of lists that have nodes; they come first
-  std::vector<Counts> first;     // for each bin, its first position in each result; at last the sizes of both results
+  std::int64_t n_lists = 0;      // the number of lists with nodes, which come first
+  std::vector<Counts> first;     // each bin's first position in each result, then the sizes of both results
   std::vector<NodeRanks> ranks;  // one for each thread
 };
 
@@ -163,15 +163,15 @@ struct OrderScratch {
 OrderScratch::Counts prepare_order(const Surface &surface, const FoundNodes &found, bool limit_is_wider,
                                    std::int64_t n_nodes, int n_threads, OrderScratch &scratch);
 
-// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. Call prepare_order first with the same
-// arguments.
+// Fills the lists. Fills `marked` only if the limit is wider than the half thickness. Call prepare_order with the same
+// arguments before this function.
 void put_in_order(const Surface &surface, bool limit_is_wider, std::int64_t n_nodes, int n_threads,
                   OrderScratch &scratch, NodeList &within, NodeList &marked);
 
 // The data that a marking computes for its nodes, besides their distances.
 struct WantedData {
-  std::int32_t fields = 0;        // the sum of RIIS_FIELD_* that are computed
-  std::int32_t given_fields = 0;  // the sum of the fields that the caller requested
+  std::int32_t fields = 0;        // the sum of the RIIS_FIELD_* that are computed
+  std::int32_t given_fields = 0;  // the sum of the RIIS_FIELD_* that the caller requested
   bool k = false, k_u_surface = false;
   std::int64_t n_directions = 0;  // 0 without RIIS_FIELD_GRADIENT
 
@@ -179,7 +179,7 @@ struct WantedData {
   std::int64_t n_k_gradients() const { return k ? n_directions : 0; }  // of each node
 };
 
-// The nodes of a list with the data computed for them.
+// The nodes of a list, with the data that were computed for them.
 struct ListedNodes {
   NodeList nodes;
   NodeFields fields;

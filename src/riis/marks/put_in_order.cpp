@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t bits_per_word = 64, words_per_stretch = 64;
 
-// All bins have equally many numbers, a power of two. One thread writes a bin's part of the result, so few cache lines have two
-// writers. Many more bins would make gathering slower.
+// All bins have equally many numbers, a power of two. One thread writes a bin's part of the result, so two threads write to few
+// cache lines. Many more bins would slow down the gathering.
 class Bins {
  public:
   explicit Bins(std::int64_t n_nodes) {
@@ -36,7 +36,8 @@ static_assert(bits_per_word * words_per_stretch == 1 << 12);
 
 std::uint64_t bit_of(std::int64_t node) { return std::uint64_t{1} << node % bits_per_word; }
 
-// Counts bits without the popcount instruction. For processors that may lack it, the compiler's built-in would call a function.
+// Counts bits without the popcount instruction. The compiler's built-in would call a function for processors that may lack this
+// instruction.
 std::uint32_t n_bits(std::uint64_t x) {
   x -= x >> 1 & 0x5555555555555555;
   x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
@@ -76,7 +77,7 @@ class Ordering {
   void write(NodeList &within, NodeList &marked) {
     parallel_for(bins_.n(), n_threads_, [&](std::int64_t bin, int thread) {
       const OrderScratch::Counts &first = view(scratch_.first)[bin], &next = view(scratch_.first)[bin + 1];
-      // The next bin's part is requested now, because a thread writes it in a random order.
+      // The next bin's part is requested now, because a thread writes it in random order.
       if (bin + 1 < bins_.n()) request({next.n_within, view(scratch_.first)[bin + 2].n_within}, within);
       if (next.n_within == first.n_within) return;
       NodeRanks &ranks = view(scratch_.ranks)[thread];
@@ -87,7 +88,7 @@ class Ordering {
   }
 
  private:
-  // One thread handles few nodes, because other threads would start too late to help.
+  // One thread handles a few nodes alone, because other threads would start too late to help.
   static int threads_for_order(std::int64_t n_within, int n_threads) {
     constexpr std::int64_t few = 4096;
     return n_within < few ? 1 : n_threads;
@@ -142,7 +143,7 @@ class Ordering {
       sum += n[bin].n_within;
     }
     FoundNode *const nodes = list.nodes.data();
-    constexpr std::ptrdiff_t ahead = 8;  // nodes that fill two cache lines
+    constexpr std::ptrdiff_t ahead = 8;  // the number of nodes that fill two cache lines
     for (const FoundNode &node : found) {
       FoundNode *const to = nodes + end[bins_.bin_of(node)]++;
       *to = node;
@@ -159,7 +160,7 @@ class Ordering {
     }
   }
 
-  // Writes the wanted nodes of a bin. The first one gets position `first`.
+  // Writes the wanted nodes of a bin. The first wanted node gets position `first`.
   template <class IsWanted>
   void write_bin(std::int64_t bin, std::int64_t first, NodeRanks &ranks, NodeList &list,
                  const IsWanted &is_wanted) const {

@@ -63,8 +63,8 @@ riis_cells_across cells_across(const Marks &marks, const Mesh &mesh, const Adjac
   for (const Lengths &block : by_block) all.add(block);
   const double eps = marks.half_thickness;
   if (all.n == 0) return {0, 0, 0, 0, 0, 0, eps, 0};
-  // The mean is limited to the range of the lengths, because the sum is rounded. Otherwise the mean of equal lengths could differ
-  // from them.
+  // The mean is limited to the range of the lengths, because the rounded sum could put it outside. Otherwise the mean of equal
+  // lengths could differ from them.
   const double mean = std::clamp(all.sum / static_cast<double>(all.n), all.shortest, all.longest);
   return {2 * eps / all.longest, 2 * eps / mean, 2 * eps / all.shortest, all.shortest, mean, all.longest, eps, all.n};
 }

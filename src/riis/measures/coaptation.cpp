@@ -16,7 +16,7 @@
 namespace riis {
 namespace {
 
-// Returns the triangles of all leaflets except one and except the omitted ones.
+// Returns the triangles of all leaflets except one leaflet and the omitted ones.
 TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::vector<std::int32_t> &omitted) {
   TriangleSet made;
   made.xyz = set.xyz;
@@ -31,10 +31,11 @@ TriangleSet others(const TriangleSet &set, std::int32_t leaflet_id, const std::v
   return made;
 }
 
-// Measures parts of one leaflet near the others. Between two points, the distance from the others changes by at most the distance
-// of the two points. So a part is wholly within reach or wholly out of reach if its middle is far enough within or beyond the
-// reach. Other parts are halved until they are small. On a small part, the distance counts as a linear function. A small part has
-// an eighth of the reach, or 1/2000 of the surface's extent if that is more. So a tiny reach cannot ask for endless work.
+// Measures the parts of one leaflet that are near the other leaflets. From one point to another, the distance from the other
+// leaflets changes by at most the distance of the two points. The distance at a part's middle therefore tells that the part is
+// wholly within reach or wholly out of reach, unless it is near the reach. Parts near the reach are halved until they are
+// small. On a small part, the distance counts as a linear function. A small part has an eighth of the reach, or 1/2000 of
+// the surface's extent if that is more. A tiny reach can therefore not cause endless work.
 class Measuring {
  public:
   Measuring(const TriangleScene &scene, double reach, double extent)
@@ -74,7 +75,7 @@ class Measuring {
     return area(tip, from, middle) + area(tip, middle, to);
   }
 
-  // Returns the distance from the other leaflets, or a larger value than reach + 2 * radius.
+  // Returns the distance from the other leaflets, or a value above reach + 2 * radius.
   double distance_from(Vec3 p, double radius) const {
     const double limit = reach_ + 3 * radius;
     const ClosestTriangle closest = scene_.closest(p, limit);

@@ -71,7 +71,7 @@ bool are_parallel(Vec3 w, Vec3 e, Vec3 f) { return dot(w, w) <= 1e-16 * dot(e, e
 // edge plus 2^-48 of the largest coordinate (docs/theory/crossings.md).
 double penetration_depth(const Triangle &a, const Triangle &b, double limit) {
   // Most pairs of triangles are dismissed here, because one triangle does not cut the plane of the other. Points are relative to
-  // a corner of that plane's triangle, so the plane's height is exactly 0.
+  // a corner of the other triangle, so the height of its plane is exactly 0.
   const Vec3 normal_a = cross(a[1] - a[0], a[2] - a[0]), normal_b = cross(b[1] - b[0], b[2] - b[0]);
   const Triangle b_from_a = moved(b, a[0]);
   if (!cuts_plane(b_from_a, normal_a, limit) || !cuts_plane(moved(a, b[0]), normal_b, limit)) return 0;
@@ -112,8 +112,8 @@ CommonSegment common_segment(const Triangle &a, const Triangle &b) {
 
 constexpr float nowhere = std::numeric_limits<float>::infinity();
 
-// A box in the groups' frame, in single precision. Rounding is monotone, so boxes that have a point in common still have one
-// after rounding.
+// A box in the groups' frame, in single precision. Rounding is monotone, so boxes with a common point still have one after
+// rounding.
 struct Box {
   float lower[3]{nowhere, nowhere, nowhere}, upper[3]{-nowhere, -nowhere, -nowhere};
 

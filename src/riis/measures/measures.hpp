@@ -23,13 +23,13 @@
 
 namespace riis {
 
-// The orifice of a valve: the part of an outline that the triangles do not cover, seen along the axis.
+// The orifice of a valve: the part of an outline's area that no triangle covers, seen along the axis.
 // In: the triangles, and the valve if they come from one. Out: areas and a perimeter.
 
-// The factor c of the effective area A - c eps P. The band around a rim narrows the orifice by the distance c eps. A wall without
-// thickness blocks the flow equally if its rim reaches c eps farther into the orifice. Each number lies midway between the c of
-// two valves that docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98 (round) and
-// 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
+// The factor c of the effective area A - c eps P. The band around the rim narrows an orifice by the distance c eps. A wall
+// without thickness blocks the flow equally if its rim extends c eps farther into the orifice. Each number lies midway between
+// the c of two valves that docs/validation.md compares with walls in body-fitted meshes. The open bileaflet valve has 0.98
+// (round) and 0.95 (cut). The open trileaflet valve has 0.70 and 0.46.
 inline constexpr double rim_reach_round = 0.84;  // RIIS_RIM_ROUND
 inline constexpr double rim_reach_cut = 0.70;    // RIIS_RIM_CUT
 
@@ -41,17 +41,17 @@ struct Orifice {
 };
 
 struct OrificeLimits {
-  double reach;  // how far the effective orifice's edge is moved inwards
-  double slit;   // how far the perimeter's edge is moved inwards
+  double reach;  // how far inwards the edge of the effective orifice is moved
+  double slit;   // how far inwards the edge of the perimeter is moved
 };
 
-// Measures the orifice. `source` is null for triangles from arrays, whose longest boundary is the outline.
+// Measures the orifice. `source` is null for triangles from arrays, whose outline is their longest boundary.
 Orifice measure_orifice(const TriangleSet &set, const SourceValve *source, const OrificeLimits &limits);
 // Measures the orifice inside the outline of a wall. The wall's own triangles cover nothing.
 Orifice measure_orifice_in_wall(const TriangleSet &set, const SourceValve *source, const TriangleSet &wall,
                                 const OrificeLimits &limits);
 
-// The coaptation of leaflets: the parts of them that lie within a distance of another leaflet.
+// The coaptation of leaflets: their parts within a distance of another leaflet.
 // In: triangles, free edges, a distance. Out: areas and lengths.
 
 struct Contact {
@@ -59,7 +59,7 @@ struct Contact {
 };
 
 // Returns the contact of each leaflet. A point of a leaflet is in contact if another leaflet is within `reach` of it. `parts` has
-// the free edges. The leaflets of `omitted` count as touching nothing. `wanted` is a leaflet, or RIIS_ALL_LEAFLETS.
+// the free edges. The leaflets in `omitted` count as touching nothing. `wanted` is a leaflet, or RIIS_ALL_LEAFLETS.
 std::map<std::int32_t, Contact> contacts_of(const TriangleSet &set, const std::vector<EdgePart> &parts, double reach,
                                             std::int32_t wanted, const std::vector<std::int32_t> &omitted,
                                             int n_threads);
@@ -99,9 +99,9 @@ struct Gap {
 // Measures the gap. Fails with RIIS_INVALID_ARGUMENT if there are no edges, and if nothing tells which way is outwards.
 Gap gap_of(const Attachment &attachment, const Wall &wall, int n_threads);
 
-// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. The shortest skirt's
-// length also serves where the wall is nearer. Fails with RIIS_INVALID_ARGUMENT if the wall is farther than `longest`, in placed
-// units.
+// Returns the lengths of a skirt that reaches the wall from a placed valve, whose patches have no skirt. Where the wall is
+// nearer than the shortest skirt's length, the skirt has that length. Fails with RIIS_INVALID_ARGUMENT if the wall is farther
+// than `longest`, in placed units.
 SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, const Wall &wall, double longest,
                              int n_threads);
 
@@ -112,8 +112,8 @@ SkirtLengths lengths_to_wall(const PatchSet &set, const Placement &placement, co
 // Maps a leaflet_id to the volume that the leaflet sweeps. No placement is applied to the volumes.
 using SweptVolumes = std::map<std::int32_t, double>;
 
-// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. If the two openings are swapped,
-// only the sign of the result changes.
+// Computes the volumes between two openings. Fails if the patches cannot be made at an opening. An exchange of the two openings
+// only changes the sign of the result.
 SweptVolumes swept_volumes(const Valve &valve, double opening_from, double opening_to, int n_threads);
 
 // Estimates how many mesh edges fit across the band. Divides the band's thickness by the shortest, the mean and the longest of

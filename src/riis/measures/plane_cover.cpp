@@ -13,8 +13,8 @@
 namespace riis {
 namespace {
 
-// One end of an interval on a line. An edge passes through this end, and `along` is the edge's length between two lines with
-// spacing 1. The length is 0 if lines in the other direction measure the edge.
+// One end of an interval on a line. An edge passes through this end. `along` is the length of the edge between two lines
+// with spacing 1. The length is 0 if lines in the other direction measure the edge.
 struct End {
   double x, along;
 };
@@ -61,8 +61,8 @@ double length_along(double dx, double dy, bool counts_equal) {
   return std::sqrt(1 + slope * slope);
 }
 
-// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The x does not depend on the
-// order of a and b, so two triangles with a common edge leave no gap.
+// Calls visit(i, x) for each line that the edge meets. A line through the upper end does not count. The order of a and b does
+// not change x, so two triangles with a common edge leave no gap.
 template <class Visit>
 void for_each_cut(const ScanLines &lines, PlanePoint a, PlanePoint b, const Visit &visit) {
   if (b[1] < a[1]) std::swap(a, b);
@@ -116,8 +116,8 @@ class Covered {
     for (std::int64_t i = lines_.first_from(centre[1] - radius); i < end; ++i) {
       const double y = lines_.y(i) - centre[1];
       const double half = std::sqrt(std::max(0.0, (radius - y) * (radius + y)));
-      const double along = length_along(y, half, counts_equal_);  // the circle runs at right angles to its radius
-                                                                  // (half, y)
+      const double along = length_along(y, half, counts_equal_);  // a circle runs at right angles to its radius (half,
+                                                                  // y)
       widen(i, {centre[0] - half, along});
       widen(i, {centre[0] + half, along});
     }
@@ -143,7 +143,7 @@ class Covered {
   std::int64_t shape_ = -1;
 };
 
-// Returns the intervals within `reach` of the triangles. Their points lie in a triangle or within `reach` of the rim.
+// Returns the intervals within `reach` of the triangles. Their points lie in a triangle, or within `reach` of the rim.
 IntervalsOfLines covered(const Cover &cover, double reach, const ScanLines &lines, bool counts_equal) {
   Covered made(lines, counts_equal);
   for (const PlaneTriangle &corner : cover.triangles) {
@@ -225,7 +225,7 @@ Cover swapped(const Cover &cover) {
   return made;
 }
 
-// Returns false for lines that enclose an area only by rounding, such as lines seen edge on.
+// Returns false if the lines enclose an area only by rounding, such as lines seen edge on.
 bool has_area(const Outline &outline, double rounding) {
   const double height = ScanLines(outline, 1).spacing(), width = ScanLines(swapped(outline), 1).spacing();
   const double size = std::max(height, width);
@@ -258,8 +258,8 @@ std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>>
 }
 
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id) {
-  // An edge of the triangles. `sides` is the sum of side_of over its triangles, which is 2 or -2 if two triangles lie on opposite
-  // sides of the edge.
+  // An edge of the triangles. `sides` is the sum of side_of over the edge's triangles. It is 2 or -2 if two triangles lie on
+  // opposite sides of the edge.
   struct Use {
     int n = 0, sides = 0;
   };
@@ -285,7 +285,7 @@ Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::i
     for (int k = 0; k < 3; ++k) {
       Use &use = uses[key(id(i, k), id(i, k + 1))];
       if (use.n < 1 || (use.n == 2 && std::abs(use.sides) == 2)) continue;
-      use.n = -1;  // the second triangle of this edge does not add it again
+      use.n = -1;  // the second triangle of this edge does not add the edge again
       cover.rim.push_back({view(vertices)[id(i, k)], view(vertices)[id(i, k + 1)]});
     }
   return cover;

@@ -23,12 +23,12 @@ struct Outline {
 };
 
 Outline circle(double radius, const PlanePoint &centre);
-// Returns the outline of these lines, or nothing if they enclose no area or are not closed. Closed lines have an even number of
-// ends at each place. Coordinates may be off by `rounding`, so an area that such errors can enclose does not count.
+// Returns the outline of these lines, or nothing if the lines are not closed or enclose no area. Closed lines have an even
+// number of ends at each place. Coordinates may be off by `rounding`, so areas within such errors do not count.
 std::optional<Outline> closed_outline(const std::vector<std::vector<PlanePoint>> &lines, double rounding = 0);
 
-// The triangles, and the rim: the edges that may bound the covered part. An edge is not in the rim if its two triangles lie on
-// opposite sides of it.
+// The triangles, and the rim: the edges that may bound the covered part. An edge is not part of the rim if its two triangles
+// lie on opposite sides of it.
 struct Cover {
   std::vector<PlaneTriangle> triangles;
   std::vector<PlaneSegment> rim;
@@ -38,18 +38,18 @@ struct Cover {
 Cover cover_of(const std::vector<PlanePoint> &vertices, const std::vector<std::int64_t> &vertex_id);
 
 // The number of lines along x that measure areas. The lines are evenly spaced over the outline. The uncovered length of each line
-// is exact. The place of an edge along x has an error of at most half a spacing, 1/4096 of the outline's height.
+// is exact. An edge's position along x has an error of at most half a spacing, 1/4096 of the outline's height.
 inline constexpr std::int64_t n_scan_lines = 2048;
 
-// The number of lines along x, and also of lines along y, that measure lengths of edges.
+// The number of lines along x, and also along y, that measure the lengths of edges.
 inline constexpr std::int64_t n_edge_lines = 512;
 
 double area_of(const Outline &outline, std::int64_t n_lines = n_scan_lines);
 
-// Returns the area of the points inside the outline that are farther than `reach` from all triangles.
+// Returns the area inside the outline that is farther than `reach` from all triangles.
 double uncovered_area(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_scan_lines);
 
-// Returns the length of the edge of the part that uncovered_area measures. The outline itself does not count. Lines along x
+// Returns the length of the edge of the area that uncovered_area measures. The outline itself does not count. Lines along x
 // measure the steep edges, and lines along y measure the flat edges. Each end of an edge has an error of at most one spacing.
 double uncovered_edge(const Outline &outline, const Cover &cover, double reach, std::int64_t n_lines = n_edge_lines);
 

@@ -19,8 +19,8 @@ namespace {
 // Between two cuts each point moves along a straight line.
 constexpr int n_steps = 64;
 
-// Each patch is cut into n by n quads. The number n is between `fewest` and `most`, and the whole valve has about quads_wanted
-// quads.
+// Each patch is cut into n by n quads. The number n is between `fewest` and `most`. The whole valve then has about
+// quads_wanted quads.
 constexpr double quads_wanted = 65536;
 constexpr int fewest = 8, most = 64;
 
@@ -86,7 +86,7 @@ void add_swept(const PatchSet &from, const PatchSet &to, const Vector<double> &s
       const PatchImage &image = before.images[i];
       const double volume =
           swept_by_grid(placed(image, points_before), placed(now.images[i], points_now), shares.size());
-      // The triangles of a mirror image are turned over, so that their normals point downstream. Their volume therefore changes
+      // The triangles of a mirror image are turned over, so their normals also point downstream. Their volume therefore changes
       // its sign.
       sums[image.leaflet_id] += points_upstream(image) ? -volume : volume;
     }
@@ -121,7 +121,7 @@ SweptVolumes swept_volumes(const Valve &valve, double opening_from, double openi
     for (auto &[id, volume] : back) volume = -volume;
     return back;
   }
-  if (!valve.can_open()) patches_at(valve, opening_to);  // a failure's message names the caller's opening
+  if (!valve.can_open()) patches_at(valve, opening_to);  // the message of a failure names the caller's opening
   std::vector<double> openings{opening_from};
   for (int i = 1; i < n_steps; ++i) {
     const double opening = static_cast<double>(i) / n_steps;

@@ -18,8 +18,8 @@ struct Start {
   Vec3 point, direction;
 };
 
-// Returns where the line point + t * direction meets a triangle. Two triangles with a common edge compute the volume for that
-// edge with opposite signs. So the line cannot slip through between them.
+// Returns where the line point + t * direction meets a triangle. Two triangles with a common edge compute that edge's volume
+// with opposite signs. So the line cannot slip through between them.
 std::optional<double> meets(const std::array<Vec3, 3> &corners, Vec3 point, Vec3 direction) {
   const auto [a, b, c] = corners;
   const Vec3 oa = a - point, ob = b - point, oc = c - point;
@@ -39,7 +39,7 @@ std::vector<std::optional<double>> distances_along(const Wall &wall, const std::
   return made;
 }
 
-// Gives two sides that meet the same length in their common point, because rounding could make the lengths differ.
+// Two sides that meet get the same length in their common point, because rounding could make the lengths differ.
 void make_common(const std::vector<Vec3> &points, double tolerance, const std::vector<double *> &lengths) {
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

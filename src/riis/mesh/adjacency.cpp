@@ -19,7 +19,7 @@
 namespace riis {
 namespace {
 
-// Makes an adjacency from items, which are cells or faces. First it lists the items that each node is in.
+// Makes an adjacency from items, which are cells or faces. First it lists the items of each node.
 // In: lists of items. Out: sorted rows without repeats, which do not depend on the number of threads.
 
 // Memory from malloc, which realloc can shrink in place. The content must be plain data.
@@ -45,9 +45,9 @@ class PlainMemory {
   std::unique_ptr<void, Free> memory_;
 };
 
-// Makes the rows. An entry tells that a node is in an item. Entries are stored in blocks of nodes, and within a block node by
-// node. Later the rows overwrite them.
-// Lists is a type with
+// Makes the rows. An entry says that a node is in an item. The entries of a block of
+// nodes are stored together, node by node. Later the rows overwrite the entries. Lists is a type
+// with
 //   n_nodes, n_items
 //   most_neighbors                         the most different nodes that for_each_neighbor visits
 //   for_each_entry(range, visit)           calls visit(node, entry) for every node of every item in a range
@@ -73,11 +73,11 @@ class RowMaker {
 
  private:
   static constexpr std::int64_t nodes_per_block = 4096;
-  // Each part of the items has its own count for each node. More parts would cost more memory than the time saved is worth.
+  // Each part of the items has its own count for each node. To save time with more parts would cost too much memory.
   static constexpr std::int64_t most_parts = 8;
   static constexpr std::int64_t items_ahead = 16, entries_ahead = 24;  // how far ahead memory is requested
   static constexpr std::int64_t most_inserted =
-      64;  // a row of more entries is sorted as a whole, because insertion would be too slow
+      64;  // a longer row is sorted as a whole, because insertion would be too slow
 
   Range items_of(std::int64_t part) const {
     return {lists_.n_items / n_parts_ * part + std::min(lists_.n_items % n_parts_, part),
@@ -88,7 +88,7 @@ class RowMaker {
     return {block * nodes_per_block, std::min((block + 1) * nodes_per_block, lists_.n_nodes)};
   }
 
-  // Counts the entries of each part at each node. Then replaces each count by the position in the block at which its entries will
+  // Counts the entries of each part at each node. Then replaces each count by the position in the block where its entries will
   // begin.
   void count() {
     resize(next_, n_parts_ * lists_.n_nodes);
@@ -112,7 +112,7 @@ class RowMaker {
     });
   }
 
-  // Writes the entries. Afterwards each position in next_ is the end of its entries.
+  // Writes the entries. Afterwards each position in next_ is the end of the entries.
   void fill() {
     parallel_for(n_parts_, n_threads_, [&](std::int64_t part, int) {
       Entry *const next = next_of(part);
@@ -134,7 +134,7 @@ class RowMaker {
 
   // The memory of one thread while it makes rows.
   struct Scratch {
-    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has the node
+    std::vector<std::uint8_t> is_seen;  // for each node, whether the row already has it
     UnfilledVector<Column> columns;     // columns of one block
   };
 
@@ -151,7 +151,7 @@ class RowMaker {
       const Range nodes = nodes_of(number);
       const Entry *const ends = next_of(n_parts_ - 1);
       const ArrayView<const Entry> entries(block.as<Entry>(), static_cast<std::int64_t>(ends[nodes.end - 1]));
-      const Lists lists = lists_;  // a copy, so that the compiler knows that stores to is_seen do not change the lists
+      const Lists lists = lists_;  // a copy, which tells the compiler that stores to is_seen do not change the lists
       std::int64_t begin = 0, n_columns = 0;
       for (std::int64_t node = nodes.begin; node < nodes.end; ++node) {
         const auto end = static_cast<std::int64_t>(ends[node]);
@@ -170,7 +170,7 @@ class RowMaker {
     });
   }
 
-  // Writes the row of a node and returns its length. is_seen is all 0 before and after.
+  // Writes the row of a node and returns the row's length. is_seen is all 0 before and after.
   static std::int64_t make_row(const Lists &lists, std::int64_t node, const ArrayView<const Entry> &entries,
                                const Range &of_node, std::uint8_t *is_seen, Column *row) {
     const bool inserts = of_node.end - of_node.begin <= most_inserted;
@@ -242,8 +242,8 @@ void check_count(const char *field, std::int64_t n, std::int64_t least) {
          max_count);
 }
 
-// The lists of the neighbours of cells: here the nodes are the cells, and an entry is a face between
-// two cells.
+// The lists of neighbouring cells. Here the nodes are the cells, and an entry is a face between two
+// cells.
 struct InnerFaces {
   static constexpr std::int64_t most_neighbors = 1;
 
@@ -295,8 +295,8 @@ struct GridNodes {
 template <class Id>
 OwnAdjacency adjacency_from_cells_with(const riis_mesh_cells &given, int n_threads, const NarrowLimits &limits) {
   const Cells<Id> cells(given, n_threads);
-  // Code for cells of one shape takes three quarters of the time of general code. This code is compiled only for meshes that 32
-  // bits can count, because hardly any mesh is larger.
+  // Code for cells of one shape takes three quarters of the time of the general code. This code is compiled only for meshes
+  // that 32 bits can count, because hardly any mesh is larger.
   if (given.offsets || cells.n_nodes() > limits.n_nodes || cells.n_listed() > limits.n_entries)
     return adjacency_of_lists(CellsOfAnyShape<Id>(cells), cells.n_listed(), n_threads, limits);
   const auto made_of = [&](const auto &lists) { return narrow_adjacency_of_lists(lists, n_threads); };
@@ -387,7 +387,7 @@ OwnAdjacency adjacency_from_faces(const riis_mesh_faces &faces, int n_threads) {
   }
   const IntegerArray owner{faces.owner, faces.id_bits == 64}, neighbor{faces.neighbor, faces.id_bits == 64};
   const std::int64_t base = faces.index_base;
-  // Compares the numbers before subtracting the base, because subtracting from an unchecked number may overflow.
+  // Compares the numbers before it subtracts the base, because the difference of an unchecked number may overflow.
   const auto check = [&](const char *which, std::int64_t face, const IntegerArray &ends, std::int64_t least) {
     const std::int64_t given = ends[face * faces.stride];
     if (given < least || given >= faces.n_cells + base)

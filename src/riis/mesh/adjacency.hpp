@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The neighbours of each node, as compressed sparse rows. Either the caller gives the rows, which are checked and not copied, or
+// The neighbours of each node, as compressed sparse rows. Either the caller gives the rows, which are checked but not copied, or
 // the library makes them from cells, faces or a structured grid.
 #pragma once
 

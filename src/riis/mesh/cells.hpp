@@ -64,7 +64,7 @@ inline const CellNeighbors *neighbors_in_cell(std::int64_t n_nodes) {
   }
 }
 
-// The caller's lists of cells as given: the nodes of each cell follow the nodes of the previous cell.
+// The caller's lists of cells as given. The nodes of each cell follow the nodes of the previous cell.
 template <class Id>
 struct CellNodes {
   const Id *ids, *offsets;  // offsets is NULL if all cells have the same number of nodes
@@ -80,7 +80,7 @@ struct CellNodes {
 template <class Id>
 class Cells {
  public:
-  // Checks the sizes of all cells before any node, because the sizes tell how many nodes there are.
+  // Checks the sizes of all cells before any node, because they tell how many nodes there are.
   Cells(const riis_mesh_cells &cells, int n_threads)
       : n_cells_(cells.n_cells),
         n_nodes_(cells.n_nodes),
@@ -115,7 +115,7 @@ class Cells {
     parallel_for_ranges(n_cells_, cells_per_block, n_threads, [&](const Range &range, int) { check(range); });
   }
 
-  // Compares the numbers before subtracting the base, because subtracting from an unchecked number may overflow.
+  // Compares the numbers before it subtracts the base, because the difference of an unchecked number may overflow.
   void check_size(std::int64_t cell) const {
     const std::int64_t from = nodes_.offsets[cell], to = nodes_.offsets[cell + 1];
     if (to < from || !neighbors_in_cell(to - from))

@@ -39,15 +39,15 @@ Bounds bounds_of(const StridedPoints &nodes) {
   return bounds;
 }
 
-// Asks the system for large pages. A search reads leaves here and there, and the processor looks up the page of each. The request
-// is for whole large pages within the memory, so the process takes no more memory.
+// Asks the system for large pages. A search reads leaves in random order, and the processor looks up the page of each. The
+// request concerns only whole large pages within the memory, so the process takes no more memory.
 void ask_for_large_pages(void *memory, std::size_t n_bytes) {
 #if defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t size = std::uintptr_t{1} << 21;
   const auto address = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t begin = (address + size - 1) / size * size, end = (address + n_bytes) / size * size;
   if (begin < end)
-    madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);  // a system without them refuses
+    madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);  // a system without large pages refuses
 #else
   static_cast<void>(memory), static_cast<void>(n_bytes);
 #endif
@@ -60,7 +60,7 @@ void make_room_for(std::int64_t n_nodes, Clusters &clusters) {
   const std::int64_t n_leaves = n_of(nodes_per_leaf);
   if (n_leaves > clusters.room_for_leaves) {
     clusters.room_for_leaves = 0;
-    // The memory is left unfilled. So the thread that uses a page of it is also the first to write to that page.
+    // The memory is left unfilled. The thread that uses a page is therefore also the first to write to it.
     const auto n = static_cast<std::size_t>(n_leaves);
     clusters.leaves.reset(new Leaf[n]);
     clusters.points.reset(new LeafPoints[n]);

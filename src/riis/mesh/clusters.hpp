@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A mesh's nodes in leaves, clusters and regions. A leaf holds 32 nodes near each other, a cluster holds 16 leaves, and a region
-// holds 16 clusters. Each has a box, so that a search can dismiss all its nodes at once. The order of the nodes is made once for
-// a mesh. When nodes move, the order stays, and coordinates and boxes are made again.
+// holds 16 clusters. Each has a box, so a search can dismiss all its nodes at once. The order of the nodes is made once for a
+// mesh. When nodes move, the order stays, and coordinates and boxes are made again.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace riis {
 
-// The coordinates of a leaf's nodes in double precision, stored together. The caller's array may have them far apart, and the
-// decision reads them together.
+// The coordinates of a leaf's nodes in double precision, stored together. In the caller's array they may be far apart, but
+// the decision reads them together.
 struct LeafPoints {
   double xyz[3 * nodes_per_leaf];
 };
@@ -89,8 +89,8 @@ inline Boxes no_boxes() {
   return boxes;
 }
 
-// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was, so clusters that were never made do not count as
-// made.
+// Makes room for n_nodes nodes. If memory runs out, n_nodes stays as it was. Clusters that were never made therefore do not
+// count as made.
 void make_room_for(std::int64_t n_nodes, Clusters &clusters);
 
 // Fills clusters, whose frame must be set. node_at(i) returns the i-th node in order, and prefetch(i) requests the memory that
@@ -115,8 +115,8 @@ void fill_clusters(std::int64_t n_nodes, int n_threads, const NodeAt &node_at, c
         Leaf &leaf = clusters.leaves.get()[l];
         double *xyz = clusters.points.get()[l].xyz;
         const std::int64_t first = l * nodes_per_leaf, last = n_nodes - 1;
-        // Prefetches the next leaf's nodes, because they may lie anywhere in the caller's memory. Stops at the end of this
-        // region, because another thread reads the next one.
+        // Prefetches the nodes of the next leaf, because they may lie anywhere in the caller's memory. Stops at the end of
+        // this region, because another thread reads the next one.
         for (std::int64_t i = first + nodes_per_leaf; i < std::min(first + 2 * nodes_per_leaf, end); ++i) prefetch(i);
         for (int i = 0; i < nodes_per_leaf; ++i) {
           const OrderedNode node = node_at(std::min(first + i, last));

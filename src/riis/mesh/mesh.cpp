@@ -63,7 +63,7 @@ void Mesh::set_nodes(const StridedPoints &nodes, const Bounds &bounds) {
 
 const NodeBalls &Mesh::balls(int n_threads) const {
   return balls_.get([&](NodeBalls &balls) {
-    // Nodes that moved keep their order. It stays good while nodes near each other stay together.
+    // Nodes that moved keep their order. The order stays good while near nodes stay together.
     if (balls.order.empty()) sort_into_balls(nodes_, bounds_, n_threads, balls);
     enclose(nodes_, n_threads, balls);
   });
@@ -90,7 +90,7 @@ double largest_side(const Bounds &bounds) {
   return std::max({extent.x, extent.y, extent.z});
 }
 
-// Returns a message that names two sizes that do not fit together, or NULL if all fit.
+// Returns a message that names two sizes that do not fit together, or NULL if all sizes fit.
 const char *misfit(double mesh, double surface, double half_thickness) {
   constexpr double most = 50;
   if (surface > most * mesh) return "the surface is more than 50 times as large as the mesh";
@@ -141,7 +141,8 @@ void for_each(std::int64_t n, int n_threads, const Visit &visit) {
   });
 }
 
-// Returns the radius plus a few units of rounding of the coordinates, because a computed radius may be too small by that much.
+// Returns the radius plus a few units of rounding of the coordinates, because the computed radius may be too small by this
+// amount.
 double rounded_up(double radius, Vec3 centre) {
   return radius * (1 + 1e-15) + 1e-15 * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z));
 }

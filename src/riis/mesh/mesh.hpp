@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data that searches need about
-// the nodes: balls, clusters and blocks of edges. Each is made when it is first needed.
+// The caller's nodes and adjacency, which are checked and normally borrowed. The mesh also owns data about its nodes that
+// searches need: balls, clusters and blocks of edges. Each is made when it is first needed.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace riis {
 // balls are made again.
 struct Ball {
   Vec3 centre;
-  double radius;  // at least the distance from the centre to each of its nodes
+  double radius;  // at least the distance from the centre to the farthest of its nodes
 };
 
 struct NodeBalls {
@@ -43,7 +43,7 @@ void sort_into_balls(const StridedPoints &nodes, const Bounds &bounds, int n_thr
 void enclose(const StridedPoints &nodes, int n_threads, NodeBalls &balls);
 
 // The edges of a mesh in blocks of 64 rows, each with the length of its longest edge and a box. A search for long edges near the
-// surface can pass over most blocks as a whole.
+// surface can skip most blocks as a whole.
 struct EdgeBlocks {
   static constexpr std::int64_t rows_per_block = 64;
 
@@ -55,14 +55,14 @@ struct EdgeBlocks {
   double longest = 0;  // the length of the mesh's longest edge
 };
 
-// Checks whether a mesh, a surface and its half thickness can be in the same unit.
-// In: boxes that are known already. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
+// Checks whether a mesh and a surface with its half thickness can have the same unit.
+// In: boxes that are already known. Out: a warning to the caller's log function, once for each pair of a mesh and a surface.
 
 // The surfaces that were reported as misfits for a mesh. Several threads may call both functions at once.
 class WarnedSurfaces {
  public:
-  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, also returns false for new
-  // numbers.
+  // Records the number, which must not be 0. Returns true if it is new. Once the list is full, new numbers also give
+  // false.
   bool is_first(std::uint64_t surface_number);
   bool has(std::uint64_t surface_number) const;
 
@@ -90,14 +90,14 @@ class Mesh {
   const Bounds &bounds() const { return bounds_; }
   const std::optional<Adjacency> &adjacency() const { return adjacency_; }
 
-  // Call this function when the nodes have moved. Balls, clusters and edges are then made again when they are next needed.
+  // Call this function after the nodes have moved. Balls, clusters and edges are made again when they are next needed.
   void forget_places() {
     balls_.forget();
     clusters_.forget();
     edges_.forget();
   }
 
-  // Both functions set new coordinates of the same nodes, or other nodes. A different number of nodes removes the adjacency.
+  // Both functions set new coordinates, of the same nodes or of other nodes. A different number of nodes removes the adjacency.
   void borrow_nodes(const StridedPoints &nodes, const Bounds &bounds);
   // Copies the nodes. After a failure the mesh keeps its old nodes.
   template <class Real>

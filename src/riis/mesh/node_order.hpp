@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts nodes in an order in which near nodes follow each other. Clusters and balls share this file.
-// In: the caller's nodes. Out: their numbers in that order.
+// In: the caller's nodes. Out: the nodes' numbers in that order.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace riis {
 
 inline constexpr std::int64_t nodes_per_sorting_block = 32768;
 
-// Returns a node's coordinates. Fails with RIIS_INVALID_MESH if one became unusable after the nodes were checked.
+// Returns a node's coordinates. Fails with RIIS_INVALID_MESH if a coordinate became unusable after the check.
 inline Vec3 node_at(const StridedPoints &nodes, std::int64_t i) {
   return checked_point(nodes, i, "node", RIIS_INVALID_MESH);
 }
@@ -77,7 +77,7 @@ struct NodeBox {
   }
 };
 
-// A node's coordinates and its number. The integer type Node must be wide enough for all nodes of the mesh.
+// A node's coordinates and its number. A node is given by its coordinates and its number.
 template <class Node>
 struct NodeItem {
   float x[3];
@@ -87,13 +87,13 @@ struct NodeItem {
 template <class Node>
 using NodeItems = UnfilledVector<NodeItem<Node>>;
 
-// The places at which parts are cut. by_clusters cuts large parts between clusters, and small ones between leaves, into at most
+// The places where parts are cut. by_clusters cuts large parts between clusters and small parts between leaves, into at most
 // four parts each time. Clusters are then compact. by_leaves always cuts between leaves, into so many parts that a leaf becomes
-// as wide as it is long. This takes half as many passes, but clusters are long.
+// as wide as it is long. by_leaves takes half as many passes, but its clusters are long.
 enum class Cuts { by_clusters, by_leaves };
 
 // Sorts nodes so that near nodes follow each other. Each pass counts the nodes of a part in bins along the longest axis of its
-// box, and cuts the part there. The items move from one array to the other and back.
+// box, and cuts the part there. The items move back and forth between two arrays.
 template <class Node>
 class NodeSorter {
  public:
@@ -127,11 +127,11 @@ class NodeSorter {
 
  private:
   static constexpr int n_bins = 256, most_parts = 16;
-  // Smaller parts have fewer bins, because clearing and summing many bins would take longer than counting their nodes.
+  // Smaller parts have fewer bins, because to clear and sum many bins would take longer than to count their nodes.
   static constexpr std::int64_t small_size = 1024;
   static constexpr int n_small_bins = 64, n_small_bins_per_part = 16;
   typedef std::array<Node, n_bins> Counts;
-  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items are often in the same bin
+  // Items are counted and moved four at a time, one from each quarter of a block. Neighbouring items often have the same bin
   // and stream, and each update of a count waits for the previous update of that count. So each quarter has its own counts.
   static constexpr int n_quarters = 4;
   typedef std::array<Node, n_quarters> OfQuarters;
@@ -161,8 +161,9 @@ class NodeSorter {
     }
   };
 
-  // A stream is a run of bins whose items are written to the same place, one item after another. A bin that contains a cut is a
-  // stream by itself. All bins between two such bins are one stream. There are fewer streams than bins, so writing is faster.
+  // A stream is a run of bins whose items are written to consecutive places, one item after another. A bin that contains a cut is
+  // a stream by itself. All bins between two such bins are one stream. There are fewer streams than bins, so the writes are
+  // faster.
   struct Streams {
     static constexpr int most = 2 * most_parts - 1;
     std::array<std::uint8_t, n_bins> of_bin;
@@ -242,8 +243,8 @@ class NodeSorter {
     return {nodes_per_leaf, std::clamp(static_cast<std::int64_t>(along + 0.5f), std::int64_t{2}, most)};
   }
 
-  // Returns how many leaves follow each other along the longest side of a box, if each leaf is as wide as it is long. A leaf
-  // fills the width of a box that is narrower than that.
+  // Returns how many leaves lie along the longest side of a box, if each leaf is as wide as it is long. In a narrower
+  // box, a leaf fills the width of the box.
   static float leaves_along(const NodeBox &box, float n_leaves) {
     float side[3];
     for (int i = 0; i < 3; ++i) side[i] = box.upper[i] - box.lower[i];
@@ -266,12 +267,12 @@ class NodeSorter {
     }
   }
 
-  // Returns the box of some items. Compares four numbers at once, because comparing one at a time would take longer than reading
-  // the memory. The fourth number is arbitrary and is not used.
+  // Returns the box of some items. Compares four numbers at once, because one at a time would take longer than to read the
+  // memory. The fourth number is arbitrary and is not used.
   static NodeBox box_of(const Item *items, const Part &part) {
     typedef float Four __attribute__((vector_size(16)));
     static_assert(sizeof(Item) >= sizeof(Four));
-    // Two separate boxes are faster, because each comparison has to wait for the previous comparison of the same bounds.
+    // Two separate boxes are faster, because each comparison waits for the previous comparison of the same bounds.
     Four lower[2], upper[2];
     for (int k = 0; k < 2; ++k) lower[k] = Four{} + NodeBox::inf, upper[k] = Four{} - NodeBox::inf;
     const auto add = [&](const Item *item, int k) {
@@ -315,7 +316,7 @@ class NodeSorter {
     for (int quarter = 0; quarter < n_quarters; ++quarter) view(to)[quarter] += view(numbers)[quarter];
   }
 
-  // Moves items so that the items of each new part are together. Within a stream they keep their order, for any number of
+  // Moves items until the items of each new part are together. Within a stream they keep their order, for any number of
   // blocks. Returns where the part was cut.
   template <class Blocks>
   Cutting sort_once(const Part &part, const Item *from, Item *to, Blocks &blocks) const {
@@ -333,7 +334,7 @@ class NodeSorter {
       for (const QuarterCounts &counts : blocks.counts) add(view(counts)[bin], sum);
       view(sums)[bin] = sum[0] + sum[1] + sum[2] + sum[3];
     }
-    // If most items are in few bins, the next pass needs their smaller box to separate them.
+    // If most items are in few bins, the next pass needs the smaller box of these items to separate them.
     constexpr std::int64_t few_parts = 4;
     if (cut.n_parts > few_parts) {
       const auto most = static_cast<std::int64_t>(*std::max_element(sums.begin(), sums.begin() + bins.n));

@@ -22,7 +22,7 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 namespace {
 
-// The material points of a side in its own direction.
+// The material points of a side, in the side's own direction.
 class PointsOfSide {
  public:
   PointsOfSide(const PatchSet &set, const Side &side)
@@ -87,7 +87,8 @@ bool has_points_inside(const MovedPatch &moved) {
   return moved.patch < moved.now.mapped_inside.size() && moved.patch < moved.before.mapped_inside.size();
 }
 
-// How many steps of u and of v a point lies beside another one, by least squares. 0 if the steps are nearly parallel.
+// The position of a point relative to another point, in steps of u and v, by least squares. It is 0 if the steps are nearly
+// parallel.
 struct StepsBeside {
   double u = 0, v = 0;
 
@@ -125,9 +126,10 @@ struct MaterialArcs {
   std::array<Vec3, n_material> mapped_base, mapped_edge, mapped_middle;
 };
 
-using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0 and u1
+using OfSides = std::array<std::array<Vec3, n_material>, 4>;  // vectors on the sides v0, v1, u0, u1.
 
-// Vectors at the even shares of a patch's warped sides. They lie on the polynomials through the vectors at the shares `nodes`.
+// Vectors at the even shares of a patch's warped sides. They lie on the polynomials that pass through the vectors at the shares
+// `nodes`.
 class AtShares {
  public:
   AtShares(const std::array<std::array<double, n_material>, 4> &nodes, const OfSides &values) {
@@ -145,7 +147,7 @@ class AtShares {
     return mix(v0[at_u], v1[at_u], v) + mix(u0[at_v], u1[at_v], u) -
            mix(mix(v0[0], v0[last], u), mix(v1[0], v1[last], u), v);
   }
-  // Return the change of the combination from one even share before to one behind.
+  // These functions return the change of the combination from one even share before to one even share behind.
   Vec3 along_u(std::size_t at_u, std::size_t at_v) const {
     const auto &[v0, v1, u0, u1] = at_;
     return mix(v0[at_u + 1] - v0[at_u - 1], v1[at_u + 1] - v1[at_u - 1], material_share(at_v)) +
@@ -177,7 +179,7 @@ Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base,
     const Vec3 move_of_base = now.mapped_base[k] - before.mapped_base[k],
                move_of_edge = now.mapped_edge[k] - before.mapped_edge[k];
     // The mapped middle lies beside the middle of the warped arc. The displacement there follows from the slope of the
-    // displacement. On the arcs that are sides, steps of u are left out, because neighbouring patches also have these arcs.
+    // displacement. For arcs that are sides, steps of u are left out, because neighbouring patches have the same arcs.
     const Vec3 across = now.edge[k] - now.base[k], beside = now.mapped_middle[k] - now.middle(k);
     const bool is_side = k == 0 || k == last;
     const StepsBeside steps =
@@ -209,7 +211,7 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
   for (std::size_t i = 0; i < rest_.size(); ++i) {
     constexpr std::size_t third = (n_material - 1) / 3;
     const std::size_t at_u = (1 + i % 2) * third, at_v = (1 + i / 2) * third;
-    // The mapped point lies beside the point of the warped patch with the labels u and v. The displacement at that point follows
+    // The mapped point lies beside the point with the labels u and v of the warped patch. The displacement at that point follows
     // from the slope of the displacement.
     const StepsBeside steps(point.along_u(at_u, at_v), point.along_v(at_u, at_v),
                             mapped[i] - point.combined(at_u, at_v));
@@ -219,8 +221,8 @@ RestInside::RestInside(const MovedPatch &moved, const PatchMaterial &material) {
 }
 
 PatchMaterial::PatchMaterial(const MovedPatch &moved)
-    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). So only a patch
-    // with a bulge is treated as one of arcs.
+    // A patch of arcs whose bulge is 0 in both states equals the Coons patch of its sides at the same (u, v). Only a patch
+    // with a bulge is therefore treated as a patch of arcs.
     : has_arcs(moved.now.patches[moved.patch].bulge != 0 || moved.before.patches[moved.patch].bulge != 0),
       v0(moved, &Patch::v0),
       v1(moved, &Patch::v1) {
@@ -242,9 +244,9 @@ class MovedSide {
 
   bool is_at_rest() const { return is_at_rest_; }
 
-  // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points, as
-  // far as they are known already. `unknown` lists the indices of the unknown points in ascending order. If it is not empty, it
-  // also lists the first index and the last.
+  // Returns the displacements at the given shares of the length, which ascend from 0 to 1. `points` has the current points, if
+  // they are already known. `unknown` lists the indices of the unknown points in ascending order. Unless the list is empty,
+  // it also contains the first and the last index.
   Vector<Vec3> displacements(const Vector<double> &shares, Vector<Vec3> points,
                              const Vector<std::size_t> &unknown) const {
     if (!unknown.empty()) {
@@ -275,7 +277,7 @@ class MovedSide {
 };
 
 // The lines of a grid in one direction, with additional lines between them. Between two lines, the step is halved as often as
-// the quads there are halved.
+// the quads there.
 class HalvedLines {
  public:
   HalvedLines(const Vector<GridLine> &lines, const Vector<int> &levels) : lines_(lines) {
@@ -313,7 +315,7 @@ class HalvedLines {
   Vector<double> middle_;
 };
 
-// A side of a patch, and where its points are in the grid.
+// A side of a patch, and the places of its points in the grid.
 struct SideOnGrid {
   Side Patch::*side;
   const SideMaterial &material;

@@ -28,7 +28,7 @@ struct MovedPatch {
   std::size_t patch;
 };
 
-// The polynomial through values at n_material nodes, the first of which is 0 and the last 1. In Newton's form.
+// The polynomial through values at n_material nodes. The first node is 0 and the last is 1. In Newton's form.
 template <class T>
 class Through {
  public:
@@ -51,9 +51,9 @@ class Through {
   std::array<T, n_material> factors_{};
 };
 
-// Tells which points of a side are the same material in both states. Without a warp, points at equal shares of the length are. A
-// warp stretches curves unevenly. Then the point at a share now was at another share before. A warped curve also differs a little
-// from the curve along which the map takes the points. `rest` makes up for the change of this difference.
+// Tells which points of a side are the same material in both states. Without a warp, these are the points at equal shares of the
+// length. A warp stretches curves unevenly. A point then had another share before. A warped curve also differs a little
+// from the curve that the map makes of the points. `rest` compensates for the change of this difference.
 class SideMaterial {
  public:
   SideMaterial() = default;  // of a side that is not warped
@@ -83,14 +83,14 @@ struct PatchMaterial {
   SideMaterial v0, v1, u0, u1;
 };
 
-// The same for the offsets of a patch of arcs: how far the map moves them, beyond the offsets of the warped curves. The
-// polynomial is 0 for a patch without a warp.
+// The same for the offsets of a patch of arcs: how much farther the map moves them than the offsets of the warped
+// curves move. The polynomial is 0 for a patch without a warp.
 Through<Vec3> rest_of_offsets(const MovedPatch &moved, const SideMaterial &base, const SideMaterial &edge);
 
-// The part that the map adds to the displacement inside a warped Coons patch. At the sides this is 0. At the four inner points
-// with u and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. It follows from the mapped
-// points beside them (MappedInside). The excess over the Coons combination of the sides is a polynomial of degree 3 in u and in
-// v.
+// The map adds this part to the displacement inside a warped Coons patch. It is 0 at the sides. At the four inner points with u
+// and v of 1/3 or 2/3, the displacement belongs to the material point that the map moves there. The displacement follows from
+// the mapped points beside these points (MappedInside). The excess over the Coons combination of the sides is a polynomial of
+// degree 3 in u and in v.
 class RestInside {
  public:
   RestInside() = default;
@@ -103,7 +103,7 @@ class RestInside {
   }
 
  private:
-  // They are 1 at one third and two thirds, and 0 at the other and at the ends.
+  // They are 1 at one of the two thirds, and 0 at the other third and at the ends.
   static double first(double x) { return 13.5 * x * (1 - x) * (2.0 / 3 - x); }
   static double second(double x) { return 13.5 * x * (1 - x) * (x - 1.0 / 3); }
 
@@ -117,7 +117,7 @@ class RestInside {
 // result is exactly 0 if neither the sides nor the bulge changed.
 class PatchDisplacement {
  public:
-  // Computes the displacements at the grid's vertices. The grid must have been made with its lines kept.
+  // Computes the displacements at the grid's vertices. The grid must have kept its lines.
   PatchDisplacement(const MovedPatch &moved, const LevelledGrid &levelled);
 
   // Returns the displacement where two lines of the grid meet.
@@ -127,8 +127,8 @@ class PatchDisplacement {
     return at(column_[i] + (static_cast<std::size_t>(column) << (column_levels_[i] - level)),
               row_[j] + (static_cast<std::size_t>(row) << (row_levels_[j] - level)));
   }
-  // Returns the displacement inside a quad, but interpolated linearly along a side between the vertices that the neighbouring
-  // quad also has. So the displacement does not jump between neighbouring quads.
+  // Returns the displacement inside a quad. Along a side, it is linear between the vertices that the neighbouring quad also
+  // has. So the displacement does not jump between neighbouring quads.
   Vec3 without_jumps(std::size_t i, std::size_t j, int column, int row) const;
 
  private:
@@ -141,7 +141,7 @@ class PatchDisplacement {
   const LevelledGrid &levelled_;
   SideVectors sides_;
   Vector<Vec3> offsets_;
-  RestInside rest_;  // of a patch that has no arcs
+  RestInside rest_;  // for a patch without arcs
 };
 
 // The velocity of one image of a patch in space. It combines the displacements of the patch, the image and the placement.
@@ -150,8 +150,8 @@ class ImageVelocity {
   ImageVelocity(const PatchImage &now, const PatchImage &before, const Placement &placement_now,
                 const EarlierState &earlier);
 
-  // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p now
-  // and was at p - displacement. If image and placement are at rest, no cancellation occurs.
+  // Returns the mean velocity of a point over the time between the two states. Before the image is placed, the point is at p
+  // now, and was at p - displacement before. If image and placement are at rest, no cancellation occurs.
   Vec3 velocity(Vec3 p, Vec3 displacement) const {
     const Vec3 moved = now_.linear * displacement + difference_.linear * (p - displacement) + difference_.offset;
     return {moved.x / seconds_, moved.y / seconds_, moved.z / seconds_};
@@ -159,7 +159,7 @@ class ImageVelocity {
 
  private:
   struct AffineMap {
-    Rotation linear;  // a matrix with any scale, perhaps mirrored
+    Rotation linear;  // a matrix of any scale, perhaps with a reflection
     Vec3 offset;
   };
   static AffineMap map_of(const PatchImage &image, const Placement &placement);
@@ -174,7 +174,7 @@ Vector<Vec3> arc_offsets(const PatchSet &set, const Patch &patch, const CurvePoi
 
 // Returns the joints of a side in the patch's parameter.
 Vector<double> joints_of(const PatchSet &set, const Side &side);
-// Moves each line with the two joints between which it lies. If the number of joints changed, no line moves.
+// Moves each line with the two joints beside it. If the number of joints changed, no line moves.
 Vector<double> moved_with_joints(const Vector<double> &lines, const Vector<double> &from, const Vector<double> &to);
 
 // Fails with RIIS_INVALID_PARAMETER unless the patches of both states have the same build: the same numbers of patches, images

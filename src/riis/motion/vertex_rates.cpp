@@ -21,14 +21,14 @@ class MovedJoints {
     for (const auto side : {&Patch::v0, &Patch::v1}) {
       const Vector<double> from = along(at, at.patches[patch].*side).joints(),
                            to = along(state, state.patches[patch].*side).joints();
-      if (from.size() != to.size()) continue;  // such joints do not move
+      if (from.size() != to.size()) continue;  // joints that were left out do not move
       for (std::size_t k = 0; k < from.size(); ++k) joints_.push_back({from[k], to[k]});
     }
     std::stable_sort(joints_.begin(), joints_.end(), [](const Joint &a, const Joint &b) { return a.from < b.from; });
   }
 
-  // Returns where the line between two others is in the other state. An adapted grid has such a line at a joint that is not too
-  // near an end, or else in the middle.
+  // Returns the place in the other state of a line between two others. In an adapted grid, such a line is at a joint that is
+  // not too near an end, or else in the middle.
   double cut(double from, double to, double moved_from, double moved_to) const {
     for (const Joint &joint : joints_)
       if (joint.from > 0.875 * from + 0.125 * to && joint.from < 0.125 * from + 0.875 * to) return joint.to;
@@ -96,7 +96,7 @@ Vector<GridLine> lines_in(const PatchSet &at, const PatchSet &state, std::size_t
   return made;
 }
 
-// Returns the points of a side at the ends of lines: on the curve at the side's vertices, on the chords between them elsewhere.
+// Returns the points of a side at the ends of lines. At the side's vertices they lie on the curve, and elsewhere on the chords.
 Vector<Vec3> points_along(const PatchSet &state, const Side &side, const Vector<GridLine> &lines, double GridLine::*t,
                           bool GridLine::*is_vertex) {
   Vector<double> shares;
@@ -150,7 +150,7 @@ Vector<Vec3> grid_points(const PatchStates &states, const PatchSet &state, const
   return made;
 }
 
-// Returns the points of a grid in a state, and then the points of its subdivided quads (vertices_of in triangulate/tiles.cpp).
+// Returns the points of a grid in a state, followed by the points of its subdivided quads (vertices_of in triangulate/tiles.cpp).
 Vector<Vec3> points_in(const PatchStates &states, const PatchSet &state, const LevelledGrid &levelled) {
   const QuadGrid &grid = levelled.grid;
   const QuadGrid moved{grid.u, grid.v, grid_points(states, state, grid), {}};

@@ -15,7 +15,7 @@ namespace riis {
 // A direction in which a valve changes. It has two states near the surface's state, and the difference of the parameter between
 // them.
 struct Direction {
-  const PatchSet &after, &before;  // both may be the same object
+  const PatchSet &after, &before;  // both states may be the same object
   Placement placement_after, placement_before;
   double step;  // not 0
 };

@@ -61,7 +61,8 @@ NearestEdges::Box NearestEdges::box_around(std::int64_t begin, std::int64_t end)
   return {{bounds.lower - margin, bounds.upper + margin}, begin, end, 0};
 }
 
-// Adds the boxes of order_[begin] to order_[end - 1]. A box with more than a few edges is halved by the middles of its edges.
+// Adds the boxes of order_[begin] to order_[end - 1]. If a box has more than a few edges, it is halved by the middles of its
+// edges.
 void NearestEdges::add(std::int64_t begin, std::int64_t end) {
   const std::int64_t own = view(boxes_).size();
   boxes_.push_back(box_around(begin, end));
@@ -91,9 +92,9 @@ std::int64_t NearestEdges::of(std::int32_t leaflet_id, Vec3 point) const {
   double least = std::numeric_limits<double>::infinity();
   std::int64_t nearest = -1;
   // Rounding may put the distance of a box just above the distance of an edge in the box. The bound is therefore a little
-  // smaller, and the search never skips a box with an equally near edge.
+  // smaller, so the search never skips a box with an equally near edge.
   const auto bound = [&](std::int64_t box) { return (1 - 1e-12) * view(boxes_)[box].bounds.distance_sq_to(point); };
-  std::array<std::int64_t, 64> open;  // boxes to visit: at most one for each of the tree's levels, fewer than 64
+  std::array<std::int64_t, 64> open;  // boxes that are still to visit, at most one for each of the fewer than 64 levels
   std::size_t n_open = 0;
   open[n_open++] = tree->root;
   while (n_open > 0) {

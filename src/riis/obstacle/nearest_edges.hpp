@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges. A loop over all edges would give the
-// same result.
-// In: edges, points. Out: an edge for each point. If several edges are equally near, the first of them is found.
+// Finds the caller's edge that is nearest to a point. A tree of boxes skips distant edges. The result is the same as from a
+// loop over all edges.
+// In: edges, points. Out: an edge for each point. If several edges are equally near, the first of them counts.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace riis {
 struct Edges {
   std::int64_t n = 0;
   const double *ends = nullptr;              // (3, 2, n)
-  const std::int32_t *leaflet_id = nullptr;  // (n), or null if each edge serves all leaflets
+  const std::int32_t *leaflet_id = nullptr;  // (n), or null if each edge belongs to all leaflets
 
   Vec3 first(std::int64_t i) const { return {ends[6 * i], ends[6 * i + 1], ends[6 * i + 2]}; }
   Vec3 second(std::int64_t i) const { return {ends[6 * i + 3], ends[6 * i + 4], ends[6 * i + 5]}; }
@@ -25,8 +25,8 @@ struct Edges {
 // same bits.
 double distance_sq(const Edges &edges, std::int64_t edge, Vec3 point);
 
-// Building the trees takes a time of order n log n. A query usually takes a time of order log n. It takes a time of order n if
-// all edges are equally near.
+// To build the trees takes a time of order n log n. A query usually takes a time of order log n. If all edges are equally
+// near, it takes a time of order n.
 class NearestEdges {
  public:
   // Borrows the arrays of the edges.

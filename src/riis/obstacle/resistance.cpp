@@ -54,8 +54,8 @@ void require_field(const Marks &marks, std::int32_t field, const char *field_nam
          ", but the nodes were marked with options.fields = ", marks.data.given_fields);
 }
 
-// Adds numbers by Neumaier's method (1974), which also adds up the rounding error of each addition. So the sums over the leaflets
-// add up to the sum over the surface, up to a few units in the last place, for any number of nodes.
+// Adds numbers by Neumaier's method (1974), which also adds up the rounding errors. For any number of nodes, the sums over the
+// leaflets therefore add up to the sum over the surface, up to a few units in the last place.
 class Sum {
  public:
   void add(double x) {
@@ -95,7 +95,7 @@ Vec3 vector_at(const UnfilledVector<double> &list, std::int64_t i) {
 }
 
 // Checks n_leaflets against the leaflets of the surface, not against the leaflets of the nodes. All ranks then refuse a wrong
-// n_leaflets, also a rank that has no node of the last leaflet.
+// n_leaflets, even a rank without a node of the last leaflet.
 void check_leaflets(const Marks &marks, const riis_reaction &to) {
   const std::int32_t last = marks.leaflet_ids.empty() ? -1 : marks.leaflet_ids.back();
   if (to.n_leaflets <= last)
@@ -119,10 +119,11 @@ Edges checked_edges(const riis_reaction &reaction) {
 
 // A thread takes blocks of nodes_per_block nodes. A list of fewer than few_nodes nodes uses one thread.
 constexpr std::int64_t nodes_per_block = 4096, few_nodes = 16384;
-// The search for nearest edges has smaller limits, because a node takes it ten times as long.
+// The search for nearest edges has smaller limits, because each node takes ten times as long.
 constexpr std::int64_t edge_nodes_per_block = 512, few_edge_nodes = 2048;
 
-// Finds the nearest edge of each node, to which the node's force is added. Entries of nodes without resistance have no meaning.
+// Finds the nearest edge of each node. The node's force is added to this edge. Entries of nodes without resistance mean
+// nothing.
 Vector<std::int64_t> nearest_edges(const Marks &marks, const Resistance &resistance, const Edges &edges) {
   const NearestEdges search(edges);
   for (const std::int32_t leaflet : marks.leaflet_ids)

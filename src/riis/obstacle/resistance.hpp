@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the resistive term of the momentum equation and its sums (paper, eq. "RIIS"; docs/theory/marks.md, "Resistance").
-// In: the nodes within the limit, with their fields. Out: the term and its sums, added to the caller's arrays.
+// In: the nodes within the limit, with their fields. Out: the term and its sums, which are added to the caller's arrays.
 #pragma once
 
 #include <riis/riis.h>
@@ -26,8 +26,8 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
 // Each of the next four functions fails with RIIS_INVALID_ARGUMENT if the marks lack data that it needs.
 Resistance checked_resistance(const riis_resistance &resistance, const Marks &marks);
 void add_resistance(const Marks &marks, const Resistance &resistance, const riis_resistance_arrays &to);
-// Adds the flow's force on the surface, and its moments. Also fails, and adds nothing, if the reaction's edges or n_leaflets do
-// not fit the surface.
+// Adds the flow's force on the surface, and its moments. If the reaction's edges or n_leaflets do not fit the surface, it also
+// fails, and adds nothing.
 void add_reaction(const Marks &marks, const Resistance &resistance, const riis_flow_arrays &flow,
                   const riis_reaction &to);
 // Sums the caller's value over the nodes of the band on each side of the surface. Nodes beyond a rim do not count.

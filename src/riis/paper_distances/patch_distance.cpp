@@ -56,8 +56,8 @@ Minimizer::Minimizer(PlacedPatches patches, double enough) : PatchDistance(std::
     box_.add(extents_.back().box);
     largest = std::max(largest, extents_.back().box.largest_coordinate());
   }
-  // A computed point is the result of three linear interpolations. Each is accurate to two units of rounding in each of three
-  // coordinates.
+  // A computed point is the result of three linear interpolations. Each interpolation is accurate to two units of rounding in
+  // each of three coordinates.
   rounding_ = 0x1p-49 * largest;
 }
 
@@ -89,7 +89,7 @@ void Minimizer::query(std::int64_t patch, Vec3 p, ClosestOnPatches &best) const 
 
 ClosestOnPatches Minimizer::closest(Vec3 p, double limit) const {
   // Starts with the patch whose box is nearest. No point of a patch is nearer than the patch's box, so most other patches need no
-  // query.
+  // search.
   const auto extents = view(extents_);
   std::int64_t first = 0;
   double nearest = std::numeric_limits<double>::infinity();

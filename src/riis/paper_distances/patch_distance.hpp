@@ -22,7 +22,7 @@ namespace riis {
 // Turns placed patches into functions S(u,v) that can be evaluated anywhere (paper, 3.3), for sampling and minimisation.
 // In: a valve's curves and patches, the allowed error, the placement. Out: a grid of quads for each image of a patch.
 
-// S(u,v), bilinear in every quad of a grid with placed points.
+// S(u,v) on a grid with placed points. It is bilinear in every quad.
 struct PlacedPatch {
   QuadGrid grid;
   std::int32_t leaflet_id, patch_id;
@@ -30,7 +30,7 @@ struct PlacedPatch {
 
   Vec3 at(double u, double v) const { return evaluate(grid, u, v); }
   // Returns the unit normal by the right-hand rule of the triangles, or 0 if S has no normal there, for example at a
-  // collapsed side. On a grid line it returns the normal of the quad after the line.
+  // collapsed side. On a grid line, it returns the normal of the quad after the line.
   Vec3 normal_at(double u, double v) const;
 };
 
@@ -46,7 +46,7 @@ struct PlacedPatches {
 };
 
 // Calls visit(along_u, along_v) for every quad. along_u has S_u at the lower and the upper v, and along_v has S_v at the lower
-// and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these.
+// and the upper u. Elsewhere in the quad, S_u and S_v are weighted means of these vectors.
 template <class Visit>
 void for_each_derivatives(const QuadGrid &grid, const Visit &visit) {
   for (std::size_t j = 0; j + 1 < grid.v.size(); ++j)
@@ -65,7 +65,7 @@ struct Speeds {
 };
 Speeds largest_speeds(const QuadGrid &grid);
 
-// Returns the box of the grid's points. The box also holds every S(u,v), which is a weighted mean of these points.
+// Returns the box of the grid's points. The box also contains every S(u,v), because each is a weighted mean of these points.
 Bounds bounds_of(const QuadGrid &grid);
 
 struct ClosestOnPatches {
@@ -80,15 +80,15 @@ class PatchDistance {
   virtual ~PatchDistance() = default;
 
   // Returns the closest point that the method finds, if its distance from p is at most limit (>= 0, may be infinite).
-  // Otherwise patch is -1. A result within the limit has the same bits for every limit. Several threads may call this function at
+  // Otherwise patch is -1. A result within the limit has the same bits for any limit. Several threads may call this function at
   // once.
   virtual ClosestOnPatches closest(Vec3 p, double limit) const = 0;
 
   // Returns false only if the surface certainly has no point within the limit of p.
   virtual bool may_be_within(Vec3 p, double limit) const = 0;
 
-  // Returns true if the method measures the distance to the same set of points for every p. If so, the results for two points
-  // differ by at most the distance between the two points.
+  // Returns true if the method measures the distance to the same set of points for every p. The results for two points then
+  // differ by at most the distance between them.
   virtual bool is_of_fixed_points() const = 0;
 
   virtual const char *name() const = 0;
@@ -115,7 +115,7 @@ std::unique_ptr<const PatchDistance> make_distance(const PatchSet &set, const Di
 // samples of a patch depends on its width and height (docs/theory/paper-distances.md).
 // In: placed patches, the allowed error of a distance. Out: nearest samples.
 
-// The most samples that the library accepts. Each takes 24 bytes, and the boxes of the tree take a little more.
+// The most samples that the library accepts. Each sample takes 24 bytes, and the boxes of the tree take a little more.
 inline constexpr std::int64_t max_samples = 16'777'216;
 
 // Numbers of steps: samples stand at u = 0, 1/s_u, ..., 1 and at v = 0, 1/s_v, ..., 1, with s_u = `u` and s_v = `v`.
@@ -125,11 +125,11 @@ struct SampleCounts {
 };
 
 // Bounds the distance between any S(u,v) and the sample with the nearest u and v. The bound is half of the longest diagonal of a
-// parallelogram with the sides h_u S_u and h_v S_v anywhere on S.
+// parallelogram with the sides h_u S_u and h_v S_v, anywhere on S.
 double covering_radius(const QuadGrid &grid, double h_u, double h_v);
 
-// Returns the fewest samples that keep the covering radius within `radius`. Their numbers in u and v are in the proportion of
-// the patch's width to its height. The result may exceed max_samples.
+// Returns the smallest numbers of steps that keep the covering radius within `radius`. Their ratio is the ratio of the
+// patch's width to its height. The result may exceed max_samples.
 SampleCounts samples_within(const QuadGrid &grid, double radius);
 
 class SampleSet final : public PatchDistance {
@@ -149,7 +149,8 @@ class SampleSet final : public PatchDistance {
  private:
   static constexpr std::int64_t samples_per_leaf = 64;
 
-  // A box around the samples of a leaf or around two other nodes. The first of the two follows this node in the array.
+  // A box around the samples of a leaf, or around two other nodes of the tree. In the array, the first of these two nodes
+  // follows this node.
   struct Node {
     Bounds box;
     std::int32_t second = -1;  // the position of the second node, or -1 in a leaf

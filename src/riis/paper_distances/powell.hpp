@@ -42,9 +42,9 @@ inline Parameters step(Parameters from, double t, Parameters along) {
   return {std::clamp(from.u + t * along.u, 0.0, 1.0), std::clamp(from.v + t * along.v, 0.0, 1.0)};
 }
 
-// Finds a minimum of f(t) on [low, high] by Brent's localmin. The error of t is about 3 tolerance. Returns the least of all
-// computed values, so f may have several minima. Uses parabolas through the last three points, and golden sections where a
-// parabola does not help.
+// Finds a minimum of f(t) on [low, high] by the function localmin of Brent's book. The error of t is about 3 tolerance.
+// Returns the least of all computed values, so f may have several minima. Uses parabolas through the last three points, and
+// golden sections if a parabola does not help.
 template <class Function>
 std::array<double, 2> minimum_on_segment(const Function &f, double low, double high, double tolerance) {
   constexpr double golden = 0.3819660112501051;  // (3 - sqrt 5) / 2
@@ -90,9 +90,9 @@ std::array<double, 2> minimum_on_segment(const Function &f, double low, double h
 }
 
 // Minimises f >= 0 over [0,1]^2 from a start in the square. Each line is searched over its whole segment in the square. The
-// search also evaluates both ends of the segment, because closest points at the rim are common and Brent's method only
-// approaches the ends.
-//   enough iterations end once one of them lowers the root of f by no more than this
+// search also evaluates both ends of the segment. Closest points
+// at the rim are common, and Brent's method only approaches the
+//   ends.
 //   step_of(d)   the allowed error of a line search along d, in units of d
 template <class Function, class StepOf>
 LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enough, const StepOf &step_of) {
@@ -124,7 +124,7 @@ LocalMinimum minimize_by_powell(const Function &f, Parameters start, double enou
       if (value - best.value > largest_gain) largest_gain = value - best.value, of_largest = k;
     }
     if (std::sqrt(before.value) - std::sqrt(best.value) <= enough) break;
-    // Extrapolates: repeats the move of this iteration, but stops at the edge of the square.
+    // Extrapolates: repeats the displacement of this iteration, but stops at the edge of the square.
     const Parameters whole = best.at - before.at;
     const double beyond = f(step(best.at, std::min(1.0, segment_within_square(best.at, whole).high), whole));
     if (!(beyond < before.value)) continue;

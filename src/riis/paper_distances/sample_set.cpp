@@ -32,7 +32,7 @@ double covering_radius(const QuadGrid &grid, double h_u, double h_v) {
 }
 
 SampleCounts samples_within(const QuadGrid &grid, double radius) {
-  // With these steps, samples form squares where grid lines meet at right angles. If a patch has a negligible width or height,
+  // Where grid lines meet at right angles, samples with these steps form squares. If a patch has a negligible width or height,
   // one step spans it.
   const Speeds speeds = largest_speeds(grid);
   const double h_u = std::min(1.0, radius / speeds.u), h_v = std::min(1.0, radius / speeds.v);
@@ -114,7 +114,7 @@ void SampleSet::join(std::int32_t node, std::int32_t second) {
 
 struct SampleSet::Query {
   Vec3 p;
-  double most;  // samples whose squared distance is larger no longer matter
+  double most;  // samples with a larger squared distance no longer matter
   double distance_sq = std::numeric_limits<double>::infinity();
   std::int64_t sample = -1;
   std::int32_t leaf = -1;
@@ -130,8 +130,8 @@ void SampleSet::visit(std::int32_t at, Query &query) const {
       std::swap(near, far);
       std::swap(to_near, to_far);
     }
-    // A box exactly as far as the nearest sample so far is also visited. So among equally near samples, the first is found in any
-    // order of visits.
+    // A box that is exactly as far as the nearest sample is also visited. The first of several equally near samples is
+    // therefore found in any order of visits.
     if (to_near <= query.most) visit(near, query);
     if (to_far <= query.most) visit(far, query);
     return;

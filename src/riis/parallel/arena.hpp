@@ -17,8 +17,8 @@
 namespace riis {
 
 // An arena is kept and used again. The reason is that TBB frees an arena only after the workers that it called have come and
-// found nothing to do. On a busy machine the workers come too late for a short walk. With a new arena for each walk, the process
-// grew without end by some kilobytes for each walk (TBB 2021.8).
+// found no work. On a busy machine the workers come too late for a short walk. With a new arena for each walk, each walk
+// therefore made the process grow by some kilobytes (TBB 2021.8).
 struct PooledArena {
   explicit PooledArena(int n_slots) : n_threads(n_slots), arena(n_slots, 1) { arena.initialize(); }
 
@@ -28,7 +28,7 @@ struct PooledArena {
 };
 
 // Returns an arena of n_threads threads, which the caller must give back. The arena comes from the pool, or is new if no idle
-// arena has this number of threads. So there are never more arenas of one size than were borrowed at the same time.
+// arena has this number of threads. There are therefore never more arenas of one size than were borrowed at once.
 PooledArena *borrow_arena(int n_threads);
 void give_back(PooledArena *arena) noexcept;
 
@@ -36,9 +36,9 @@ void give_back(PooledArena *arena) noexcept;
 std::size_t n_arenas() noexcept;
 
 // Borrows an arena of up to n_threads threads, including the calling one, for as long as this object lives. TBB has a limit on
-// the threads of the process. If the caller did not set this limit and it is lower than n_threads, it is raised during this
-// object's life. The arena stays within the limit, because TBB would print a message about a larger arena on stderr. An arena of
-// one thread uses only the calling thread.
+// the threads of the process. If the caller did not set this limit and it is lower than n_threads, this object raises it during
+// its life. The arena stays within the limit, because TBB would print a message on stderr about a larger arena. An arena of one
+// thread uses only the calling thread.
 class Arena {
  public:
   explicit Arena(int n_threads) {

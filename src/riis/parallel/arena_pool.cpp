@@ -44,7 +44,7 @@ void destroy(PooledArena *first) noexcept {
   try {
     // With a limit of one thread, TBB frees an arena at once and does not wait for workers that it has called.
     no_workers.emplace(tbb::global_control::max_allowed_parallelism, 1);
-  } catch (...) {  // no memory for the limit: TBB frees the arena later or keeps it
+  } catch (...) {  // there is no memory for the limit, so TBB frees the arena later or keeps it
   }
   while (first) delete std::exchange(first, first->next);
 }

@@ -18,9 +18,9 @@
 #include "parallel/threads.hpp"
 
 // Implements concurrent_walk with standard threads for the thread sanitizer, which does not understand TBB. This version
-// guarantees no more order than TBB. A range runs after the call of add that passed it on, and the walk ends after all ranges.
-// Relaxed atomics do all other counting, because they order nothing. A lock around a common queue would order the bodies and so
-// hide their races.
+// guarantees no more order than TBB does. A range runs after the call of add that passed it on, and the walk ends after all
+// its ranges. Relaxed atomics do all other counting, because they order nothing. A lock around a common queue would put
+// the bodies in order, and so hide their races.
 namespace riis {
 
 // Slots for any number of ranges. A slot keeps its address.
@@ -122,7 +122,7 @@ namespace riis {
 
 // Runs body(range, add, thread) for every range of the list, and for every range that a body adds by add(range). Up to n_threads
 // threads run bodies in no particular order, 0 <= thread < n_threads. Returns how many threads ran. Rethrows the first
-// exception. A walk may start anywhere in the caller's program: the caller's parallel regions, tasks, settings and limits stay
+// exception. A walk may start anywhere in the caller's program. The caller's parallel regions, tasks, settings and limits stay
 // as they are. With n_threads = 1 the calling thread runs all bodies without TBB and empties the list.
 template <class Body>
 int concurrent_walk(std::vector<Range> &ranges, int n_threads, const Body &body) {

@@ -17,11 +17,11 @@
 namespace riis {
 namespace {
 
-// The blocks of a loop. Each thread begins with a share of the blocks, and then helps with the other shares. If the last loop
-// used the same data, a thread finds most of its data in its own cache. The blocks of a share are handed out in ascending order.
-// If a body throws, no higher block begins any more, and the exception of the lowest block is rethrown after the loop. It is the
-// exception that a single thread would meet, because all lower blocks run to their end. They are handed out, because the calling
-// thread goes through the shares in ascending order.
+// The blocks of a loop. Each thread begins with its own share of the blocks, and then helps with the other shares. If the last
+// loop used the same data, each thread finds most of its data in its own cache. The blocks of a share are handed out in
+// ascending order. If a body throws, no higher block begins, and the exception of the lowest block is rethrown after the loop.
+// A single thread would meet the same exception, because all lower blocks run to their end. All blocks are handed out,
+// because the calling thread goes through the shares in ascending order.
 class Blocks {
  public:
   Blocks(std::int64_t n_blocks, int n_threads, LoopBody body)
@@ -32,8 +32,8 @@ class Blocks {
     }
   }
 
-  // Runs blocks until none is left, or until has_to_stop() before a block. Returns how many blocks it ran. Each thread of the
-  // loop calls this once, and the calling thread may also call it before the other threads begin.
+  // Runs blocks until none is left, or until has_to_stop() returns true before a block. Returns how many blocks it ran. Each
+  // thread of the loop calls this once. The calling thread may also call it before the other threads begin.
   template <class HasToStop>
   std::int64_t run(int thread, const HasToStop &has_to_stop) {
     const FloatEnvironment environment;
@@ -66,7 +66,7 @@ class Blocks {
   }
 
  private:
-  static constexpr std::int64_t most_shares = 64;  // further threads share these, which take 4 kB of the stack
+  static constexpr std::int64_t most_shares = 64;  // further threads share these shares, which take 4 kB of the stack
   struct alignas(64) Share {
     std::atomic<std::int64_t> next;
     std::int64_t end;
@@ -98,9 +98,9 @@ std::int64_t nanoseconds() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-// With one thread, the calling thread runs the loop without OpenMP, whose run-time ends the process if it has no memory. If there
-// are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the threads that are
-// left out, and the next loop has to wait for new ones.
+// With one thread, the calling thread runs the loop without OpenMP, because OpenMP's run-time ends the process if it lacks
+// memory. If there are fewer blocks than threads, some threads stay idle. A smaller team would be slower: GCC's run-time ends the
+// threads that are left out, so the next loop has to wait for new threads.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller) {
   if (n_blocks <= 1 || n_threads == 1 || !begin_threads()) return run_alone(n_blocks, body);
   Blocks blocks(n_blocks, n_threads, body);
@@ -124,7 +124,7 @@ int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &ch
   struct Loop {
     Blocks blocks;
     std::int64_t n_of_caller;  // the number of blocks that the calling thread ran in the team
-    std::int64_t has_worked;   // when it had run them
+    std::int64_t has_worked;   // the time at which it had run them
   } loop{{n_blocks, n_threads, body}, 0, 0};
   std::int64_t n_alone = 0, begin = nanoseconds();
   if (const std::int64_t time_alone = choice.time_alone(begin); time_alone > 0) {
@@ -156,13 +156,14 @@ int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body) {
   return team_for(n_blocks, n_threads, body, loop_choice);
 #else
   const std::int64_t begin = nanoseconds();
-  // More threads than processors wait for each other in every loop of OpenMP.
+  // If there are more threads than processors, they wait for each other in every loop of OpenMP.
   if (n_threads > processors_of_machine() || loop_choice.takes_team(begin))
     return team_for(n_blocks, n_threads, body, loop_choice);
   TimesOfCaller of_caller{begin, begin};
   const int n_ran = openmp_for(n_blocks, n_threads, body, &of_caller);
   const std::int64_t end = nanoseconds();
-  // GCC's run-time waits for all threads also at the beginning, until they have left the loop before. The first loop starts them.
+  // At the beginning, GCC's run-time also waits until all threads have left the previous loop. The first loop starts these
+  // threads.
   const std::int64_t waited = loop_choice.has_recorded() ? of_caller.begins - begin : 0;
   loop_choice.record(waited + (end - of_caller.has_worked), end);
   return n_ran;

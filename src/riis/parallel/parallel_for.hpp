@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step run on OpenMP's
-// threads or, after a long wait for one of them, on a team. Only parallel_for.cpp uses OpenMP.
+// Loops over a fixed number of blocks. The exhaustive search runs on OpenMP's threads. Loops of a time step also run on
+// OpenMP's threads. After a long wait for one of them, they run on a team. Only parallel_for.cpp uses OpenMP.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace riis {
 
-// Returns the number of processors in the affinity mask of the calling thread. n_threads = 0 never stands for more threads. If
-// OpenMP binds threads to places, the mask is the process's mask at its start.
+// Returns the number of processors in the affinity mask of the calling thread. n_threads = 0 never stands for more threads
+// than this. If OpenMP binds threads to places, the mask is the process's mask at its start.
 int default_thread_count() noexcept;
 
 // Returns the number of the machine's processors, also of processors outside the calling thread's affinity mask.
@@ -19,18 +19,19 @@ int processors_of_machine() noexcept;
 
 // By default a call uses one more thread for each of these amounts of work, which take half a millisecond or more. On a quiet
 // machine, waking a thread and waiting for it takes a hundredth of that time. On a busy machine it takes as long as the system
-// lets other processes run.
+// gives the processor to other processes.
 constexpr std::int64_t triangles_per_thread = 4096, points_per_thread = 2048;
 constexpr std::int64_t nodes_per_thread = 16384;  // nodes of a mesh, or cells or faces
 
-// Returns the number of threads that a caller requests. If it is 0, returns the number that n_items of work keep busy.
+// Returns the number of threads that a caller requests. If the caller requests 0, returns the number of threads that n_items of
+// work keep busy.
 inline Threads threads_for(std::int32_t n_threads, std::int64_t n_items, std::int64_t per_thread) {
   return n_threads > 0 ? Threads(n_threads)
                        : Threads::by_default(n_items, per_thread, has_lost_threads() ? 1 : default_thread_count());
 }
 
-// Refers to a body(block, thread) of any type, which must live as long as the loop. So the loops are compiled once, not once for
-// each body, and a block costs one call through a pointer.
+// Refers to a body(block, thread) of any type, which must live as long as the loop. Loops are therefore compiled once, not once
+// for each body, and a block costs one call through a pointer.
 class LoopBody {
  public:
   template <class Body>
@@ -45,26 +46,26 @@ class LoopBody {
   void (*call_)(const void *of, std::int64_t block, int thread);
 };
 
-// Returns the time of a steady clock in nanoseconds, which a LoopChoice takes.
+// Returns the time of a steady clock in nanoseconds, as a LoopChoice takes it.
 std::int64_t nanoseconds() noexcept;
 
-// When the calling thread begins its work in a loop, and when it has no more.
+// The times at which the calling thread begins its work in a loop, and ends it.
 struct TimesOfCaller {
   std::int64_t begins, has_worked;
 };
 
 // Runs body(block, thread) once for every block in [0, n_blocks) on up to n_threads threads of OpenMP, and returns how many
 // threads ran. If a body throws, the exception that a single thread would meet is rethrown after the loop. The caller's OpenMP
-// settings do not change. Inside a caller's parallel region, the loop uses as many threads as nesting allows. If OpenMP runs the
-// loop, `of_caller` gets the times of the calling thread. It may be null.
+// settings do not change. In a caller's parallel region, the loop uses as many threads as nested parallelism allows. If OpenMP
+// runs the loop, `of_caller` gets the times of the calling thread. It may be null.
 int openmp_for(std::int64_t n_blocks, int n_threads, LoopBody body, TimesOfCaller *of_caller = nullptr);
 
-// Does the same on a team (team.hpp), and so does not wait for a thread that another process holds up. The calling thread first
+// Does the same on a team (team.hpp), so it does not wait for a thread that another process delays. The calling thread first
 // works alone for as long as `choice` says. If the loop ends within that time, the result is still n_threads.
 int team_for(std::int64_t n_blocks, int n_threads, LoopBody body, LoopChoice &choice);
 
-// Does the same on threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's parallel
-// region, and if the user binds OpenMP's threads to places.
+// Does the same on the threads that loop_choice chooses. The threads are always OpenMP's in two cases: inside a caller's
+// parallel region, and if the user binds OpenMP's threads to places.
 int parallel_for(std::int64_t n_blocks, int n_threads, LoopBody body);
 
 // Calls body(range, thread) for the ranges of per_block numbers in [0, n). The last range may be shorter.

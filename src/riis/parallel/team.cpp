@@ -23,8 +23,8 @@ namespace riis {
 namespace {
 
 // A thread that waits stays awake for a while, because waking it would take some microseconds. At first it keeps its processor,
-// so that it wakes at once even if a caller's thread spins there. Later it offers the processor to other threads. Then it sleeps.
-// The thread sanitizer keeps a history of accesses, which waiting awake would fill.
+// so it wakes at once even if a caller's thread spins there. Later it offers the processor to other threads. Then it sleeps. The
+// history of accesses that the thread sanitizer keeps would fill up if threads waited awake.
 using std::chrono::microseconds;
 #if defined(RIIS_STD_THREADS)
 constexpr microseconds longest_awake{0}, longest_alone{0};
@@ -40,7 +40,7 @@ void pause_briefly() {
 #endif
 }
 
-// Waits awake until the condition holds, and returns whether it does.
+// Waits awake until the condition holds or the time is over, and returns whether the condition holds.
 template <class Condition>
 bool wait_awake(const Condition &holds) {
   const auto start = std::chrono::steady_clock::now();
@@ -55,14 +55,14 @@ bool wait_awake(const Condition &holds) {
   }
 }
 
-// Threads sleep on semaphores. A condition variable would need a mutex. If the system interrupts a thread that has the mutex, the
-// calling thread would then also wait.
+// Threads sleep on semaphores. A condition variable would need a mutex. If the system interrupts a thread that holds the mutex,
+// the calling thread would also wait.
 class Semaphore {
  public:
   Semaphore() { sem_init(&semaphore_, 0, 0); }
   void post() { sem_post(&semaphore_); }
   void wait() {
-    while (sem_wait(&semaphore_) != 0) {  // a signal has interrupted it
+    while (sem_wait(&semaphore_) != 0) {  // a signal has interrupted the wait
     }
   }
 
@@ -70,8 +70,8 @@ class Semaphore {
   sem_t semaphore_;
 };
 
-// The state of a team's loop, in one word. It holds the loop's own number, how many workers are inside the loop, and how many
-// more may enter. So a worker takes a place only in a loop that still has one.
+// The state of a team's loop, in one word. The word holds the loop's number, how many workers are inside the loop, and how
+// many more may enter. A worker therefore enters only a loop that still has a place.
 struct State {
   static constexpr std::uint64_t one_inside = 1, one_place = std::uint64_t{1} << 16, one_loop = std::uint64_t{1} << 32;
   static constexpr std::uint64_t all_places = one_loop - one_place;
@@ -86,11 +86,12 @@ struct State {
 // A calling thread with its workers. A team serves one loop at a time. Teams and their workers exist until the process ends.
 class Team {
  public:
-  // Starts workers until the team has n_workers. Returns the number of workers, which is less if the system refuses a thread.
+  // Starts workers until the team has n_workers of them. Returns the number of workers, which is less if the system refuses a
+  // thread.
   int grow_to(int n_workers) {
     if (n_workers_ < n_workers) {
       n_processors_ = default_thread_count();
-      // A caller's handlers of signals run on the caller's threads. An error's signal cannot be put off.
+      // A caller's handlers of signals run on the caller's threads. The signal of an error cannot be blocked.
       sigset_t blocked, before;
       sigfillset(&blocked);
       for (const int error : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) sigdelset(&blocked, error);
@@ -112,7 +113,7 @@ class Team {
     const State closed{state_.load(std::memory_order_relaxed)};
     const auto n = static_cast<std::uint64_t>(n_places);
     state_.store(closed.word + State::one_loop + n * State::one_place);
-    // A worker that is awake comes by itself, if the system lets it.
+    // Only workers that sleep are woken, because the others find the loop by themselves.
     const int n_awake = n_workers_ - n_asleep_.load();
     for (int n_to_wake = take_asleep(n_places - n_awake); n_to_wake > 0; --n_to_wake) may_start_.post();
     work(context, 0);
@@ -143,7 +144,7 @@ class Team {
     }
   }
 
-  // Subtracts up to n workers from the number of sleeping workers, and returns how many.
+  // Subtracts up to n from the number of sleeping workers, and returns the difference.
   int take_asleep(int n) {
     int n_asleep = n_asleep_.load(), n_taken = 0;
     do n_taken = std::clamp(n, 0, n_asleep);
@@ -164,7 +165,7 @@ class Team {
   void wait_for_workers() {
     const auto is_empty = [&] { return State{state_.load()}.n_inside() == 0; };
     if (waits_awake_.load(std::memory_order_relaxed) && wait_awake(is_empty)) return;
-    // A worker that left an earlier loop may post late, so the thread checks the loop after each post.
+    // A worker that left an earlier loop may post late, so the calling thread checks the loop after each post.
     while (!is_empty()) {
       caller_sleeps_.store(true);
       if (is_empty() && caller_sleeps_.exchange(false)) return;
@@ -176,14 +177,14 @@ class Team {
   void (*work_)(void *, int) = nullptr;
   void *context_ = nullptr;
   std::atomic<bool> waits_awake_{false}, caller_sleeps_{false};
-  std::atomic<int> n_asleep_{0};  // the workers that sleep and for which nothing was posted
+  std::atomic<int> n_asleep_{0};  // the workers that sleep and that no post will wake
   Semaphore may_start_, may_end_;
   int n_workers_ = 0, n_processors_ = 1;
 };
 
 // The idle teams. They are not destroyed when the process ends, because their workers still wait. There are as many teams as
-// threads of the caller that were inside loops at once. The first few teams need no allocation, so they are no part of a call's
-// memory.
+// threads of the caller that were ever inside loops at once. The first few teams are static, so they take no memory of a
+// call.
 constexpr std::size_t n_first_teams = 16;
 alignas(Team) unsigned char first_teams[n_first_teams][sizeof(Team)];
 std::mutex teams_mutex;
@@ -215,12 +216,12 @@ LoopChoice loop_choice;
 
 int processors_of_machine() noexcept {
   static const int n = static_cast<int>(sysconf(_SC_NPROCESSORS_CONF));
-  return n < 1 ? std::numeric_limits<int>::max() : n;  // if the system does not say how many there are
+  return n < 1 ? std::numeric_limits<int>::max() : n;  // used if the system does not say how many there are
 }
 
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context) {
   Team *const team = borrow_team();
-  if (!team) {  // there is no memory, and a loop must not fail for that
+  if (!team) {  // there is no memory, but a loop must not fail because of that
     work(context, 0);
     return 1;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Threads for the loops of a time step on a busy machine. Between loops they wait, first awake and then asleep. A loop does not
-// wait for a thread that another process keeps from coming: the calling thread then does the work.
+// Threads for the loops of a time step on a busy machine. Between loops the threads wait, first awake and then asleep. If
+// another process delays a thread, the loop does not wait for it: the calling thread does its work.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 namespace riis {
 
 // Calls work(context, 0) on the calling thread. Calls work(context, thread), 0 < thread < n_threads, on each further thread that
-// comes before the call on the calling thread has returned. Returns after all these calls have returned. Returns the number of
+// comes before the calling thread's call has returned. Returns after all these calls have returned. Returns the number of
 // threads that took part. It is less than n_threads only if the system refuses a thread or memory. No call may throw.
 int run_by_team(int n_threads, void (*work)(void *context, int thread), void *context);
 
-// Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they are also the
-// threads of the caller's own loops. But a loop waits for all of them, for as long as another process holds a processor. After
-// such a wait, teams run the loops for a while. If OpenMP then serves only a few loops until the next such wait, the machine is
-// busy, and this time doubles. A team also waits, for a thread that another process interrupts inside a block. The calling thread
-// therefore begins a team's loop alone. Recent loops lost some time by calling their teams, and the calling thread works alone
-// for that long before it calls its team. If the team then loses as much, the loop takes at most twice as long as with the better
-// choice. All times are in nanoseconds.
+// Chooses between OpenMP's threads, a team and the calling thread. OpenMP's threads begin a loop sooner, and they also run the
+// caller's own loops. But a loop waits for all of them, however long another process holds a processor. After such a wait, teams
+// run the loops for some time. If OpenMP then runs only a few loops until the next such wait, the machine is busy, and the
+// teams' time doubles. A team also waits if another process interrupts its thread inside a block. The calling thread therefore
+// begins a team's loop alone. How long it works alone is the time that recent loops lost by calling their teams. If the
+// team then loses as much again, the loop takes at most twice as long as with the better choice. All times are in
+// nanoseconds.
 class LoopChoice {
  public:
   static constexpr std::int64_t long_wait = 2'000'000, first_pause = 250'000'000, longest_pause = 2'000'000'000;
@@ -49,13 +49,13 @@ class LoopChoice {
   }
 
   // Returns how long the calling thread works alone in a loop that begins now. Without new losses this time becomes shorter, so
-  // that teams are tried again.
+  // teams are tried again.
   std::int64_t time_alone(std::int64_t now) const noexcept {
     const double mean = mean_loss(now);
     return mean < least_loss ? 0 : static_cast<std::int64_t>(mean);
   }
-  // Records a loop that called a team and ended now. `lost` is the calling thread's wait at the end, minus the time in which it
-  // would have done the other threads' work itself.
+  // Records a loop that called a team and ended now. `lost` is the calling thread's wait at the end, minus the time that it
+  // would have needed for the other threads' work.
   void record_team(std::int64_t lost, std::int64_t now) noexcept {
     const double before = mean_loss(now), more = static_cast<double>(std::max<std::int64_t>(lost, 0)) - before;
     mean_loss_.store(before + more / loops_in_mean, std::memory_order_relaxed);
@@ -65,7 +65,7 @@ class LoopChoice {
  private:
   double mean_loss(std::int64_t now) const noexcept {
     const double mean = mean_loss_.load(std::memory_order_relaxed);
-    if (mean < 1) return 0;  // to save the time of exp2
+    if (mean < 1) return 0;  // this saves the time of exp2
     return mean * std::exp2(static_cast<double>(recorded_.load(std::memory_order_relaxed) - now) / half_life);
   }
 
@@ -74,8 +74,8 @@ class LoopChoice {
   std::atomic<double> mean_loss_{0};
 };
 
-// This process's choice between OpenMP and a team. The loops of several threads of the caller may record at once; any of their
-// values serves.
+// This process's choice between OpenMP and a team. The loops of several threads of the caller may record at once. Each of
+// their values is good enough.
 extern LoopChoice loop_choice;
 
 }  // namespace riis

@@ -18,7 +18,7 @@ void begin_child() {
 
 bool begin_threads() noexcept {
   if (!are_used.load(std::memory_order_relaxed)) {
-    // If there is no memory for the handler, the library could not notice a fork. So it starts no threads.
+    // Without memory for the handler, the library could not notice a fork. So it starts no threads.
     static const bool is_watched = pthread_atfork(nullptr, nullptr, begin_child) == 0;
     if (!is_watched) return false;
     are_used = true;

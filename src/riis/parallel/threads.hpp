@@ -26,7 +26,8 @@ class Threads {
 
   operator int() const { return n_; }  // NOLINT(google-explicit-constructor)
 
-  // Returns the number of threads for a part of the call that has n_items of work. A default number becomes 1 below `few` items.
+  // Returns the number of threads for a part of the call that has n_items of work. A default number becomes 1 for fewer than
+  // `few` items.
   int for_part(std::int64_t n_items, std::int64_t few) const { return is_default_ && n_items < few ? 1 : n_; }
 
  private:
@@ -35,7 +36,7 @@ class Threads {
 };
 
 // Returns whether this process may use several threads, and records that it does. A child of fork() may not use several threads
-// if the library had used them before the fork. The child lacks these threads, and the run-times of OpenMP and TBB would wait for
+// if the library had used them before the fork. The child lacks these threads, so the run-times of OpenMP and TBB would wait for
 // them for ever.
 bool begin_threads() noexcept;
 

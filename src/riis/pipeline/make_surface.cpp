@@ -47,7 +47,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
   if (fixed) fixed->check(valve);
   // Turns parameters into curves and patches.
   PatchSet patches = valve.make_patches();
-  // Turns the earlier state into curves and patches. Corresponding points of both states have the same u and v.
+  // Turns the earlier state into curves and patches. Corresponding points have the same u and v in both states.
   std::optional<PatchSet> patches_before;
   std::optional<EarlierState> earlier;
   if (moved) {
@@ -61,7 +61,7 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
                                 : triangulate_adapted(patches, how, surface.take_triangles());
   if (triangles.n_triangles() == 0) fail(RIIS_INVALID_PARAMETER, "the valve has no area");
   const double seconds_triangles = stopwatch.lap();
-  // If distances are not to the triangles, makes the other method first, because the library may refuse it.
+  // If another method measures distances, makes it first, because the library may refuse it.
   std::unique_ptr<const PatchDistance> distance;
   if (accuracy.measure != RIIS_MEASURE_TRIANGLES)
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
@@ -108,14 +108,14 @@ namespace {
 
 // The lines are chosen for this many openings, evenly spaced from 0 to 1.
 constexpr int n_openings = 33;
-// The chosen lines are then tested at n_between more openings between every two neighbouring openings. If the lines are too
-// coarse at some of the tested openings, all lines are chosen again, now for these openings also. The test is repeated at most
-// n_trials times.
+// Then the chosen lines are tested at n_between openings between every two neighbouring openings. If the lines are too coarse
+// at some of these openings, all lines are chosen again, with these openings included. The test is repeated at most n_trials
+// times.
 constexpr int n_between = 7, n_trials = 4;
 // A limit on the number of patches, because the choice keeps the patches of all these openings in memory.
 constexpr std::size_t max_patches = 10'000;
-// A warp may change after the triangles were planned, and the error with it. So the plan of a warped valve takes only this share
-// of the allowed error.
+// After the triangles were planned, a warp may change, and the error with it. The plan of a warped valve therefore uses
+// only this share of the allowed error.
 constexpr double warped_share = 0.6;
 
 PatchSet patches_at(Valve &valve, double opening) {

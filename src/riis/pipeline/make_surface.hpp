@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole pipeline. It turns a valve's parameters or the caller's arrays into a surface that answers queries for closest
 // points.
-// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the time taken in seconds.
+// In: a valve or arrays, the placement, the accuracy. Out: the surface, and the seconds that it took.
 #pragma once
 
 #include <riis/riis.h>
@@ -20,12 +20,12 @@ namespace riis {
 // In: a valve, the allowed error. Out: a plan of the triangles that serves all openings.
 class FixedTriangulation {
  public:
-  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. Fails as the stages
-  // of the pipeline do. The message names the opening.
+  // Makes the plan. max_error bounds the distance between triangles and the smooth surface, before placement. It fails as the
+  // stages of the pipeline do. The message names the opening.
   FixedTriangulation(const Valve &valve, double max_error, int n_threads);
 
-  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in more than its opening and the values of its
-  // warp.
+  // Fails with RIIS_INVALID_PARAMETER if the valve differs from the plan's valve in anything but its opening and the values of
+  // its warp.
   void check(const Valve &valve) const { valve_.check_same_but_for_opening(valve); }
   const TriangulationPlan &plan() const { return plan_; }
 
@@ -55,7 +55,7 @@ struct EarlierValve {
   const Valve &before;
   Placement placement_before;
   double seconds;                            // the time from that state to the present one, not 0
-  const PatchSet *patches_before = nullptr;  // the patches of that state if they are known
+  const PatchSet *patches_before = nullptr;  // the patches of the earlier state, if they are known
 };
 
 // A direction in which a valve changes, by two near states (motion/vertex_rates.hpp).
@@ -69,10 +69,10 @@ struct SurfaceSeconds {
   double triangles, scene;
 };
 
-// Both functions replace the content of `surface` and reuse its memory. After a failure the only use of `surface` is to make it
-// again. The first function fails as the stages of the pipeline do. It also fails with RIIS_INVALID_PARAMETER if the valve has
-// no area or if the two states come from valves of different builds. Without an earlier state the vertices have no velocity.
-// `fixed` is null unless accuracy.is_fixed.
+// Both functions replace the content of `surface` and reuse its memory. After a failure, `surface` can only be made again. The
+// first function fails as the stages of the pipeline do. It also fails with RIIS_INVALID_PARAMETER if the valve has no area or
+// if the two states come from valves of different builds. Without an earlier state the vertices have no velocity. `fixed` is
+// null unless accuracy.is_fixed.
 SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const SurfaceRequest &request,
                             const ValveAccuracy &accuracy, const FixedTriangulation *fixed, Surface &surface);
 SurfaceSeconds make_surface(const UserFaces &faces, const riis_surface_arrays &arrays, bool skip_zero_area,

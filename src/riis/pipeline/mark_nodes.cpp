@@ -12,8 +12,8 @@
 namespace riis {
 namespace {
 
-// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay only if they are used again, so not in a
-// mesh's first marking.
+// Returns whether clusters are faster. If the limit leaves out most nodes, clusters pay only if they are used again, so not in
+// the first marking of a mesh.
 bool do_clusters_pay_off(const SearchRequest &request, bool is_first) {
   if (request.surface.other_distance()) return false;
   return has_few_near(request) ? !is_first : are_enough_for_clusters(request.mesh.nodes().n, request.surface);
@@ -35,7 +35,7 @@ std::int32_t search_for(const SearchRequest &request, std::int32_t asked_for) {
   return asked_for;
 }
 
-// The search that ran and its report.
+// A search that ran, and its report.
 struct SearchRun {
   std::int32_t search;
   SearchReport report;
@@ -63,7 +63,7 @@ SearchRun run(const SearchRequest &request, std::int32_t search, Marks &marks) {
   switch (search) {
     case RIIS_SEARCH_NEIGHBOR: {
       // A moving valve is near its last position, so the walk starts at the nodes found last. These may be nodes of another mesh
-      // with as many nodes: a wrong start does no harm.
+      // with as many nodes. A wrong start does no harm.
       const bool fits = marks.stats.n_nodes == request.mesh.nodes().n;
       return {search, search_neighbors(request, fits ? marks.within.nodes.node_id : nowhere, marks.neighbor_scratch,
                                        marks.found)};
@@ -90,8 +90,8 @@ WantedData wanted_data(const SearchRequest &request, const MarkingRequest &asked
   return data;
 }
 
-// Gives both lists room for their new entries. If a list lacks room, both are replaced, but only after all memory for the new
-// ones was reserved.
+// Gives both lists room for their new entries. If one list lacks room, both are replaced, but only after all memory for the
+// new lists was reserved.
 void make_room(const WantedData &data, const OrderScratch::Counts &n, Marks &marks) {
   if (!marks.within.has_room(data, n.n_within) || !marks.marked.has_room(data, n.n_marked)) {
     ListedNodes within, marked;

@@ -14,8 +14,8 @@
 namespace riis {
 namespace {
 
-// A surface with more triangles gives its memory back, because keeping so much would cost more than allocating it again. A
-// triangle takes about 300 bytes.
+// If the new surface has more triangles than this, the memory of the old surface is freed, because to keep so much would
+// cost more than to allocate it again. A triangle takes about 300 bytes.
 constexpr std::int64_t max_triangles_kept = 1'000'000;
 
 }  // namespace
@@ -27,7 +27,7 @@ SurfaceRequest UpdatableSurface::with_threads(const SurfaceRequest &request) con
   return made;
 }
 
-// Makes a new surface and replaces the old one only after it has succeeded.
+// Makes a new surface, and replaces the old surface only after this has succeeded.
 template <class Make>
 void UpdatableSurface::replace(const Make &make) {
   std::unique_ptr<Surface> made = std::move(before_);
@@ -47,7 +47,7 @@ void UpdatableSurface::update_from_valve(const Valve &valve, const EarlierValve 
     newly_fixed =
         std::make_unique<FixedTriangulation>(valve, accuracy.triangle_error / request.placement.scale, whole.n_threads);
   const FixedTriangulation *fixed = newly_fixed ? newly_fixed.get() : fixed_.get();
-  // In a time loop, the earlier state is often the state of the last update. Its patches are then known.
+  // In a time loop, the earlier state is often the state of the last update. The patches of that state are then known.
   std::optional<EarlierValve> moved;
   if (earlier) moved.emplace(*earlier);
   if (moved && moved->before.revision() == revision_) moved->patches_before = surface_->patches();
@@ -109,13 +109,13 @@ namespace {
 // depth of least_deepest cannot come from rounding.
 constexpr double least_depth = 1e-6, least_deepest = 1e-3;
 
-// Returns the depth up to which triangles of leaflets may cross although the leaflets only touch (docs/theory/crossings.md).
+// Returns the depth up to which the triangles of touching leaflets may cross (docs/theory/crossings.md).
 double depth_of_contacts(const Valve &valve, const Surface &surface) {
   if (valve.kind().has_exact_contacts) return least_deepest * surface.half_thickness();
   return 2 * surface.triangles().error_bound;
 }
 
-// Logs a warning if leaflets cross deeper than touching leaflets may. Returns whether it did.
+// Logs a warning if leaflets cross deeper than touching leaflets can. Returns whether it did.
 bool say(const Valve &valve, const Surface &surface, int n_threads) {
   const TriangleSet &set = surface.triangles();
   const Crossings pairs =

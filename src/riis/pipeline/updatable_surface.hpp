@@ -22,9 +22,9 @@ namespace riis {
 // In: the valve and its new surface. Out: a log message or none.
 class CrossingWatch {
  public:
-  // Examines the first surface of each shape in each range of the opening, until it has warned about the shape. Without a log
-  // function it does nothing and allocates nothing. It never fails, because the surface is good: if memory for the search is
-  // lacking, there is no warning.
+  // In each range of the opening, it examines the first surface of each shape, until it has warned about the shape. Without a
+  // log function it does nothing and allocates nothing. It never fails, because the surface itself is good. Without memory
+  // for the search there is no warning.
   void look(const Valve &valve, const Surface &surface, int n_threads) noexcept;
 
  private:
@@ -35,8 +35,8 @@ class CrossingWatch {
   };
   Shape &remembered(std::uint64_t digest);
 
-  // The number of shapes that are remembered. A caller that alternates between no more shapes than this gets one warning for each
-  // shape.
+  // The number of shapes that are remembered. If a caller alternates between no more shapes than this, it gets one warning for
+  // each shape.
   static constexpr std::size_t n_remembered = 8;
 
   std::array<Shape, n_remembered> shapes_{};
@@ -50,11 +50,11 @@ class UpdatableSurface {
   const SurfaceSeconds &seconds() const { return seconds_; }
 
   // The update functions fail as make_surface does, and a failure leaves the surface unchanged. If request.n_threads is 0, the
-  // number of threads follows from the last surface's number of triangles. The first update with accuracy.is_fixed fixes the
-  // triangulation. An update without it ends the fixed triangulation.
+  // number of triangles of the last surface determines the number of threads. The first update with accuracy.is_fixed
+  // chooses the fixed triangulation. An update without it ends the fixed triangulation.
   void update_from_valve(const Valve &valve, const EarlierValve *earlier, const SurfaceRequest &request,
                          const ValveAccuracy &accuracy);
-  // Updates the surface from arrays. If they contain no faces, they are new vertices for the faces of the last arrays.
+  // Updates the surface from arrays. If the arrays contain no faces, their vertices are for the faces of the last arrays.
   void update_from_arrays(const riis_surface_arrays &arrays, bool skip_zero_area, const SurfaceRequest &request);
   // Takes the vertices at a time and the mean velocities since dt before that time (Keyframes::at).
   void update_from_keyframes(const Keyframes &frames, double time, double dt, bool skip_zero_area,

@@ -104,8 +104,8 @@ class Cancelling {
     }
   };
 
-  // Looks for an edge in the opposite direction that covers this end of the given edge. Its own other end is then at the same
-  // vertex, and it leads to a point on the given edge. The two cancel there. Returns false if there is no such edge.
+  // Looks for an edge in the opposite direction that covers this end of the given edge. The found edge lies between this vertex
+  // and a point on the given edge. The two edges cancel up to this point. Returns false if there is no such edge.
   bool shorten(std::size_t i, Ends &here, const Ends &there) {
     const OpenEdge edge = edges_[i];
     for (auto [at, last] = there.with.equal_range(edge.*here.end); at != last; ++at) {
@@ -156,7 +156,7 @@ class Fans {
         if (vertices.count(vertex) != 0) around[vertex].push_back(i);
       }
     for (const auto &[vertex, triangles] : around) {
-      // Two triangles belong together if they have a second vertex in common. The lowest triangle names the group.
+      // Two triangles belong together if they share a second vertex. The lowest triangle names the group.
       std::map<std::int64_t, std::int64_t> group_of, first_with;
       for (const std::int64_t triangle : triangles) group_of[triangle] = triangle;
       const auto root = [&](std::int64_t triangle) {
@@ -256,8 +256,8 @@ std::vector<OpenEdge> longest_boundary(const TriangleSet &set) {
 
 namespace {
 
-// Finds the vertices on a side of a patch, in order along the side. Two vertices of a subdivided quad may lie at the same place.
-// Only the first of them is returned.
+// Finds the vertices on a side of a patch, in their order along the side. Two vertices of a subdivided quad may lie at the same
+// place. Only the first of such vertices is returned.
 Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std::int64_t end, PatchRim side) {
   const std::int64_t of_along = side == rim_v0 || side == rim_v1 ? 0 : 1;
   const auto along = [&](std::int64_t id) { return view(set.uv)[2 * id + of_along]; };
@@ -271,8 +271,8 @@ Vector<std::int64_t> vertices_on(const TriangleSet &set, std::int64_t begin, std
   return found;
 }
 
-// Returns one side of each patch: the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. choose()
-// returns 0 for a patch without such a side.
+// Returns for each patch the side that choose(patch, rim) returns. `rim` holds the patch's bits of PatchRim. choose() returns
+// 0 for a patch without such a side.
 template <class Choose>
 std::vector<SideLine> sides(const TriangleSet &set, const Choose &choose) {
   std::vector<SideLine> lines;

@@ -13,19 +13,19 @@
 
 namespace riis {
 
-// An open edge, in the direction in which it runs round its triangle.
+// An open edge, in its direction round its triangle.
 struct OpenEdge {
-  std::int64_t from, to;  // vertices, each of which stands for all vertices with the same coordinates
+  std::int64_t from, to;  // two vertices; each stands for all vertices with the same coordinates
   std::int64_t triangle;  // the position of its triangle in the set
 };
 
 // Returns the edges that only one triangle has, in the order of the triangles. If by_leaflet is true, only triangles of the same
-// leaflet count. A vertex inside a neighbour's edge opens no edge, because the edges on both sides cancel.
+// leaflet count. A vertex inside an edge of a neighbour opens no edge, because the edges on both sides cancel.
 std::vector<OpenEdge> open_edges(const TriangleSet &set, bool by_leaflet);
 
 // Returns the edges of the longest closed line of open edges, in order. Returns nothing if there is none. If several lines meet
-// in one vertex, each line continues along other triangles than before. So the attachments of cusps that meet at commissures make
-// one line, and their free edges make another.
+// in one vertex, each line continues along triangles that it has not met before. So the attachments of cusps that meet at
+// commissures make one line, and their free edges make another.
 std::vector<OpenEdge> longest_boundary(const TriangleSet &set);
 
 // One side of one patch. Its length is above 0.
@@ -41,7 +41,7 @@ double length_of(const TriangleSet &set, const SideLine &side);
 // A leaflet's free edge consists of the sides v = 1 that only one patch of the leaflet has.
 std::vector<SideLine> free_edges(const TriangleSet &set);
 // The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share does not
-// belong to it.
+// belong to the free edge.
 std::vector<SideLine> attached_sides(const TriangleSet &set);
 // The boundary of the leaflets consists of free edges, attached sides, and all other sides that no other patch shares. The
 // leaflet `skirt` does not count.
@@ -51,7 +51,7 @@ std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt)
 // Edges of length 0 are left out.
 struct Attachment {
   std::vector<double> edges;     // (3, 2, n_edges)
-  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt, of length 1, or 0 without a direction
+  std::vector<double> outwards;  // (3, 2, n_edges): the direction of a skirt at both ends, of length 1, or 0 for none
   std::vector<std::int64_t> vertex_id;   // (2, n_edges)
   std::vector<std::int32_t> leaflet_id;  // (n_edges)
   std::vector<std::int32_t> patch_id;    // (n_edges)

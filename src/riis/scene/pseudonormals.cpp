@@ -24,7 +24,7 @@ std::uint64_t hash(Vec3 p) {
   return h;
 }
 
-// Computes the third angle from the other two, because an arc tangent is expensive.
+// Computes the third angle from the other two, because an arc tangent takes long.
 std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
   const double at_a = std::atan2(measures.twice_area[lane], measures.product_at_a[lane]),
                at_b = std::atan2(measures.twice_area[lane], measures.product_at_b[lane]);
@@ -32,7 +32,7 @@ std::array<double, 3> angles_of(const TriangleMeasures &measures, int lane) {
 }
 
 // Sorts edges by their upper ends. Most lists are short and already in the order of their slots. Edges with equal ends keep that
-// order. A stable sort of the standard library would allocate memory.
+// order. The standard library's stable sort would allocate memory.
 template <class Edge>
 void sort_few(Edge *begin, Edge *end) {
   constexpr std::ptrdiff_t few = 32;
@@ -53,7 +53,7 @@ void sort_few(Edge *begin, Edge *end) {
 }  // namespace
 
 UnfilledShortVector<std::int32_t> distinct_positions(const TriangleSet &set, std::int64_t &n_positions) {
-  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place from its hash on.
+  // A hash table of vertices that is at most half full. Each vertex is stored at the first free place from its hash value on.
   constexpr std::int32_t none = -1;
   UnfilledShortVector<std::int32_t> position;
   resize(position, set.n_vertices());
@@ -95,7 +95,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   resize(edge_is_rim_, 3 * n);
   resize(corner_, n_positions);
   resize(corner_is_rim_, n_positions);
-  // Edges are listed by their lower end. Each list is short. After it is sorted, equal edges are next to each other.
+  // Edges are listed by their lower end. Each list is short. After sorting, equal edges are next to each other.
   Vector<std::int32_t> end_of_list;
   resize(end_of_list, n_positions + 1);
   const auto ends_at = view(end_of_list);
@@ -124,7 +124,7 @@ Pseudonormals::Pseudonormals(const TriangleSet &set) {
   };
   UnfilledShortVector<Edge> edges;
   resize(edges, 3 * n);
-  // Lists are filled from their ends, so that equal edges are in the order of their slots. So sums have the same bits for any
+  // Lists are filled from their ends, so equal edges are in the order of their slots. So sums have the same bits for any
   // numbering of the positions.
   for (std::int64_t slot = 3 * n; slot-- > 0;) {
     const auto [lower, upper] = ends_of(slot);
@@ -186,7 +186,7 @@ Pseudonormals::Feature Pseudonormals::at_border(std::int64_t triangle, Vec3 bary
   const bool is_vertex = kind == Kind::vertex;
   const Vec3 normal = is_vertex ? view(corner_)[position] : view(edge_)[slot];
   const bool is_on_rim = (is_vertex ? view(corner_is_rim_)[position] : view(edge_is_rim_)[slot]) != 0;
-  // The normals of faces folded onto each other cancel up to rounding. Then the triangle's own normal is used.
+  // The normals of faces folded onto each other cancel up to rounding. The triangle's own normal is then used.
   return {dot(normal, normal) > 1e-18 ? normal : of_face(triangle), is_on_rim};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Angle-weighted normals of vertices and edges. They tell on which side of a surface a point is, even if the closest point lies
 // on an edge or a vertex (J. A. Baerentzen, H. Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE
-// TVCG 11(3), 2005). On an open surface, "side" means the side of the nearest piece. The rim of the surface is found from the
-// same edges and vertices.
-// In: triangles. Out: a normal for any closest point, and whether that point is on the rim.
+// TVCG 11(3), 2005). On an open surface, the side refers to the nearest piece of the surface. The same edges and vertices
+// also give the rim of the surface.
+// In: triangles. Out: a normal for any closest point, and whether the point is on the rim.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class Pseudonormals {
 
   Vec3 of_face(std::int64_t triangle) const { return view(face_)[triangle]; }
 
-  // The face, edge or vertex that a closest point lies on. The point's barycentric weights tell which one it is. The normal may
+  // The face, edge or vertex on which a closest point lies. The point's barycentric weights tell which it is. The normal may
   // have any length. The rim of a valve consists of the sides that only one patch has (valve/rims.hpp). The rim of triangles
   // from arrays consists of the edges that only one triangle has.
   struct Feature {
@@ -51,7 +51,7 @@ class Pseudonormals {
   Feature at_border(std::int64_t triangle, Vec3 barycentric) const;
 
  private:
-  // The vertex, edge or face that barycentric weights lie on. `corner` is the vertex, or the corner where the edge begins.
+  // The vertex, edge or face on which barycentric weights lie. `corner` is the vertex, or the corner where the edge begins.
   enum class Kind { face, edge, vertex };
   struct Simplex {
     Kind kind;

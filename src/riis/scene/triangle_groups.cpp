@@ -46,8 +46,8 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
   frame = surface_frame;
   const bool is_by_place = set.grouping.end.empty(), was_by_place = is_by_place_;
   is_by_place_ = is_by_place;
-  // If the number of triangles is the same, the triangles have probably only moved. So groups by position are kept until they
-  // become much larger.
+  // If the number of triangles is unchanged, the triangles have probably only moved. So groups by position are kept until
+  // they become much larger.
   const bool is_kept = is_by_place && was_by_place && view(by_place_.order).size() == set.n_triangles();
   if (is_by_place && !is_kept) group_all_by_place(set, by_place_);
   bool are_same = enclose(is_by_place ? by_place_ : set.grouping, n_threads);
@@ -56,7 +56,7 @@ void TriangleGroups::make(const TriangleSet &set, const SurfaceFrame &surface_fr
     enclose(by_place_, n_threads);
     are_same = false;
   }
-  // Finds the longest edge only here, after the last grouping.
+  // Finds the longest edge only after the last grouping.
   longest_edge = 0;
   for (const GroupBounds &pack : packs) longest_edge = std::max(longest_edge, pack.longest_edge);
   are_as_before = are_same && size() <= much * size_at_first_;
@@ -93,7 +93,7 @@ bool TriangleGroups::enclose(const Grouping &grouping, int n_threads) {
                    std::equal(of_group.triangle, of_group.triangle + of_group.n, in_order);
         of_group.n = view(end)[g] - begin;
         std::copy_n(in_order, of_group.n, of_group.triangle);
-        // The corners of the next group's triangles lie scattered in memory, so they are requested ahead.
+        // The corners of the next group's triangles lie apart in memory, so they are prefetched.
         const std::int32_t next = g + 1 < range.end ? view(end)[g + 1] : view(end)[g];
         for (std::int32_t i = view(end)[g]; i < next; ++i) {
           const double *ahead = corners.data() + 9 * std::int64_t{view(order)[i]};

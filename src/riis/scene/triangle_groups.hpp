@@ -15,8 +15,8 @@
 
 namespace riis {
 
-// Takes a coordinate x to (x - centre) * scale. The scale is a power of two that makes the surface's half extent from 1/2 to 1.
-// The errors of both operations are only the rounding of their results.
+// Takes a coordinate x to (x - centre) * scale. The scale is the power of two that brings the surface's half extent between 1/2
+// and 1. Both operations only have the rounding errors of their results.
 struct SurfaceFrame {
   Vec3 centre{0, 0, 0};
   double scale = 1;
@@ -31,8 +31,8 @@ float round_down(double x);
 float round_up(double x);
 
 // Bounds the error of the filters' distances in the surface's frame (docs/theory/clusters.md). The points come from a frame
-// `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths up to
-// `longest_edge`.
+// that is `ratio` times as large and moved by `shift`. They are within `reach` of the triangles, whose edges have lengths
+// up to `longest_edge`.
 inline float filter_error(double ratio, double shift, double reach, double longest_edge) {
   return static_cast<float>(0x1p-21 * (ratio + shift + 5 * reach + 7 * longest_edge + 3));
 }
@@ -49,17 +49,17 @@ struct TriangleGroups {
   std::vector<TriangleGroup> groups;
   Bounds of_all;  // bounds of all corners, in the set's own coordinates
   std::vector<GroupBounds> bounds;
-  // Packs of groups_per_pack neighbouring groups in order, the last perhaps of fewer. Only their boxes along the coordinate axes,
-  // their longest edges and their corners are set, and a pack has the corner of one of its groups.
+  // Packs of groups_per_pack neighbouring groups in order. The last pack may have fewer. Only their boxes along the coordinate
+  // axes, their longest edges and their corners are set. A pack has the corner of one of its groups.
   std::vector<GroupBounds> packs;
   float longest_edge = 0;
-  // True if each group has the same triangles as before and the groups are not much larger. Then structures built over the
-  // groups still fit.
+  // True if each group has the same triangles as before and the groups are not much larger. Structures over the groups
+  // then still fit.
   bool are_as_before = false;
 
   // Copies the corners of a set's triangles, and computes their bounds.
   void take_corners(const TriangleSet &set, int n_threads);
-  // Replaces the groups by groups of the triangles whose corners were taken last. Reuses the groups' memory.
+  // Replaces the groups by new groups of the triangles whose corners were copied last. Reuses the groups' memory.
   void make(const TriangleSet &set, const SurfaceFrame &surface_frame, int n_threads);
 
   Range groups_of(std::int64_t pack) const {
@@ -79,9 +79,9 @@ struct TriangleGroups {
   double size() const;
 
   std::vector<OfPack> of_packs_;
-  Grouping by_place_;  // the groups by position, if the set has none of its own
+  Grouping by_place_;  // the groups by position, if the set has no groups of its own
   bool is_by_place_ = false;
-  double size_at_first_ = 0;  // the size when are_as_before was last false
+  double size_at_first_ = 0;  // the size at the last time that are_as_before was false
 };
 
 }  // namespace riis

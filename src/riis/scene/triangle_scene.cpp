@@ -37,7 +37,7 @@ using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, Release>;
 using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Release>;
 
 // Returns the device that all surfaces of the process share, because a device costs more than a small scene. The device exists as
-// long as one of the surfaces. Its default configuration leaves the number of threads to the caller's TBB settings.
+// long as any surface exists. Its default configuration leaves the number of threads to the caller's TBB settings.
 std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   static std::mutex mutex;
   static std::weak_ptr<std::remove_pointer_t<RTCDevice>> current;
@@ -52,14 +52,14 @@ std::shared_ptr<std::remove_pointer_t<RTCDevice>> shared_device() {
   return device;
 }
 
-// For points more than this many half extents from the centre, single precision cannot separate triangles. Then all triangles
-// are queried.
+// For points more than this many half extents from the centre, single precision cannot separate triangles. All triangles are
+// then queried.
 constexpr double far_away = 1e6;
 
 // Returns the radius, in the frame's units, that makes Embree visit every triangle whose computed distance from q is at most
-// `distance`. In single precision, Embree compares sums of squares, from the rounded point to boxes rounded outwards, with the
-// square of the radius. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The subtractions, squares
-// and sums are accurate to a factor 1 + 6 e, and the radius' square is accurate to a factor 1 + e. The factor 1 + 2^-20 = 1 + 16
+// `distance`. In single precision, Embree compares the square of the radius with sums of squares, from the rounded point to
+// boxes rounded outwards. The unit roundoff is e = 2^-24. The point is off by at most sqrt(3) e max|q|. The relative error of
+// the subtractions, squares and sums is at most 6 e, and that of the radius' square is at most e. The factor 1 + 2^-20 = 1 + 16
 // e and the term 4 e max|q| cover these errors and the rounding of this function itself. `rounding` covers the rounding of the
 // kernel. 2^-60 keeps the radius' square a normal float.
 float inflated_radius(double distance, Vec3 q, double rounding) {
@@ -78,7 +78,7 @@ struct TriangleScene::Implementation {
   Geometry geometry;
   bool tree_fits = false;  // whether the tree, when it was last built, had the same groups
 
-  // Returns Embree's tree over the groups. Builds it if no query did so since they were made.
+  // Returns Embree's tree over the groups. Builds the tree if no query has built it since the groups were made.
   RTCScene tree() {
     return scene.get([this](Scene &made) { build(made); }).get();
   }
@@ -100,8 +100,8 @@ struct Query {
   bool is_out_of_memory;
 };
 
-// Queries one triangle. Returns true if it is the closest so far. The function is not inlined, because the loops over groups
-// would lack registers.
+// Queries one triangle. Returns true if the triangle is the closest so far. The function is not inlined, because the loops
+// over groups would run out of registers.
 template <bool keeps_ties>
 __attribute__((noinline)) bool query_triangle(Query &query, std::int64_t triangle) {
   const double *c = query.in->groups.corners.data() + 9 * triangle;
@@ -152,7 +152,7 @@ bool visit_group(RTCPointQueryFunctionArguments *arguments) {
   const GroupBounds &bounds = groups.bounds[arguments->primID];
   float distance_sq[triangles_per_group];
   // In the frame's units, the closest triangle is at most sqrt(3) (query.largest + 1) away. Up to the distance query.largest + 1,
-  // the filter's error is at most half of this error. Up to nearly twice that distance, it is at most this error.
+  // the filter's error is at most half of this value. Up to nearly twice that distance, the error is at most this value.
   const float error =
       filter_error(1, 0, query.largest + 1, groups.longest_edge) + static_cast<float>(4 * query.in->rounding);
   const float point[3] = {static_cast<float>(query.q.x), static_cast<float>(query.q.y), static_cast<float>(query.q.z)};
@@ -207,7 +207,7 @@ void TriangleScene::Implementation::build(Scene &made) {
     const RTCError error = rtcGetDeviceError(device.get());
     if (error != RTC_ERROR_NONE) fail_embree(error, what);
   };
-  rtcGetDeviceError(device.get());  // clears an earlier error of this thread
+  rtcGetDeviceError(device.get());  // clears an earlier Embree error of this thread
   if (!made) {
     Geometry of_groups(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     check("create a geometry");
@@ -220,17 +220,17 @@ void TriangleScene::Implementation::build(Scene &made) {
     made = std::move(of_geometry);
     geometry = std::move(of_groups);
   } else {
-    // A scene that moves is built more often and is queried less often after each build. If the groups are the same, their tree
-    // is kept with new boxes.
+    // A moving scene is built more often, and each build serves fewer queries. If the groups are the same, their tree is kept
+    // and gets new boxes.
     rtcSetSceneFlags(made.get(), RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(made.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry.get(), tree_fits ? RTC_BUILD_QUALITY_REFIT : RTC_BUILD_QUALITY_LOW);
   }
-  tree_fits = false;  // until the tree is complete
+  tree_fits = false;  // false until the tree is complete
   rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(groups.groups.size()));
   rtcCommitGeometry(geometry.get());
   check("take the triangles");
-  // Embree builds with TBB. Outside of an arena, TBB would call as many threads as there are processors.
+  // Embree builds with TBB. Outside of an arena, TBB would call one thread for each processor.
   constexpr std::size_t few = 1024;  // with fewer groups, Embree itself builds on one thread
   Arena(groups.groups.size() < few ? 1 : n_threads).run([&] { rtcCommitScene(made.get()); });
   check("build the scene");
@@ -274,8 +274,8 @@ ClosestTriangle TriangleScene::find_closest(Vec3 p, double limit, InstructionSet
   Query query{&in, &kernels(instructions), p, q, largest, {infinity, -1}, ties, false};
   if constexpr (keeps_ties) ties->candidates.clear();
   if (!(largest <= far_away)) {
-    // In the frame's units, such a far point may overflow. The point is farther from the surface than the surface is large, so
-    // most limits end the query here.
+    // In the frame's units, such a far point may overflow. Such a point is farther from the surface than the surface is large,
+    // so most limits end the query here.
     if (!may_be_within(p, limit)) return {infinity, -1};
     const std::int64_t n = view(in.groups.corners).size() / 9;
     for (std::int64_t i = 0; i < n; ++i) query_triangle<keeps_ties>(query, i);

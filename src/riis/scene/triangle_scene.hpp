@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Triangles in an Embree scene, which answers queries for closest points. Only this file and its .cpp use Embree.
-// In: a triangle set, a point, a limit. Out: the closest triangle, the same as brute force with the same kernel finds.
+// In: a triangle set, a point, a limit. Out: the closest triangle, as brute force with the same kernel finds it.
 //
 // Embree works in single precision and only excludes triangles. Coordinates are recentred and scaled by a power of two to
 // the size of the surface. Boxes are rounded outwards, and radii are increased by more than Embree's rounding. Every candidate
@@ -19,8 +19,8 @@
 
 namespace riis {
 
-// Ties: triangles that are as near to a point as its closest triangle, and that belong to another leaflet, or to another patch
-// of the same leaflet (docs/theory/marks.md, "Equally near leaflets"). Only velocities need ties.
+// Ties: triangles that are as near to a point as its closest triangle, but belong to another leaflet, or to another patch of
+// the same leaflet (docs/theory/marks.md, "Equally near leaflets"). Only velocities need ties.
 // In: triangles in the order in which a search compares them. Out: the ties of each point, which do not depend on this order.
 
 struct TieRule {
@@ -41,11 +41,11 @@ struct TieRule {
 };
 
 struct Tie {
-  std::int64_t point;  // the query point's number, which the search chooses; at last a node
+  std::int64_t point;  // the query point's number, which the search chooses; in the result the node
   ClosestTriangle triangle;
 };
 
-// The ties that one thread of a search finds. For each patch that ties, they contain its closest triangle, and perhaps also
+// The ties that one thread of a search finds. For each patch that ties, they contain its closest triangle, and perhaps
 // farther ones.
 struct Ties {
   TieRule rule;
@@ -53,13 +53,13 @@ struct Ties {
   std::vector<Tie> found;       // ties of nodes
 
   // Compares two triangles of a point, of which `closest` is the nearest so far. Keeps `other` as a candidate if it may be a
-  // tie. A triangle on the patch of `closest` is never needed: either this patch stays the nearest, or `closest` itself becomes
-  // a candidate.
+  // tie. A triangle on the patch of `closest` is not needed: either this patch stays the nearest, or `closest` itself becomes a
+  // candidate.
   void compare(std::int64_t point, const ClosestTriangle &closest, const ClosestTriangle &other) {
     if (other.triangle < 0 || !rule.is_tie(closest, other)) return;
     if (!candidates.empty()) {
-      // Triangles around a vertex are often compared one after another. If they are on one patch, only the nearest stays a
-      // candidate.
+      // Triangles around a vertex are often compared one after another. If they are on one patch, only the nearest of them
+      // stays a candidate.
       Tie &last = candidates.back();
       if (last.point == point && rule.are_of_one_patch(last.triangle, other)) {
         if (is_closer(other.distance_sq, other.triangle, last.triangle)) last.triangle = other;
@@ -69,8 +69,8 @@ struct Ties {
     candidates.push_back({point, other});
   }
 
-  // Keeps only the candidates that are ties, after all points are decided. closest_to(point) returns the closest triangle, or the
-  // position -1 if there is none. node_of(point) returns the node.
+  // Keeps only the candidates that are ties, after the search has decided all points. closest_to(point) returns the closest
+  // triangle, or the position -1 if there is none. node_of(point) returns the node.
   template <class ClosestTo, class NodeOf>
   void settle(const ClosestTo &closest_to, const NodeOf &node_of) {
     for (const Tie &tie : candidates) {
@@ -89,8 +89,8 @@ class TriangleScene {
   TriangleScene(const TriangleScene &) = delete;
   TriangleScene &operator=(const TriangleScene &) = delete;
 
-  // Makes the groups from a copy of the corners, so the set need not be kept. Another call, for triangles that moved, reuses the
-  // memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
+  // Makes the groups from a copy of the corners, so the set need not be kept. A further call, for triangles that moved, reuses
+  // the memory. After a failure the scene can only be destroyed. The first query builds Embree's tree, with n_threads threads,
   // because a search over clusters never needs the tree. So a query fails with RIIS_INTERNAL_ERROR or RIIS_OUT_OF_MEMORY if
   // Embree reports an error, and the next query tries once more.
   void make(const TriangleSet &set, int n_threads);
@@ -100,12 +100,12 @@ class TriangleScene {
 
   // Returns the closest triangle to p, or a triangle -1 if none is within the limit (>= 0, may be infinite). p must be finite,
   // with coordinates up to max_coordinate. Several threads may call this function at once. If `ties` is not null, the candidates
-  // of p replace its candidates.
+  // of p replace its earlier candidates.
   ClosestTriangle closest(Vec3 p, double limit, InstructionSet instructions = best_instruction_set(),
                           Ties *ties = nullptr) const;
 
   // Returns false only if no triangle is within the limit of p. Compares p with the box of all triangles in double precision,
-  // which is cheap.
+  // which takes little time.
   bool may_be_within(Vec3 p, double limit) const;
 
   const Bounds &bounds() const { return bounds_; }
@@ -127,8 +127,8 @@ class TriangleScene {
       for (int i = 0; i < view(in.bounds)[group].n; ++i) visit(view(in.bounds)[group].triangle[i]);
   }
 
-  // Bounds the error of a computed distance that comes from rounding the triangles' coordinates. Errors proportional to the
-  // distance and to |p| are not included.
+  // Bounds the error of a computed distance that comes from the rounding of the triangles' coordinates. Errors proportional
+  // to the distance and to |p| are not included.
   double rounding() const { return rounding_; }
 
   struct Implementation;  // public, because Embree's callbacks use this type

@@ -23,8 +23,8 @@ struct Edge {
 
 // Returns a length such that no edge of at most this length leaks. If such an edge meets the surface in a point, its nearer node
 // is at most half the length from that point. So the node is within the half thickness and marked. The margins are several times
-// the rounding, so this also holds for computed distances. Returns -1 if marks may be missing or do not follow the distances to
-// the triangles. Then no edge counts as short.
+// the rounding, so this also holds for computed distances. Returns -1 if marks may be missing, or if they do not follow the
+// distances to the triangles. In this case no edge counts as short.
 double length_that_cannot_leak(const Surface &surface, const Marks &marks) {
   if (surface.other_distance() || !marks.stats.complete) return -1;
   return 2 * surface.half_thickness() * (1 - 0x1p-40) - 4 * surface.scene().rounding();
@@ -53,8 +53,8 @@ struct alignas(64) Finder {
     return crosses;
   }
 
-  // Returns false only if no point of the surface is within the radius of p. One such query often makes the queries of single
-  // edges unnecessary. The margin is several times the rounding. This includes the rounding of p, which lies near the surface.
+  // Returns false only if no point of the surface is within the radius of p. One such query often replaces the queries of many
+  // edges. The margin is several times the rounding. This includes the rounding of p, which lies near the surface.
   bool may_be_within(Vec3 p, double radius) const {
     const TriangleScene &scene = request->surface.scene();
     return scene.closest(p, radius * (1 + 1e-9) + 4 * scene.rounding(), request->instructions).triangle >= 0;
@@ -76,7 +76,7 @@ struct alignas(64) Finder {
     adjacency.for_each_neighbor(i, [&](std::int64_t j) { longest = std::max(longest, distance(p, nodes[j])); });
     if (longest <= too_short || !is_open(i) || !may_be_within(p, longest)) return;
     adjacency.for_each_neighbor(i, [&](std::int64_t j) {
-      if (j < i && adjacency.has_neighbor(j, i)) return;  // the edge is found in row j
+      if (j < i && adjacency.has_neighbor(j, i)) return;  // the edge was found in row j
       const Vec3 q = checked_point(nodes, j, "node", RIIS_INVALID_MESH);
       const double length = distance(p, q);
       if (length <= too_short || !is_open(j)) return;

@@ -45,13 +45,13 @@ struct Candidate {
   double distance;
   std::int64_t node;
 
-  // Puts the farthest node first and, among equal distances, the lowest id first.
+  // Puts the farthest node first. Among equal distances, the lowest id comes first.
   bool operator<(const Candidate &other) const {
     return distance != other.distance ? distance > other.distance : node < other.node;
   }
 };
 
-// An edge that only the row of `other` lists.
+// An edge that only the row of `other` contains.
 struct OneWayEdge {
   std::int64_t node, other;
 
@@ -89,7 +89,7 @@ class Opening {
     return is_joined();
   }
 
-  // Opens the other nodes that are farther than `nearest`, one by one. Returns the node that joins the ends. If no node does,
+  // Opens one by one the other nodes that are farther than `nearest`. Returns the node that joins the ends. If no node does,
   // returns a candidate with the id -1.
   Candidate open_until_joined(double nearest) {
     const std::vector<OneWayEdge> one_way = one_way_edges();
@@ -123,8 +123,8 @@ class Opening {
     return made;
   }
 
-  // Returns the edges to nodes that are not open, if the rows of these nodes lack the edges. Most adjacencies are symmetric and
-  // have no such edges.
+  // Returns the edges to nodes that are not open, if the rows of these nodes do not list the edges. Most adjacencies are
+  // symmetric and have no such edges.
   std::vector<OneWayEdge> one_way_edges() {
     constexpr std::int64_t rows_per_task = 4096;
     std::vector<std::vector<OneWayEdge>> by_thread;
@@ -144,13 +144,13 @@ class Opening {
 
   const SearchRequest &request_;
   const Adjacency &adjacency_;
-  std::int64_t from_, to_;  // two extra nodes, each joined to all nodes of one end
+  std::int64_t from_, to_;  // two extra nodes, each of which is joined to all nodes of one end
   std::vector<std::int64_t> from_ids_, to_ids_;
   Marks near_;
   UnfilledVector<std::int64_t> parent_;
 };
 
-// No node has a distance as large as this.
+// No node has so large a distance.
 constexpr double beyond_all = 10 * max_coordinate;
 
 }  // namespace
@@ -158,14 +158,14 @@ constexpr double beyond_all = 10 * max_coordinate;
 riis_passage find_passage(const SearchRequest &request, const PassageEnds &ends) {
   const auto start = std::chrono::steady_clock::now();
   const double half_thickness = request.surface.half_thickness();
-  // A path's least distance is at most the distance of each of its ends.
+  // The least distance of a path is at most the distance of each of its ends.
   const double widest =
       std::min(largest_distance(request, "from", ends.from), largest_distance(request, "to", ends.to));
   Opening opening(request, ends);
   double limit = half_thickness, beyond = -1, growth = 2;
   for (int step = 0; opening.joins_beyond(limit); ++step) {
     beyond = limit;
-    if (step >= 4) growth *= growth;  // a surface that is tiny compared with the mesh needs faster growth
+    if (step >= 4) growth *= growth;  // if a surface is tiny compared with the mesh, the radius must grow faster
     limit = std::min(growth * limit, limit < widest ? widest : beyond_all);
   }
   const Candidate nearest = opening.open_until_joined(beyond);

@@ -16,7 +16,7 @@
 
 namespace riis {
 
-// Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave these paths open.
+// Leaks: edges of the mesh that cross the surface between two unmarked nodes. The marks leave open the paths along these edges.
 // In: a surface, a mesh with an adjacency, the marks. Out: the leaking edges in ascending order.
 
 // Edges between two unmarked nodes that cross the surface, in ascending order. riis_leak_list documents the members.
@@ -68,7 +68,7 @@ class OpenSets {
   // Puts the node into a new set of its own.
   void open(std::int64_t node) { parent_[node] = node; }
 
-  // Returns the lowest node of the set. Also halves the path to it, which makes later calls faster.
+  // Returns the lowest node of the set. Also halves the path to this node, which makes later calls faster.
   std::int64_t root(std::int64_t node) {
     for (;;) {
       std::int64_t parent = load(node);

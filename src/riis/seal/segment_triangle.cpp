@@ -10,7 +10,7 @@
 namespace riis {
 namespace {
 
-// An exact number. It is the sum of doubles that do not overlap, without zeros and in ascending order of magnitude (Shewchuk,
+// An exact number. It is a sum of doubles that do not overlap, without zeros, in ascending order of magnitude (Shewchuk,
 // "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997). Sums are exact unless doubles
 // overflow. Products are exact unless doubles overflow or underflow. The range of the coordinates excludes both.
 template <int capacity>
@@ -54,8 +54,8 @@ Exact<2> difference(double a, double b) {
   return made;
 }
 
-// Adds the doubles of b one after another. Each pass appends at most one part for each part that it has read. So it overwrites
-// only parts that are no longer needed.
+// Adds the doubles of b one after another. Each pass appends at most as many parts as it has read. So it overwrites only parts
+// that are no longer needed.
 template <int n, int m>
 Exact<n + m> operator+(const Exact<n> &a, const Exact<m> &b) {
   Exact<n + m> sum;
@@ -133,7 +133,7 @@ int orientation_exactly(Point2 a, Point2 b, Point2 c) {
 int orientation(Point2 a, Point2 b, Point2 c) {
   const double left = (a.u - c.u) * (b.v - c.v), right = (a.v - c.v) * (b.u - c.u);
   const double determinant = left - right;
-  // Shewchuk's bound is (3 + 16 e) e with e = 2^-53. 2^-51 is larger, to be safe.
+  // Shewchuk's bound is (3 + 16 e) e with e = 2^-53. 2^-51 is larger than this bound, to be safe.
   if (std::abs(determinant) > 0x1p-51 * (std::abs(left) + std::abs(right)) + underflow) return sign(determinant);
   return orientation_exactly(a, b, c);
 }
@@ -154,7 +154,7 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double magnitude = std::abs(p.z) * (std::abs(qxry) + std::abs(qyrx)) +
                            std::abs(q.z) * (std::abs(rxpy) + std::abs(rypx)) +
                            std::abs(r.z) * (std::abs(pxqy) + std::abs(pyqx));
-  // Shewchuk's bound is (7 + 56 e) e with e = 2^-53. 2^-50 is larger, to be safe.
+  // Shewchuk's bound is (7 + 56 e) e with e = 2^-53. 2^-50 is larger than this bound, to be safe.
   if (std::abs(determinant) > 0x1p-50 * magnitude + underflow) return sign(determinant);
   return orientation_exactly(a, b, c, d);
 }
@@ -176,7 +176,7 @@ bool segments_meet(Point2 a, Point2 b, Point2 c, Point2 d) {
          (c_side == 0 && is_between(a, b, c)) || (d_side == 0 && is_between(a, b, d));
 }
 
-// Decides for a segment in the plane of the triangle. Projects everything along an axis along which the triangle keeps an area.
+// Decides for a segment in the plane of the triangle. Projects everything along an axis, such that the triangle keeps an area.
 bool meets_in_plane(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) {
   const auto along = [](int axis, Vec3 p) {
     return axis == 0 ? Point2{p.y, p.z} : axis == 1 ? Point2{p.z, p.x} : Point2{p.x, p.y};
@@ -213,7 +213,7 @@ bool segment_meets_triangle(Vec3 a, Vec3 b, const std::array<Vec3, 3> &corners) 
   const int a_side = orientation(c[0], c[1], c[2], a), b_side = orientation(c[0], c[1], c[2], b);
   if (a_side * b_side > 0) return false;
   if (a_side == 0 && b_side == 0) return meets_in_plane(a, b, c);
-  // The segment's line meets the plane in one point. The point is in the triangle if the line passes all edges on the same side.
+  // The segment's line meets the plane in one point. This point is in the triangle if the line passes all edges on the same side.
   return agree(orientation(a, b, c[0], c[1]), orientation(a, b, c[1], c[2]), orientation(a, b, c[2], c[0]));
 }
 

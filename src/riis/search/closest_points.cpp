@@ -18,8 +18,8 @@
 namespace riis {
 namespace {
 
-// The number of points that are sorted together. They take 2 MB. Small batches suit points that follow each other closely. Their
-// leaves are as compact as the leaves of large batches, and their points stay in the cache.
+// The number of points that are sorted together. They take 2 MB. Small batches suit points that are near the points before them.
+// Their leaves are as compact as the leaves of large batches, and their points stay in the cache.
 constexpr std::int64_t points_per_batch = 1 << 16, points_per_small_batch = 1 << 13;
 
 constexpr std::int64_t points_per_block = 2048;
@@ -47,7 +47,7 @@ class ClosestPoints {
     if (!are_enough_for_clusters(wanted_.n, surface_)) {
       write_one_by_one({0, wanted_.n}, n_threads, [](Vec3) { return true; });
     } else if (wanted_.n >= n_threads * points_per_small_batch && follow_each_other()) {
-      // Each thread takes batches of its own. Their number is a multiple of the number of threads.
+      // Each thread takes its own batches. Their number is a multiple of the number of threads.
       const std::int64_t of_all = n_threads * points_per_small_batch;
       const std::int64_t n_batches = (wanted_.n + of_all - 1) / of_all * n_threads;
       std::vector<Batch> batches;
@@ -73,9 +73,9 @@ class ClosestPoints {
   }
   bool is_far(Vec3 p) const { return may_be_far_ && !(reach_of(p) <= far); }
 
-  // Returns whether consecutive points are near each other. Along some axis, a small batch from the middle then has at most half
-  // the extent of all points. The middle counts, because many meshes begin with the nodes of their boundary. There must be enough
-  // points for a small batch.
+  // Returns whether consecutive points are near each other. In this case, a small batch from the middle has at most half the
+  // extent of all points along some axis. The batch comes from the middle because many meshes begin with the nodes of their
+  // boundary. There must be enough points for a small batch.
   bool follow_each_other() const {
     const std::int64_t begin = (wanted_.n - points_per_small_batch) / 2;
     Bounds bounds;
@@ -156,7 +156,7 @@ class ClosestPoints {
     return true;
   }
 
-  // Fills clusters with a part of the batch's items, searches them, and writes the points.
+  // Fills clusters with a part of the batch's items, searches the clusters, and writes the points.
   void search_part(const Range &range, const Range &part, Batch &batch, int thread) const {
     const auto id_of = [&](std::int64_t at) { return wanted_.id(range.begin + at); };
     const auto item_at = [&](std::int64_t at) -> const auto & { return view(batch.items)[part.begin + at]; };
@@ -184,8 +184,9 @@ class ClosestPoints {
     Bounds bounds;
   };
 
-  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except far ones. The first point
-  // of the range has the k 0. The visited points of a block have consecutive places from the k at which the block begins.
+  // Calls visit(k, point, place) for the wanted points of a range that may be within the limit, except for far points. For the
+  // first point of the range, k is 0. In each block, the visited points have consecutive places, beginning at the block's first
+  // k.
   template <class Visit>
   std::array<Block, points_per_batch / points_per_block> visit_blocks(const Range &all, int n_threads,
                                                                       const Visit &visit) const {
@@ -253,7 +254,7 @@ class ClosestPoints {
     const double *const corners = scene_.groups().corners.data();
     const Kernels &simd = kernels(best_instruction_set());
     const bool is_located = to_.point || to_.barycentric || to_.side;
-    // With fewer triangles than points, making a normal for each triangle is cheaper than making one for each point.
+    // With fewer triangles than points, a normal for each triangle takes less time than a normal for each point.
     const bool has_normals = to_.side || (to_.normal && wanted_.n > set.n_triangles());
     const Pseudonormals *const normals = has_normals ? &surface_.pseudonormals() : nullptr;
     for (std::int64_t first = 0; first < view(list).size(); first += pairs_at_once) {
@@ -327,7 +328,7 @@ template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to) {
   if (request.wanted.n == 0) return;
-  // Makes the pseudonormals before anything is written. If memory runs out there, the arrays are unchanged.
+  // Makes the pseudonormals before anything is written. If memory runs out during this, the arrays are unchanged.
   if (to.side || (to.normal && request.wanted.n > request.surface.triangles().n_triangles()))
     request.surface.pseudonormals();
   ClosestPoints<Real>(request, points, to).write();

@@ -16,7 +16,7 @@ namespace riis {
 
 // The points that the caller wants: all points, the points of a mask, or the points of a list.
 struct WantedPoints {
-  std::int64_t n;  // of the list, or of all points
+  std::int64_t n;  // the length of the list, or the number of all points
   const std::uint8_t *mask = nullptr;
   const std::int64_t *ids = nullptr;  // ascending
   Bounds bounds = {};                 // of all points, or of the list's points
@@ -27,13 +27,13 @@ struct WantedPoints {
 };
 
 struct ClosestPointsRequest {
-  const Surface &surface;  // its distances are to triangles
+  const Surface &surface;  // a surface that measures distances to its triangles
   WantedPoints wanted;
   double limit, far_distance;  // points beyond the limit get far_distance
   Threads n_threads;
 };
 
-// Writes the wanted entries of the arrays. The points were checked. A failure for lack of memory leaves the arrays unchanged.
+// Writes the wanted entries of the arrays. The points were checked. If memory runs out, the arrays are unchanged.
 template <class Real>
 void find_closest_points(const ClosestPointsRequest &request, const StridedReals<Real> &points,
                          const riis_closest_arrays &to);

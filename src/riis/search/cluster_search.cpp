@@ -18,7 +18,7 @@ namespace {
 // In the surface's frame, single precision does not separate triangles at such lengths.
 constexpr double large = 0x1p20;
 
-// With more groups near a leaf, a query of each node is faster. Large leaves near small triangles have so many.
+// If more groups are near a leaf, a query of each node is faster. Large leaves near small triangles have so many groups.
 constexpr std::size_t most_groups = 4096;
 
 // Maps the mesh's frame to the surface's frame.
@@ -34,9 +34,9 @@ struct Placing {
 };
 
 #if defined(__SIZEOF_INT128__)
-// The order of closest triangles (is_closer) as one number, if squares of distances are finite. Its first 64 bits are those of
-// the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the largest
-// number if there is none.
+// The order of closest triangles (is_closer) as one number, if squares of distances are finite. The first 64 bits are the bits
+// of the square. Squares are not negative, so their bits have the same order. The last 64 bits are the triangle, or the
+// largest number if there is none.
 __extension__ typedef unsigned __int128 Rank;
 Rank rank_of(const ClosestTriangle &closest) {
   std::uint64_t square;
@@ -49,7 +49,7 @@ ClosestTriangle of_rank(Rank rank) {
   std::memcpy(&closest.distance_sq, &square, sizeof square);
   return closest;
 }
-// No processor can predict which one is closer, so this has no branch.
+// No processor can predict which triangle is closer, so the code has no branch.
 ClosestTriangle closer_of(const ClosestTriangle &a, const ClosestTriangle &b) {
   return of_rank(std::min(rank_of(a), rank_of(b)));
 }
@@ -137,7 +137,7 @@ class ClusterSearch {
   // limit (docs/theory/clusters.md, "Every distance").
   void search_every_cluster() {
     const auto n = view(clusters_.clusters).size();
-    // A thread compares a region anew if another thread had some of its clusters.
+    // A thread compares a region again if another thread had some of its clusters.
     const std::int64_t per_block = n < 64 * request_.n_threads ? 1 : Clusters::clusters_per_region;
     constexpr std::int64_t few = 4;  // searching this many takes about half a millisecond
     n_threads_ =
@@ -223,7 +223,8 @@ class ClusterSearch {
     const std::int32_t *const near_groups = own.near_groups.data() + first;
     std::uint16_t *const leaf_bits = own.leaf_bits.data() + first;
     const auto n_near = static_cast<std::int32_t>(n);
-    // Many groups are near a cluster if they are smaller than its leaves. Then their own axes make little difference.
+    // If groups are smaller than a cluster's leaves, many groups are near the cluster. Their own axes then make little
+    // difference.
     constexpr std::size_t many = 32;
     if (kernels_.near_boxes(task_, leaves, near_groups, n_near, leaf_bits) &&
         (n > many || kernels_.near_own_boxes(task_, leaves, near_groups, n_near, leaf_bits))) {
@@ -241,7 +242,7 @@ class ClusterSearch {
     for (std::size_t at = 0; at < size; at += line) visit(static_cast<const char *>(from) + at);
   }
 
-  // The leaves of the next cluster that will be filtered. Their coordinates are requested one leaf at a time (see LinesAhead).
+  // The leaves of the next cluster that will be filtered. Their coordinates are prefetched one leaf at a time (see LinesAhead).
   struct LeavesAhead {
     const Leaf *first;
     std::uint32_t near;
@@ -274,7 +275,7 @@ class ClusterSearch {
   // Sets the limits of a filter, for a limit in the surface's frame. Returns the filter's error.
   double limits_within(double limit, FilterLimits &limits) const {
     const double scale = groups_.frame.scale;
-    // The second term covers the rounding of the distances that are decided in double precision. The third covers ties, which
+    // The second term covers the rounding of the distances that double precision decides. The third term covers ties, which
     // may be farther than the closest triangle by this amount.
     const double error = filter_error(placing_.ratio, placing_.largest_shift, limit, groups_.longest_edge) +
                          4 * scene_.rounding() * scale + request_.ties.of_leaflets * scale;
@@ -284,7 +285,7 @@ class ClusterSearch {
     return error;
   }
 
-  // Returns a point of the surface. It is near `to` if a triangle of the group is.
+  // Returns a point of the surface. The point is near `to` if a triangle of the group is near `to`.
   Vec3 point_of_surface(std::int32_t group, Vec3 to) const {
     const float point[3] = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
     float distance_sq[triangles_per_group];
@@ -397,7 +398,7 @@ class ClusterSearch {
       }
     Pairs pairs{leaves.begin, found_.ties_of(thread), ahead};
     ClusterTask &task = own.task;
-    // The bounds of so many pairs of a leaf and a group take 8 kB, and so stay in the processor's first cache.
+    // The bounds of so many pairs of a leaf and a group take 8 kB, so they stay in the processor's first cache.
     constexpr std::size_t many = 64;
     std::int32_t *const leaf_groups = own.room_for_groups(many + item.n);
     while (near) {
@@ -418,7 +419,7 @@ class ClusterSearch {
     }
     decide(own, pairs);
     while (pairs.ahead.near) pairs.ahead.request_one();
-    // Every node with pairs is written, but the place moves on only after a node within the limit.
+    // Every node with pairs is written, but the position advances only after a node within the limit.
     UnfilledVector<FoundNode> &found = view(found_.by_thread)[thread];
     const std::size_t n_before = found.size();
     std::size_t n_paired = 0;
@@ -451,7 +452,7 @@ class ClusterSearch {
     });
   }
 
-  // Returns false if the filter's error is so large that the filter would leave many triangles.
+  // Returns false if the filter's error is so large that the filter would dismiss few triangles.
   bool is_separated(double limit) const {
     constexpr double useful = 0x1p-8;
     FilterLimits limits;
@@ -478,7 +479,7 @@ class ClusterSearch {
     const auto request = [&](const void *from, std::size_t size) {
       for_each_line(from, size, [&](const char *line) { task.ahead.line[task.ahead.n++] = line; });
     };
-    // Many leaves near the surface have no pairs, so points and node numbers are requested only here.
+    // Many leaves near the surface have no pairs, so only here are points and node numbers prefetched.
     for (std::int32_t i = 0; i < task.n_leaves; ++i) {
       const LeafTask &leaf = task.leaf[i];
       if (!leaf.may_be_near) continue;
@@ -512,7 +513,7 @@ class ClusterSearch {
     pairs.n = 0;
   }
 
-  // Lets each pair compete with its node's closest triangle so far.
+  // Each pair competes with its node's closest triangle so far.
   static void take_closest(std::int32_t n, const std::int32_t *node, const std::int32_t *triangle,
                            const double *decided, ClosestTriangle *closest) {
     for (std::int32_t i = 0; i < n; ++i) {
@@ -540,7 +541,7 @@ class ClusterSearch {
   const TriangleGroups &groups_;
   const Clusters &clusters_;
   const Placing placing_;
-  const double limit_;  // in the surface's frame; `large` if it excludes nothing that single precision separates
+  const double limit_;  // in the surface's frame; `large` if the limit excludes nothing that single precision separates
   const Kernels &kernels_;
   FoundNodes &found_;
   ClusterScratch &own_;

@@ -16,7 +16,7 @@ namespace riis {
 struct ClusterScratch {
   static constexpr std::int32_t room_for_pairs = 4096;
 
-  // A near cluster, and the place of its near groups: the thread whose lists hold them, and their range in these lists.
+  // A near cluster and its near groups: the thread whose lists contain them, and their range in these lists.
   struct Item {
     std::int64_t cluster;
     std::size_t first, n;
@@ -29,7 +29,7 @@ struct ClusterScratch {
     std::vector<Item> items;
     std::vector<std::int32_t> near_groups;  // groups near the clusters of the items
     std::vector<std::uint16_t> leaf_bits;   // for each near group, a bit for each near leaf of the cluster
-    std::vector<std::int32_t> leaf_groups;  // the near groups of leaves that are filtered together
+    std::vector<std::int32_t> leaf_groups;  // the near groups of the leaves that are filtered together
     ClusterTask task;
     struct alignas(64) NodeBounds {
       float of_node[nodes_per_leaf];
@@ -39,7 +39,7 @@ struct ClusterScratch {
     std::vector<double> pair_decided;        // squares of distances
     std::vector<ClosestTriangle> closest;    // closest triangles of a cluster's nodes
     std::vector<std::uint16_t> bits_within;  // for each near group, a bit for each leaf within the limit
-    std::int64_t region = -1;                // the region whose groups `bits` has, in a search for every distance
+    std::int64_t region = -1;                // the region whose groups `bits` has, in a search with every distance
     std::int64_t n_queries = 0;
 
     std::int32_t *room_for_groups(std::size_t n_groups) {
@@ -64,14 +64,14 @@ struct ClusterScratch {
 bool separates_in_single_precision(const NodeSearch &request, const NodeFrame &nodes);
 
 // Returns whether clusters pay off for the distances of this many nodes, if the limit leaves out few or none. For fewer nodes,
-// comparing all groups with the first clusters takes longer than a query of each node.
+// to compare all groups with the first clusters takes longer than to query each node.
 bool are_enough_for_clusters(std::int64_t n_nodes, const Surface &surface);
 
-// Returns whether most triangles are farther than the limit from most nodes near the surface.
+// Returns whether most triangles are beyond the limit for most nodes near the surface.
 bool has_few_near(const NodeSearch &request);
 
 // Searches over clusters. The clusters must belong to the request's mesh, and separates_in_single_precision must hold. `kernels`
-// must use the request's instructions. Only ./run bench roofline passes others, which count operations.
+// must use the request's instructions. Only ./run bench roofline passes other kernels, which count operations.
 SearchReport search_clusters(const NodeSearch &request, const Clusters &clusters, const Kernels &kernels,
                              ClusterScratch &scratch, FoundNodes &found);
 

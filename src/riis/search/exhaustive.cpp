@@ -10,8 +10,8 @@
 namespace riis {
 namespace {
 
-// Blocks are small enough to give two threads equal shares of a coarse mesh's band, and large enough to make handing them out
-// cheap.
+// Blocks are small enough for two threads to get equal shares of a coarse mesh's band, and large enough to be handed out
+// cheaply.
 constexpr std::int64_t nodes_per_block = 2048;
 
 template <class Distances>

@@ -16,7 +16,7 @@ namespace riis {
 namespace {
 
 constexpr std::int64_t nodes_per_range = NeighborScratch::nodes_per_range, balls_per_block = 16;
-// For fewer balls than these, one thread suffices, because a part of the search takes it only a millisecond or two.
+// With fewer balls than these, one thread suffices, because each part of the search takes it only a millisecond or two.
 constexpr std::int64_t few_balls = 256, few_large_balls = 64;
 
 template <class Distances>
@@ -39,7 +39,7 @@ class NeighborSearch {
     if (!request_.is_masked_out(node) && walked_.claim(node)) view(walked_.queue)[n_queued_++] = node;
   }
 
-  // Queries the nodes at which the walk starts. From each node within the limit, it goes on to the node's neighbours.
+  // Queries the nodes at which the walk starts. From each node within the limit, the walk goes on to the node's neighbours.
   void walk(int n_threads) {
     std::vector<Range> &ranges = walked_.ranges;
     ranges.clear();
@@ -109,7 +109,7 @@ class NeighborSearch {
     std::sort(near.begin(), near.end(), [](const auto &a, const auto &b) { return a.ball < b.ball; });
   }
 
-  // Starts the walk at one node in every near ball: the first node that is not proven far.
+  // In every near ball, starts the walk at the first node that is not proven far.
   void begin_in_near_balls(const NodeBalls &balls) {
     for (const NearBall &near : walked_.near_balls) {
       const Range range = balls.nodes_of(near.ball);
@@ -122,8 +122,8 @@ class NeighborSearch {
     }
   }
 
-  // Deals with the nodes of near balls that the walk did not reach. Queries such a node unless its ball's centre proves that it
-  // is far.
+  // Deals with the nodes of near balls that the walk did not reach. Queries such a node unless its ball's centre proves that
+  // the node is far.
   void prove(const NodeBalls &balls) {
     const auto n = view(walked_.near_balls).size();
     const int n_ran = parallel_for_ranges(n, balls_per_block, threads_near(), [&](const Range &block, int thread) {
@@ -153,7 +153,7 @@ class NeighborSearch {
   }
 
  private:
-  // Queries the distance of a node. If it is within the limit, adds the node to the found nodes and returns true.
+  // Queries the distance of a node. If the node is within the limit, adds it to the found nodes and returns true.
   bool query(std::int64_t node, int thread) {
     const Vec3 p = checked_point(nodes_, node, "node", RIIS_INVALID_MESH);
     if (!distances_.may_be_within(p, limit_)) return false;
@@ -165,7 +165,7 @@ class NeighborSearch {
   }
 
   // Returns true if the node is certainly farther from the surface than the limit. The proof is a lower bound on the node's
-  // distance: the distance of the ball's centre minus the way from the centre to the node.
+  // distance: the distance of the ball's centre minus the distance from the centre to the node.
   bool is_far(const NodeBalls &balls, const NearBall &near, std::int64_t node) const {
     const Vec3 centre = view(balls.balls)[near.ball].centre;
     const double from_centre = distance(centre, nodes_[node]);

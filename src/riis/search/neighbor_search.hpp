@@ -39,7 +39,7 @@ class NeighborScratch {
   std::vector<std::int64_t> near_large_balls;
   std::vector<NearBall> near_balls;
 
-  // The number of nodes that a thread passes on at once.
+  // The number of nodes that a thread passes on together.
   static constexpr std::int64_t nodes_per_range = 128;
 
   void prepare(std::int64_t n_nodes, int n_threads);
@@ -56,8 +56,8 @@ class NeighborScratch {
   std::uint8_t walk_ = 0;
 };
 
-// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). Then, for each node that the walk did not reach,
-// proves that it is far, or else queries it (docs/theory/search.md). The walk starts at the nodes in `last`, usually those
+// Walks from neighbour to neighbour (paper, 4.2.2 "Recursive neighbor search"). For each node that the walk did not reach, it
+// then proves that the node is far, or queries it (docs/theory/search.md). The walk starts at the nodes in `last`, usually those
 // found by the last marking. The mesh must have an adjacency.
 SearchReport search_neighbors(const SearchRequest &request, const std::vector<std::int64_t> &last,
                               NeighborScratch &scratch, FoundNodes &found);

@@ -22,7 +22,7 @@ namespace riis {
 // The nodes that a search finds, in one list for each thread. The lists' memory is reused, so the library allocates nothing in a
 // steady run of time steps.
 
-// A limit on the number of nodes. No memory holds the coordinates of so many.
+// A limit on the number of nodes. No memory can hold the coordinates of so many nodes.
 inline constexpr std::int64_t max_nodes = std::int64_t{1} << 40;
 
 // A node within the distance limit. `triangle` is a position in the surface's set of triangles. If another method measures the
@@ -39,7 +39,7 @@ struct FoundNode {
 };
 static_assert(sizeof(FoundNode) == 16);
 
-// Gives each thread's list room for twice the longest list, because the threads' shares differ from step to step. The room is a
+// Each thread's list gets room for twice the longest list, because the threads' shares differ from step to step. The room is a
 // power of two. So a step that finds a few more nodes than all previous steps allocates no memory.
 template <class Threads, class ListOf>
 void make_room(Threads &threads, const ListOf &list_of) {
@@ -50,14 +50,14 @@ void make_room(Threads &threads, const ListOf &list_of) {
   for (auto &thread : threads) list_of(thread).reserve(room);
 }
 
-// One list for each thread. The order within a list has no meaning.
+// One list for each thread. The order within a list means nothing.
 struct FoundNodes {
   std::vector<UnfilledVector<FoundNode>> by_thread;
   std::vector<Ties> ties_by_thread;  // stay empty unless the rule requests ties
 
   // Empties the lists, and makes room for the next search.
   void prepare(int n_threads, const TieRule &ties = {}) {
-    // Checks each list on its own, because an earlier call may have resized only the first and then run out of memory.
+    // Checks each list by itself, because an earlier call may have run out of memory after the first.
     if (view(by_thread).size() < n_threads) resize(by_thread, n_threads);
     if (view(ties_by_thread).size() < n_threads) resize(ties_by_thread, n_threads);
     make_room(
@@ -115,7 +115,7 @@ struct SearchReport {
   std::int64_t n_queries;
   int n_threads;
   bool complete;
-  std::int64_t n_unreached;  // number of nodes that only the neighbour search's proof found
+  std::int64_t n_unreached;  // number of nodes that only the proof of the neighbour search found
 };
 
 // Every search fills FoundNodes in any order. It fails with RIIS_INVALID_MESH if it reads an unusable coordinate.
@@ -123,8 +123,8 @@ struct SearchReport {
 // Queries every node (paper, 4.2.1 "Exhaustive node iteration").
 SearchReport search_exhaustively(const SearchRequest &request, FoundNodes &found);
 
-// The two ways in which a search measures distances: to a surface's triangles, or by the surface's other method. Searches are
-// compiled once for each way, so distances to triangles cost no virtual call.
+// The two ways to measure distances in a search: to a surface's triangles, or by the surface's other method. Searches are
+// compiled once for each way, so that distances to triangles need no virtual call.
 
 // Distances to the triangles of a surface.
 struct TriangleDistances {
@@ -132,7 +132,7 @@ struct TriangleDistances {
   InstructionSet instructions;
 
   bool may_be_within(Vec3 p, double limit) const { return scene.may_be_within(p, limit); }
-  // Returns the triangle closest to p. Replaces the candidates of `ties`, which may be null, by the candidates of p.
+  // Returns the triangle closest to p. The candidates of p replace the candidates in `ties`, which may be null.
   ClosestTriangle closest(Vec3 p, double limit, Ties *ties = nullptr) const {
     return scene.closest(p, limit, instructions, ties);
   }
@@ -151,7 +151,7 @@ struct TriangleDistances {
 struct OtherDistances {
   const PatchDistance &method;
   const TriangleScene &scene;
-  double triangle_error;  // the distance to the triangles exceeds a distance to S(u,v) by at most this
+  double triangle_error;  // the most by which the distance to the triangles exceeds a distance to S(u,v)
 
   bool may_be_within(Vec3 p, double limit) const { return method.may_be_within(p, limit); }
   ClosestTriangle closest(Vec3 p, double limit, Ties * = nullptr) const {
@@ -160,8 +160,8 @@ struct OtherDistances {
   }
 
   // Sampling measures the distance to fixed points, so the distance is such a bound. A minimisation may end anywhere on S, so its
-  // result at p bounds no result near p. But each of its results is the distance to some point of S, and so at least the distance
-  // to the triangles minus triangle_error.
+  // result at p bounds no result at other points. But each of its results is the distance to some point of S, and so at least the
+  // distance to the triangles minus triangle_error.
   double lower_bound(Vec3 p, double limit) const {
     if (method.is_of_fixed_points()) return std::sqrt(method.closest(p, limit).distance_sq);
     const double infinity = std::numeric_limits<double>::infinity();

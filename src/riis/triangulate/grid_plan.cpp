@@ -17,26 +17,26 @@
 namespace riis {
 namespace {
 
-// A curve may be halved this often. A request that reaches the limit would make more triangles than this library can hold.
+// A curve may be halved this often. A request with more parts would make more triangles than this library can hold.
 constexpr int max_rounds = 24;
 
-// The largest number of parts between two lines that the bound on O uses.
+// The largest number of parts between two lines for the bound on O.
 constexpr int most_parts = 8;
 
 // Errors of a patch of arcs between two lines of its grid.
 struct ColumnErrors {
   double base, edge;  // errors of the chords of both curves
-  double off_line;    // the largest distance of O from linear interpolation, at the points between
+  double off_line;    // the largest deviation of O from linear, at the points between
   double second;      // a bound on |O''|
   double largest, width;
-  // Bounds the distance of O from linear interpolation, with O evaluated at the ends of n parts.
+  // Bounds the deviation of O from linear, with O evaluated at the ends of n parts.
   double offset(int n) const {
     const double step = width / n;
     return std::min(largest, off_line + 0.125 * step * step * second);
   }
 };
 
-// A patch of arcs on the lines of a plan, or a skirt at a patch of arcs on this patch's lines.
+// The lines of a plan on a patch of arcs, or on a skirt that continues this patch.
 class PlannedArcs {
  public:
   PlannedArcs(const PatchSet &set, const Patch &patch, const PatchPlan &plan, double max_error)
@@ -137,7 +137,7 @@ class PlannedArcs {
   const PatchSet &set_;
   const Patch &patch_;
   double max_error_;
-  bool is_strip_;  // a skirt, whose v1 is the base of the patch of arcs
+  bool is_strip_;  // a skirt, whose side v1 is the base of the patch of arcs
   Vector<double> lines_;
   Vector<std::size_t> at_;
   Vector<double> shares_;
@@ -158,8 +158,8 @@ Polyline polyline_at(const Curve &curve, const Vector<double> &shares, double en
   return made;
 }
 
-// Ascending positions, and a need for each step between two of them. The need times the square of a segment's width bounds the
-// segment's error within that step, as a share of the allowed error.
+// Ascending positions, and a need for each step between two of them. Within a step, a segment's error is at most the need
+// times the square of the segment's width, as a share of the allowed error.
 struct Needs {
   Vector<double> at, need;
 };
@@ -181,7 +181,7 @@ Vector<double> segments(const Needs &needs, double most) {
   return made;
 }
 
-// Takes as few positions as segments() does, but makes the errors of the segments as equal as the positions allow.
+// Takes as few positions as segments() takes, but makes the errors of the segments as equal as the positions allow.
 Vector<double> balanced_segments(const Needs &needs, double most) {
   Vector<double> made = segments(needs, most);
   double low = 0, high = most;
@@ -195,17 +195,17 @@ Vector<double> balanced_segments(const Needs &needs, double most) {
   return made;
 }
 
-// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. So lines are chosen for
-// this share of the allowed error only.
+// Needs are computed on narrow steps, but the error of a wide segment is bounded a little less closely. Lines are therefore
+// chosen for only this share of the allowed error.
 constexpr double most_of_allowed = 0.9;
 // The number of steps on which needs are computed is steps_per_segment times the largest number of segments of a curve. It stays
 // between least_steps and most_steps.
 constexpr int steps_per_segment = 4;
 constexpr std::size_t least_steps = 64, most_steps = 4096;
-// To save time, only one state out of this many determines the needs. Later the lines are checked in every state.
+// To save time, needs are computed only at every n-th state. Later the lines are checked at every state.
 constexpr std::size_t states_per_need = 4;
 
-// Halves those steps of a list that are too large. `is_too_large` has an entry for each step.
+// Halves the steps of a list that are too large. `is_too_large` has an entry for each step.
 Vector<double> halved(const Vector<double> &values, const Vector<bool> &is_too_large) {
   Vector<double> made;
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
@@ -269,9 +269,9 @@ class Planner {
     plan.lines = {lines(patch.v0, patch.v1), lines(patch.u0, patch.u1)};
   }
 
-  // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If they have the
-  // same vertices, the patches have few lines. Each curve runs either in the direction of the first curve of its family or
-  // against it.
+  // Curves at opposite sides of Coons patches, and at the opposite sides of their neighbours, form a family. If the curves of
+  // a family have the same vertices, the patches have few lines. Each curve runs in the direction of the first curve of its
+  // family, or against it.
   struct Family {
     Vector<std::size_t> curves;
     Vector<bool> runs_against;
@@ -326,7 +326,7 @@ class Planner {
     return shares;
   }
 
-  // Gives each curve a first choice of its family's lines. The function `vertices` adds lines later.
+  // Each curve gets a first choice of its family's lines. The function `vertices` adds lines later.
   void plan_families() {
     first_shares_.assign(set_.curves.size(), {0, 1});
     for (const Family &family : families()) {
@@ -349,7 +349,7 @@ class Planner {
     }
   }
 
-  // Returns the number of segments that a curve needs at the largest bend that its control points allow.
+  // Returns how many segments a curve needs at the largest bend that its control points allow.
   std::size_t rough_number_of_segments(std::size_t curve) const {
     double most = 1;
     for (std::size_t i = 0; i < states_.size(); i += states_per_need) {
@@ -364,7 +364,7 @@ class Planner {
 
   double allowed(std::size_t curve) const { return of_curves_ * max_error_ * tightness_[curve]; }
 
-  // Finds the needs of a curve. Its shares are counted along the first curve of its family.
+  // Finds the needs of a curve. Shares are counted along the first curve of the family.
   Needs needs_of(std::size_t curve, bool runs_against, std::size_t n_steps) const {
     Needs made;
     for (std::size_t i = 0; i <= n_steps; ++i) made.at.push_back(static_cast<double>(i) / static_cast<double>(n_steps));
@@ -407,7 +407,7 @@ class Planner {
     }
   }
 
-  // Returns the shares in the patch's parameter. A side that is collapsed at all openings has lines only at its ends.
+  // Returns the shares in the patch's parameter. A side that is collapsed at all openings has only lines at its ends.
   Vector<double> shares_along(const Side &side) const {
     if (is_collapsed(side)) return {0, 1};
     const Vector<double> &shares = plan_.shares[side.curve];
@@ -441,8 +441,8 @@ class Planner {
     return first;
   }
 
-  // Adds lines until base, edge and O are nearly linear between them at every opening. Then chooses the smallest sufficient
-  // number of parts for O.
+  // At every opening, adds lines until base, edge and O are nearly linear between them. Then chooses the smallest
+  // sufficient number of parts for O.
   void plan_arcs(std::size_t patch) {
     PatchPlan &plan = plan_.patches[patch];
     plan.joints = joints(patch);
@@ -467,7 +467,7 @@ class Planner {
     plan_.n_rows = std::max(plan_.n_rows, static_cast<std::size_t>(rows_for(offset, max_error_)));
   }
 
-  // Returns a first choice of few lines, which should be enough. Some of them are at the joints.
+  // Returns a first choice of few lines, which usually suffices. Some lines are at the joints.
   Vector<double> first_arc_lines(std::size_t patch, const Vector<double> &joints) const {
     const Patch &first = set_.patches[patch];
     Vector<double> ends{0};
@@ -509,8 +509,8 @@ class Planner {
     return (arc_curve_share + merge_share) * max_error_ * std::min(tightness(patch.v0), tightness(patch.v1));
   }
 
-  // Returns, for each two neighbouring lines, the least number of parts that is enough at every opening. If none is enough, the
-  // number is above most_parts.
+  // For each two neighbouring lines, returns the least number of parts that suffices at every opening. If no number suffices,
+  // the result is above most_parts.
   Vector<int> parts_wanted(std::size_t patch, PatchPlan &plan) const {
     const Patch &first = set_.patches[patch];
     const double of_curves = of_arc_curves(first);

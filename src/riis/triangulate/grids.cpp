@@ -37,7 +37,7 @@ class GridMaker {
         reversed_(set.curves.size()),
         is_reversed_(set.curves.size(), 0) {
     check_precision(set, max_error);
-    // Each curve gets one polyline, which is as exact as the most demanding of its patches requires.
+    // The polyline of each curve is as exact as the most demanding of its patches requires.
     for (const Patch &patch : set.patches) {
       for (const Side &side : {patch.v0, patch.v1}) allow(side, patch.bulge != 0 ? arc_curve_share : curve_share);
       if (patch.bulge == 0)
@@ -65,7 +65,8 @@ class GridMaker {
         });
       for (std::size_t i = first; i < end; ++i) check_count(n_at_least += n_triangles(i, 1), max_error_);
     }
-    // Two patches of arcs may meet along an arc, which both cut into rows. So all patches of arcs have the same number of rows.
+    // Two patches of arcs may meet along an arc, and both divide it into rows. So all patches of arcs have the same number of
+    // rows.
     double offset = 0;
     for (const ArcLines &lines : lines_) offset = std::max(offset, lines.largest_offset());
     const double n_rows = rows_for(offset, max_error_);
@@ -79,8 +80,8 @@ class GridMaker {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // A curve may have a million points, and a valve a million patches. So the polylines of at most this many patches are made
-  // before their points are counted. The number is fixed, so that the count in an error message does not depend on the number of
+  // A curve may have a million points, and a valve a million patches. Before the points are counted, polylines of at most this
+  // many patches are therefore made. This number is fixed, so the count in an error message does not depend on the number of
   // threads.
   static constexpr std::size_t patches_at_once = 16;
 
@@ -129,8 +130,8 @@ class GridMaker {
   }
 
   PatchSides sides_of(const Patch &patch) const {
-    // The arcs at the sides of a patch of arcs have no polylines, because all arcs of the patch are cut into rows in the same
-    // way.
+    // The arcs at the sides of a patch of arcs have no polylines, because all arcs of the patch are divided into rows in the
+    // same way.
     const bool is_coons = patch.bulge == 0;
     return {polyline(patch.v0), polyline(patch.v1), is_coons ? polyline(patch.u0) : nullptr,
             is_coons ? polyline(patch.u1) : nullptr};
@@ -147,7 +148,7 @@ class GridMaker {
     return lines;
   }
 
-  // Returns the number of triangles of all images of a patch, if no quad is subdivided.
+  // Returns the number of triangles in all images of a patch, if no quad is subdivided.
   double n_triangles(std::size_t i, double n_rows) const {
     const auto n_between = [](const Polyline &a, const Polyline &b) {
       return static_cast<double>(std::max<std::size_t>({a.t.size(), b.t.size(), 2}) - 1);

@@ -13,8 +13,8 @@
 
 namespace riis {
 
-// The triangles of one image of a patch. A tile has its own range of vertices and triangles in a set. The thread that builds the
-// tile writes to no other range.
+// The triangles of one image of a patch. Each tile has its own range of vertices and triangles in a set. The thread that builds
+// the tile writes to no other range.
 struct Tile {
   std::size_t patch;
   const PatchImage *image;
@@ -22,16 +22,16 @@ struct Tile {
   const Seam *seam;
   std::int64_t first_vertex, first_triangle;
   std::int64_t first_id;         // the first triangle_id, which also counts triangles without area
-  std::int64_t n_triangles = 0;  // triangles that have an area; the range may have room for more
+  std::int64_t n_triangles = 0;  // the triangles that have an area; the range may have room for more
   Vector<LeftOut> left_out{};    // the triangles without area
-  bool is_whole = true;          // false if one of the triangles left out is missed (is_missed)
+  bool is_whole = true;          // false if one of the omitted triangles is missed (is_missed)
 };
 
 // The vertices of a patch before its images are placed: first the grid's vertices, then the vertices of subdivided quads.
 struct PatchVertices {
   Vector<Vec3> points;
   Vector<double> uv;
-  Vector<Vec3> displacements;  // displacements since an earlier state; empty without one
+  Vector<Vec3> displacements;  // displacements since an earlier state; empty without such a state
 };
 
 class Tiles {
@@ -40,7 +40,7 @@ class Tiles {
   Tiles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids, TriangleSet &triangles);
 
   const Vector<Tile> &all() const { return tiles_; }
-  // The number of triangles that all tiles have room for.
+  // The number of triangles for which all tiles have room.
   std::int64_t room() const { return room_; }
   // Bounds the distance between the triangles and the smooth surface, in mesh units.
   double error_bound() const;
@@ -57,7 +57,7 @@ class Tiles {
 
   // Makes vertices and triangles, and then calls work(i, first_of_quad) for tile i, as place_vertices does. first_of_quad has
   // the position of each quad's first triangle, and then the end of the last quad's triangles. The ids also count triangles
-  // without area. Returns the patches that miss triangles. If there are none, the triangles are complete.
+  // without area. Returns the patches that miss triangles. Without such patches, the triangles are complete.
   template <class Work>
   Vector<std::size_t> make_triangles(const Work &work) {
     make_room_for_triangles();
@@ -84,17 +84,17 @@ class Tiles {
 // Returns whether a triangle was left out and nothing in the set stands for it.
 bool is_missed(const TriangleSet &set, const LeftOut &triangle);
 
-// Returns the triangulation's request with a smaller allowed error: the patches' own deviation is subtracted. Fails if the rest
-// is too small, or if the earlier state has another build.
+// Returns the triangulation's request with a smaller allowed error, reduced by the patches' own deviation. Fails if the
+// remaining error is too small, or if the earlier state has another build.
 Triangulation checked(const PatchSet &set, const Triangulation &asked);
 
-// Adds the rims of the patches. Also keeps the grids, for the bound of the velocities' errors and for directions.
+// Adds the rims of the patches. Also keeps the grids, for the bound of velocity errors and for directions.
 void finish(const PatchSet &set, Vector<LevelledGrid> grids, TriangleSet &triangles);
 
 [[noreturn]] void fail_for_vanished(const PatchSet &set, std::size_t patch, const char *where);
 
 // Calls attempt(tightness) until it returns no patch that misses triangles. A patch thinner than the tolerance loses its area if
-// both its sides become the same chords. So the curves of the returned patches become finer from attempt to attempt.
+// both its sides become the same chords. From attempt to attempt, the curves of the returned patches therefore become finer.
 template <class Attempt>
 void with_finer_curves(const PatchSet &set, const char *where, const Attempt &attempt) {
   constexpr int max_attempts = 12;

@@ -15,8 +15,8 @@
 
 namespace riis {
 
-// Groups of neighbouring triangles for searches. `order` has the triangles' positions in the set, group by group. `end` has the
-// end of each group.
+// Groups of neighbouring triangles for searches. `order` has the triangles' positions in the set, group by group. `end` gives
+// the end of each group.
 struct Grouping {
   Vector<std::int32_t> order, end;
 };
@@ -32,7 +32,7 @@ struct VerticesOfPatch {
 struct TriangleSet {
   std::vector<double> xyz;                // (3, n_vertices), placed
   std::vector<double> uv;                 // (2, n_vertices), empty for surfaces from arrays
-  std::vector<double> velocity;           // (3, n_vertices), placed, or empty if the triangles have no velocities
+  std::vector<double> velocity;           // (3, n_vertices), placed; empty if the triangles have no velocities
   std::vector<std::int64_t> vertex_id;    // (3, n_triangles)
   std::vector<std::int64_t> triangle_id;  // (n_triangles), ascending
   std::vector<std::int32_t> leaflet_id;   // (n_triangles)
@@ -41,7 +41,7 @@ struct TriangleSet {
   double error_bound = 0;                 // bounds the distance to the smooth valve, placed; 0 for surfaces from arrays
   Vector<std::uint8_t> rim_sides;   // an entry for each patch_id, bits of PatchRim; empty for surfaces from arrays
   Vector<VerticesOfPatch> patches;  // ascending by first vertex; empty for surfaces from arrays
-  std::uint64_t connectivity = 0;   // number of the triangles' plan, or 0 (triangulate/triangulate_fixed.cpp)
+  std::uint64_t connectivity = 0;   // the number of the triangles' plan, or 0 (triangulate/triangulate_fixed.cpp)
   Grouping grouping;                // empty if the triangles were made without groups
   Vector<LevelledGrid> grids;       // the grids of the patches, with their lines; empty for surfaces from arrays
 
@@ -76,15 +76,15 @@ struct TriangleSet {
   bool is_of_patches() const { return !uv.empty(); }
 };
 
-// Groups the triangles from begin to end - 1 of a set by their position, and adds the groups to `grouping`.
+// Groups the triangles from begin to end - 1 of a set by position, and adds the groups to `grouping`.
 void group_by_place(const TriangleSet &set, std::int32_t begin, std::int32_t end, Grouping &grouping);
-// Replaces `grouping` by groups of all triangles of a set, by their position. Reuses its memory.
+// Replaces `grouping` by groups of all triangles of a set, by position. Reuses its memory.
 void group_all_by_place(const TriangleSet &set, Grouping &grouping);
 
-// The most triangles that the library accepts. Ids of four bytes could count more, but each triangle takes a few hundred bytes.
+// The most triangles that the library accepts. Ids of four bytes could count more triangles, but each takes a few hundred bytes.
 inline constexpr std::int64_t max_triangles = 16'777'216;
 
-// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 of it.
+// Returns true if all edges are shorter than min_edge, or if the height over the longest edge is at most 1e-12 of that edge.
 inline bool has_zero_area(Vec3 a, Vec3 b, Vec3 c) {
   const Vec3 ab = b - a, ac = c - a, bc = c - b;
   const double longest_sq = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});

@@ -28,17 +28,17 @@ struct PatchPlan {
   // A patch of arcs has lines in u, and joints of the base that the lines move with. Both are given at one of the openings.
   // Between two joints, a line keeps its relative position. Without joints the lines do not move.
   Vector<double> u, joints;
-  Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at the ends of the parts
+  Vector<int> n_parts;  // the number of parts between two lines; O is evaluated at their ends
 };
 
-// The numbering of curves that the sides of patches use. A set of patches may number its curves differently at each opening. For
-// example, closed mitral leaflets share curves that are separate in open leaflets.
+// The numbering of curves that the sides of patches use. At each opening, a set of patches may number its curves differently.
+// For example, closed mitral leaflets share curves that are separate in open leaflets.
 class CurveNumbering {
  public:
   explicit CurveNumbering(const PatchSet &set);
   // Returns whether the patches already use this numbering.
   bool is_of(const PatchSet &set) const;
-  // Returns the patches with this numbering of curves. Then lists with an entry for each curve fit all openings. The patches
+  // Returns the patches with this numbering of curves. Lists with an entry for each curve then fit all openings. The patches
   // must have the same build except for shared curves (check_same_build).
   PatchSet renumbered(const PatchSet &set) const;
 
@@ -48,7 +48,7 @@ class CurveNumbering {
 };
 
 struct GridPlan {
-  Vector<Vector<double>> shares;  // shares of each curve's length at its vertices; empty if only arcs end on it
+  Vector<Vector<double>> shares;  // shares of each curve's length at its vertices; empty if only arcs end on the curve
   Vector<PatchPlan> patches;
   std::size_t n_rows = 1;  // the number of rows of all patches of arcs
 };
@@ -71,8 +71,8 @@ struct LeftOut {
   bool other_was_kept;
 };
 
-// The triangles of a plan at one of the openings, as ids of the plan's vertices. Two openings share them if the same triangles
-// have area.
+// The triangles of a plan at one of the openings, as ids of the plan's vertices. Two openings share such triangles if the same
+// triangles have an area at both.
 struct Connectivity {
   std::vector<std::int64_t> vertex_id, triangle_id;
   std::vector<std::int32_t> leaflet_id, patch_id;
@@ -91,13 +91,13 @@ struct Connectivity {
 struct TriangulationPlan {
   GridPlan grids;
   CurveNumbering curves;       // the numbering that the grids use
-  double max_error;            // the error that the lines and levels were chosen for
+  double max_error;            // the error for which the lines and levels were chosen
   Vector<Vector<int>> levels;  // levels of the quads of each patch
   Connectivity connectivity;
 };
 
 // Makes the plan from a valve's patches at many openings. asked_error is the max_error of a Triangulation. The plan uses a little
-// less than this error, so that it also serves openings between the given ones. Fails as triangulate_fixed does.
+// less than this error, so it also serves openings between the given ones. Fails as triangulate_fixed does.
 TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked_error, int n_threads);
 
 // Returns whether the plan's triangles are within asked_error of the smooth surface in a state.
@@ -109,14 +109,14 @@ struct Triangulation {
   const Placement &placement;
   bool flip_normals;
   int n_threads;
-  const EarlierState *earlier = nullptr;  // null without velocities; it never changes the triangles' bits
+  const EarlierState *earlier = nullptr;  // null without velocities; it never changes the bits of the triangles
 };
 
 // Makes triangles on grids as coarse as the state allows. `memory` is a set whose memory is reused. Fails with
 // RIIS_LIMIT_EXCEEDED for more than max_triangles, and with RIIS_INVALID_PARAMETER for a patch without area.
 TriangleSet triangulate_adapted(const PatchSet &set, const Triangulation &asked, TriangleSet memory = {});
-// Makes the triangles of a plan. A triangle keeps its id if other triangles lose their area. Fails as triangulate_adapted does,
-// and with RIIS_LIMIT_EXCEEDED if the plan is not within max_error of this state.
+// Makes the triangles of a plan. A triangle keeps its id even if other triangles lose their area. Fails as triangulate_adapted
+// does, and with RIIS_LIMIT_EXCEEDED if the plan is not within max_error of this state.
 TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, const TriangulationPlan &plan,
                               TriangleSet memory = {});
 

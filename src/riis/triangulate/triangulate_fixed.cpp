@@ -43,12 +43,12 @@ bool have_area(const TriangleSet &set) {
   return true;
 }
 
-// Bounds the distance of an image's corner from its place in an image that is exactly congruent to the others.
+// Bounds how far a corner of an image is from its place in an image that is exactly congruent to the others.
 double rounding_of_corners(const QuadGrid &grid, const Patch &patch, const Placement &placement) {
   double largest = 0, farthest = 0;
   for (const Vec3 &p : grid.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   for (const PatchImage &image : patch.images) farthest = std::max(farthest, length(image.translation));
-  // Each coordinate is a sum. Its error is at most 16 units of rounding of the terms.
+  // Each coordinate is a sum. The error of each sum is at most 16 units of rounding of its terms.
   return 0x1p-48 * (placement.scale * (2 * largest + farthest) + length(placement.translation));
 }
 
@@ -68,7 +68,7 @@ Vector<std::size_t> make_triangles(Tiles &tiles) {
 // Gives a set the triangles of a plan, unless it already has them.
 void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet &set) {
   const std::uint64_t number = 2 * from.number + (flip_normals ? 1 : 0);
-  // The number alone is not enough, because a set whose triangles were moved away keeps its number.
+  // The number alone does not suffice, because a set whose triangles were moved away keeps its number.
   if (set.connectivity == number && set.triangle_id.size() == from.triangle_id.size()) return;
   set.connectivity = 0;
   set.vertex_id = from.vertex_id;
@@ -82,13 +82,13 @@ void take_connectivity(const Connectivity &from, bool flip_normals, TriangleSet 
   set.connectivity = number;
 }
 
-// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if a triangle has an area here but
-// not in the plan, or the other way round, or if some triangles are missed.
+// Places the vertices of these grids, and gives them the triangles of a plan. Returns false if a triangle has an area either
+// only here or only in the plan, or if some triangles are missed.
 bool take_planned_triangles(const PatchSet &set, const Triangulation &how, const Vector<LevelledGrid> &grids,
                             const Connectivity &planned, TriangleSet &triangles) {
   Tiles tiles(set, how, grids, triangles);
-  // The images of a patch are congruent. So it is enough to check the areas of one image, with a margin for rounding, if the
-  // others have the same triangles. An image with a seam is checked itself, because it takes points of another image.
+  // The images of a patch are congruent. It therefore suffices to check the areas of one image, with a margin for rounding,
+  // if the others have the same triangles. An image with a seam is checked by itself, because it takes points of another image.
   std::atomic<bool> all_have_area{true};
   tiles.place_vertices([&](std::int64_t i) {
     const Tile &tile = view(tiles.all())[i];
@@ -114,7 +114,7 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
                               TriangleSet memory) {
   const Triangulation how = checked(set, asked);
   check_precision(set, how.max_error);
-  // A state may share curves that are separate in other states. Then its curves are renumbered as in the plan.
+  // A state may share curves that are separate in other states. The curves of such a state are renumbered as in the plan.
   std::optional<PatchSet> renumbered;
   if (!plan.curves.is_of(set)) renumbered = plan.curves.renumbered(set);
   const PatchSet &patches = renumbered ? *renumbered : set;
@@ -125,7 +125,8 @@ TriangleSet triangulate_fixed(const PatchSet &set, const Triangulation &asked, c
            " of the fixed triangulation may be off by ", grids[i].error_bound, " at this opening; it must be at most ",
            how.max_error, ", which is tolerance * half_thickness before scaling");
   if (!take_planned_triangles(patches, how, grids, plan.connectivity, memory)) {
-    // At this opening, other triangles have an area than in the plan. So the plan's groups do not fit, and new groups are made.
+    // At this opening, the triangles with an area are not those of the plan. So the plan's groups do not fit, and new groups are
+    // made.
     Tiles tiles(patches, how, grids, memory);
     const Vector<std::size_t> vanished = make_triangles(tiles);
     if (!vanished.empty()) fail_for_vanished(set, vanished.front(), " in the fixed triangulation at this opening");
@@ -153,8 +154,8 @@ void raise_levels(const PatchSet &set, double max_error, TriangulationPlan &plan
   for (std::size_t i = 0; i < grids.size(); ++i) raise_levels(grids[i], max_error, plan.levels[i]);
 }
 
-// Halves those columns of patches of arcs that then have fewer triangles, because their quads need fewer halvings. Returns
-// whether there are any. The levels of the plan must be found anew afterwards.
+// Halves the columns of patches of arcs that then have fewer triangles, because their quads need fewer halvings. Returns
+// whether there are any. Afterwards the levels of the plan must be found again.
 bool halve_columns(const PatchSet &set, TriangulationPlan &plan) {
   bool are_any = false;
   for (std::size_t i = 0; i < set.patches.size(); ++i) {
@@ -210,7 +211,7 @@ bool have_same_triangles(const Tile &a, const Tile &b) {
                                           });
 }
 
-// Makes the triangles of a plan at one of its openings at which none are missed.
+// Makes the triangles of a plan at an opening of the plan at which no triangles are missed.
 Connectivity make_connectivity(const PatchSet &state, const Triangulation &how, const TriangulationPlan &plan,
                                TriangleSet triangles) {
   const Vector<LevelledGrid> grids = make_levelled_grids(state, how, plan);
@@ -240,7 +241,8 @@ TriangulationPlan plan_triangulation(const Vector<PatchSet> &given, double asked
   // Plans with less than the whole error, because the remainder is for openings between the given ones.
   constexpr double share = 0.95;
   const double planned_error = share * max_error;
-  // A curve that is shared at only one opening has two numbers at the others. So the state with most curves gives the numbering.
+  // If a curve is shared at only one opening, it has two numbers at the others. So the state with most curves gives the
+  // numbering.
   const PatchSet &widest = *std::max_element(given.begin(), given.end(), [](const PatchSet &a, const PatchSet &b) {
     return a.curves.size() < b.curves.size();
   });

@@ -36,8 +36,8 @@ constexpr CuspOpening default_opening{0.75, 0.05};
 
 std::size_t position_of(std::size_t cusp, OfCusp parameter) { return n_general + cusp * n_of_cusp + parameter; }
 
-// The rules for rotations that the caller did not set. If the leaflet angles have the sum 180, all neighbours meet at their
-// commissures. Otherwise the three gaps between neighbours, or the three overlaps, are equal.
+// The rules for rotations that the caller did not set. If the sum of the leaflet angles is 180 degrees, all neighbours meet
+// at their commissures. Otherwise the three gaps between neighbours, or the three overlaps, are equal.
 double leaflet_angle_of(const ParameterValues &values, std::size_t cusp) {
   return values[position_of(cusp, leaflet_angle)][0];
 }
@@ -62,7 +62,8 @@ constexpr double table[n_cusps][n_of_cusp] = {{0.24, 1.365, 61.0, 1.58, 0.40, 1.
                                               {0.20, 1.380, 60.5, 1.19, 0.67, 1.435, 42.75, 2.54, -121.5, -1}};
 
 // The rules of exponents that were not set. With an exponent above the bound, the free edge reaches beyond the plane through the
-// axis and its commissure, into the next cusp. The paper's right and left exponents are above it, and keep their ratio to it.
+// axis and its commissure, into the next cusp. The paper's right and left exponents are above this bound, and keep their ratio to
+// it.
 double power_bound(double radius_in, double radius_out, double angle) {
   const double x = radius_out * sine_cosine_degrees(angle).cosine;
   return x > radius_in ? x / (x - radius_in) : std::numeric_limits<double>::infinity();
@@ -199,7 +200,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   PatchSet set;
   for (std::size_t cusp = 0; cusp < n_cusps; ++cusp) {
     const HalfCusp closed_half = half_cusp(shape_of(closed.values, cusp));
-    // A closed valve does not make the open state of its own parameters. It does not need that state, which might be refused.
+    // At opening 0, a valve does not make the open state of its own parameters. It does not need that state, which might be
+    // refused.
     const HalfCusp open_half = !has_own_open_state ? half_cusp(shape_of(open.values, cusp))
                                : opening != 0      ? own_open_half(closed.values, cusp)
                                                    : open_half_of(closed.values, cusp);

@@ -76,12 +76,12 @@ void check_states(const ValveState &valve, const ValveState &other, const char *
 // A valve at one opening. Its lengths are blended between the two states.
 struct Shape {
   double radius, hinge_offset, hinge_height, gap, ring_height;
-  double closed_angle;  // the angle at which the leaflets' outline fits the housing
-  double angle;         // the leaflets' present angle from the orifice plane
+  double closed_angle;  // the angle at which the outline of the leaflets fits the housing
+  double angle;         // the present angle between the leaflets and the orifice plane
 };
 
 Shape blended(const ValveState &closed, const ValveState &open, double at) {
-  // Returns a value that is equal in both states without blending it. So a housing that does not move keeps its bits.
+  // Returns a value without blending if both states have it. So a housing that does not move keeps its bits.
   const auto both = [&](Parameter parameter) {
     const double from = closed.values[parameter][0], to = open.values[parameter][0];
     return from == to ? from : blend(from, to, at);
@@ -95,8 +95,8 @@ Shape blended(const ValveState &closed, const ValveState &open, double at) {
           blend(closed.values[closed_angle][0], open.values[open_angle][0], at)};
 }
 
-// Turns points of the orifice plane into points of the leaflet on the side x > 0. Seen along the axis, the leaflet's point is at
-// (x, y) when the leaflet is closed.
+// Turns points of the orifice plane into points of the leaflet on the side x > 0. Seen along the axis, the point of the closed
+// leaflet is at (x, y).
 class Turn {
  public:
   explicit Turn(const Shape &shape)
@@ -105,14 +105,14 @@ class Turn {
         closed_(sine_cosine_degrees(shape.closed_angle)),
         now_(sine_cosine_degrees(shape.angle)) {}
 
-  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle), written so that it is exactly x for a closed
-  // leaflet.
+  // The first coordinate is offset + (x - offset) cos(angle) / cos(closed_angle). It is computed such that a closed leaflet
+  // gives exactly x.
   Vec3 operator()(double x, double y) const {
     const double along = (x - offset_) / closed_.cosine;
     return {x + along * (now_.cosine - closed_.cosine), y, height_ + along * now_.sine};
   }
 
-  // Bounds the factor by which lines on the leaflet are longer than in the orifice plane.
+  // Bounds the factor by which lines become longer on the leaflet than they are in the orifice plane.
   double stretch() const { return 1 / closed_.cosine; }
 
  private:

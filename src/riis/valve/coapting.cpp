@@ -27,24 +27,26 @@ enum Parameter {
 const double sine_60 = std::sqrt(0.75);
 constexpr double cosine_60 = 0.5;
 
-// The distance of the inner control points from the ends of a cubic that is like an arc of 60 degrees of a circle, in radii.
+// The distance of the inner control points from the ends of a cubic that approximates an arc of 60 degrees of a circle, in radii.
 const double arc_reach = 4.0 / 3.0 * (2 - std::sqrt(3.0));  // 4/3 tan 15 degrees
 // The open free edge: how far the inner control point by the commissure hangs, as a share of the middle.
 constexpr double open_sag = 1.0 / 3;
-// An open free edge that does not hang must be shorter than this share of the closed free edge.
+// If an open free edge does not hang, it must be shorter than this share of the closed free edge.
 constexpr double most_of_edge = 0.998;
 // The free edge must stay this high above the root while the valve opens, times root_radius.
 constexpr double least_height = 0.05;
-// The cusps of every set of values are checked for folds at these openings, because folds arise in the second half of the motion.
+// At these openings, the cusps of every set of values are checked for folds, because folds arise in the second half of the
+// motion.
 constexpr std::array<double, 4> openings_of_folds{0.6, 0.75, 0.9, 1};
-// The leaflet must rise at the root by this share of the rise of a leaflet without sag.
+// At the root, the leaflet must rise by this share of the rise of a leaflet without sag.
 constexpr double least_rise = 0.05;
-// The rates of the control points are differences over this step of the opening. They only determine where vertices are dense.
+// The rates of the control points are differences over this step of the opening. The rates only determine where vertices are
+// dense.
 constexpr double rate_step = 1e-4;
 
 // The coaptation line is turned in n_crease_steps steps until no crease is left. Each step computes the crease at the ends of
-// n_crease_spans spans. The stiffness weighs the line's displacement against the crease. With these values the largest crease of
-// random valves is below one degree.
+// n_crease_spans spans. The stiffness is the weight of the line's displacement against the crease. With these values the largest
+// crease of random valves is below one degree.
 constexpr int n_crease_steps = 2;
 constexpr std::size_t n_crease_spans = 8;
 constexpr double crease_stiffness = 0.03;
@@ -67,7 +69,7 @@ Rule effective_height_rule(const ParameterValues &values) {
   const double h = values[commissure_height][0];
   return {std::max(h - 0.6745 * values[commissure_radius][0], 0.3 * h)};
 }
-// Below low commissures there is less room for the coaptation zone.
+// If the commissures are low, there is less room for the coaptation zone.
 Rule coaptation_height_rule(const ParameterValues &values) {
   return {std::min(0.3 * values[commissure_radius][0], 0.6 * values[effective_height][0])};
 }
@@ -112,23 +114,23 @@ ValveKind make_kind() {
 // clang-format on
 
 // The numbers that change as half a cusp opens, y >= 0. They are blended, and the curves follow from them. Shares have the range
-// 0 to 1. Control points are counted from the symmetry plane or from the root.
+// 0 to 1. Control points are counted from the symmetry plane, or from the root.
 struct CuspNumbers {
   double root_radius;
   Vec3 commissure;
   double attachment_width, attachment_drop;  // the lengths of the attachment's end tangents
   std::array<double, 4> edge_x, edge_y;      // the free edge, seen along the axis
-  std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the middle
+  std::array<double, 4> sag;                 // how far control points of the free edge hang, as shares of the sag
   double edge_length;
   double band;        // height of the coaptation zone, as a share of the height of the free edge's middle
-  double band_lean;   // how much farther from the axis the coaptation line is than the free edge, in the middle
+  double band_lean;   // in the middle, how much farther from the axis the coaptation line is than the free edge
   double belly_x;     // x of the first inner control point of the symmetry curve
   double belly_rise;  // height of that point, as a share of the height of the coaptation line's middle
   double band_start;  // height from the second inner control point to the coaptation line, as the same share
 };
 
-// Blends the numbers of two cusps. The leaflet becomes upright at the root, and flatter beside the commissure, early in the
-// motion. Otherwise it would fold beside the attachment.
+// Blends the numbers of two cusps. Early in the motion, the leaflet becomes upright at the root and flatter beside the
+// commissure. Otherwise it would fold beside the attachment.
 CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening) {
   const double early = opening * (2 - opening);
   const auto mixed = [&](double from, double to) { return riis::blend(from, to, opening); };
@@ -152,8 +154,8 @@ CuspNumbers blend(const CuspNumbers &a, const CuspNumbers &b, double opening) {
           mixed(a.band_start, b.band_start)};
 }
 
-// The length of half a free edge as a function of how far its middle hangs below the commissure. It is computed by a fixed rule,
-// so that it is a smooth function of the cusp.
+// The length of half a free edge as a function of how far its middle hangs below the commissure. A fixed quadrature rule
+// computes it, so that it is a smooth function of the cusp.
 class EdgeLength {
  public:
   explicit EdgeLength(const CuspNumbers &cusp) {
@@ -182,9 +184,9 @@ class EdgeLength {
     return value;
   }
 
-  // Returns the depth at which the edge has this length, which must be at least the length at depth 0. The length grows with the
-  // depth, and it is convex. So Newton's method, begun at too large a depth, comes down to the solution and never passes it. An
-  // edge is at least as long as the line between its ends, so the depth at the start is too large.
+  // Returns the depth at which the edge has this length. The length must be at least the length at depth 0. The length grows
+  // with the depth, and it is convex. Newton's method starts at too large a depth. It therefore comes down to the solution
+  // and never passes it. An edge is at least as long as the line between its ends, so the start depth is too large.
   double depth(double edge_length) const {
     double depth = std::sqrt(std::max(0.0, edge_length * edge_length - chord_ * chord_));
     for (int i = 0; i < 200; ++i) {
@@ -213,10 +215,10 @@ CuspNumbers closed_cusp(const ParameterValues &values) {
   const double R = value(root_radius), Rc = value(commissure_radius), h = value(commissure_height);
   const double h_e = value(effective_height), z_k = h_e - value(coaptation_height);
   const auto [sine, cosine] = sine_cosine_degrees(value(bottom_angle));
-  // The tangent is shorter if it would otherwise reach above half the height of the coaptation line.
+  // The tangent becomes shorter if its end would otherwise lie above half the height of the coaptation line.
   const double tangent = std::min(value(belly) * R, sine > 0 ? 0.5 * z_k / sine : value(belly) * R);
-  // The edge lies in a vertical plane through the commissure. In the middle it is half the gap away from the plane between the
-  // two cusps.
+  // The edge lies in a vertical plane through the commissure. In the middle, its distance from the plane between the two cusps
+  // is half the gap.
   const double x_in = 0.5 * value(gap) / sine_60;
   const auto x = [&](double share) { return (1 - share) * x_in + share * cosine_60 * Rc; };
   CuspNumbers cusp{R,
@@ -236,7 +238,7 @@ CuspNumbers closed_cusp(const ParameterValues &values) {
   return cusp;
 }
 
-// Returns the lower part of the symmetry curve. It ends at `end` in the direction of `up`, which is a vector from `end` to the
+// Returns the lower part of the symmetry curve. It ends at `end`. Its direction there is `up`, the vector from `end` to the
 // free edge.
 Bezier symmetry_curve(const CuspNumbers &cusp, Vec3 end, Vec3 up) {
   return Bezier::cubic({cusp.root_radius, 0, 0}, {cusp.belly_x, 0, cusp.belly_rise * end.z},
@@ -274,16 +276,16 @@ Bezier cubic_through(Vec3 first, Vec3 at_third, Vec3 at_two_thirds, Vec3 last) {
                        sixth * (2 * first - 9 * at_third + 18 * at_two_thirds - 5 * last), last);
 }
 
-// Along the coaptation line K, the lower patch has the derivative T = K - c + (1 - u) Y + u A by v, with the chord c of K. Y and
-// A are the end tangents of the symmetry curve and of the attachment, with the lengths of these curves.
+// Along the coaptation line K, the derivative of the lower patch by v is T = K - c + (1 - u) Y + u A, with the chord c of K. Y
+// and A are the end tangents of the symmetry curve and of the attachment, and are as long as these curves.
 struct EndTangents {
   Vec3 of_symmetry, of_attachment;
 
   Vec3 at(double u) const { return mix(of_symmetry, of_attachment, u); }
 };
 
-// Returns a first coaptation line below the free edge F. The upper patch has the derivative F - K by v. At the parameters 1/3 and
-// 2/3 of both curves, F - K is T times a factor. The factor decreases from the middle to 0 at the commissure.
+// Returns a first coaptation line below the free edge F. The derivative of the upper patch by v is F - K. At the parameters 1/3
+// and 2/3 of both curves, F - K is T times a factor. The factor decreases from the middle to 0 at the commissure.
 Bezier first_coaptation_line(const Bezier &free_edge, Vec3 middle, const EndTangents &tangents) {
   const double factor = distance(free_edge.first(), middle) / length(tangents.of_symmetry);
   const auto point = [&](double u) {
@@ -306,8 +308,8 @@ class Displacements {
     }
   }
 
-  // Returns d1 and d2 for the least sum of the squares and of weight (|d1|^2 + |d2|^2), with weight > 0. The matrix is positive
-  // definite, so elimination needs no pivots.
+  // Returns the d1 and d2 that minimise the sum of the squares plus weight (|d1|^2 + |d2|^2), with weight > 0. The matrix is
+  // positive definite, so the elimination needs no pivots.
   std::array<Vec3, 2> solve(double weight) {
     for (std::size_t i = 0; i < n; ++i) view(view(matrix_)[i])[i] += weight;
     for (std::size_t k = 0; k < n; ++k)
@@ -326,9 +328,9 @@ class Displacements {
 };
 
 // Moves the inner control points of the coaptation line, so that the two patches that meet in it have a common tangent plane.
-// The crease is the sine of the angle between the planes of K' and T, and of K' and F - K. It is computed where spans of K end. A
-// step linearizes the determinant of K', T and F - K. Patches pair points of K and F at equal shares u of the lengths of both
-// curves.
+// The crease is the sine of the angle between the planes of K' and T, and of K' and F - K. It is computed at the ends of spans of
+// K. A step linearizes the determinant of K', T and F - K. Patches pair points of K and F at equal shares u of the lengths of
+// both curves.
 Bezier smoothed(Bezier line, const Bezier &free_edge, const EndTangents &tangents) {
   const double edge_length = arc_length(free_edge), chord = distance(line.first(), line.last());
   for (int step = 0; step < n_crease_steps; ++step) {
@@ -402,8 +404,9 @@ HalfCusp rate_at(const CuspNumbers &closed, const CuspNumbers &open, double at) 
 }
 
 // Returns the least rise of the leaflet at the root, as a share of the length of its symmetry curve. K is the coaptation line, c
-// is its chord, and Y and A are the tangents at the root. The lower patch has the tangent K - c + (1 - u) Y + u A there. The rise
-// is this tangent's height divided by 1 - u. If it is negative somewhere, then the leaflet dips below its attachment and folds.
+// is its chord, and Y and A are the tangents at the root. At the root, the lower patch has the tangent K - c + (1 - u) Y + u A.
+// The rise is this tangent's height divided by 1 - u. If the rise is negative somewhere, the leaflet dips below its attachment
+// and folds.
 double rise_at_root(const HalfCusp &half) {
   const Bezier &line = half.bending, &symmetry = half.symmetry_below;
   const Vec3 start = symmetry.control[1] - symmetry.control[0];
@@ -444,7 +447,7 @@ void check_values(const ParameterValues &values) {
          " long, but half a closed one is ", open.edge_length,
          " long, too short to open so far: look at effective_height, commissure_height, open_radius_ratio, "
          "commissure_expansion");
-  // The edge's middle is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
+  // The middle of the edge is at least as far from a commissure as the symmetry plane is. So it never hangs deeper than this.
   const double away = sine_60 * values[commissure_radius][0];
   const double low = values[commissure_height][0] - std::sqrt(open.edge_length * open.edge_length - away * away);
   if (!(low >= least_height * values[root_radius][0]))

@@ -26,8 +26,8 @@ Bezier profile_curve(const CuspProfile &profile, double height) {
                        last);
 }
 
-// Splits the curve at t. Replaces the common point by `point`, which must be on the curve except for rounding. So the common
-// point has the bits of the ends of other curves there.
+// Splits the curve at t. Replaces the common point by `point`, which must be on the curve except for rounding. At this
+// point, the curve therefore has the same bits as the ends of other curves.
 std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 point) {
   auto [below, above] = split(curve, t);
   view(below.control)[below.degree] = point;
@@ -35,7 +35,7 @@ std::pair<Bezier, Bezier> split_through(const Bezier &curve, double t, Vec3 poin
   return {below, above};
 }
 
-// For the power 2, the cubic is exactly the profile if its end tangents have a third of the end's y as their length.
+// For the power 2, the cubic equals the profile exactly if the length of its end tangents is a third of the end's y.
 CuspProfile parabola(double radius_in, double radius_out, double angle) {
   const double third = radius_out * sine_cosine_degrees(angle).sine / 3;
   return {radius_in, radius_out, angle, 2, third, third};
@@ -155,7 +155,7 @@ Vector<CuspPlace> equal_places(Vec3 shift) {
   constexpr double turns[3] = {0, 120, -120};
   Vector<CuspPlace> places;
   for (std::int32_t cusp = 0; cusp < 3; ++cusp)
-    // Adds 0, which turns -0 into 0, so that the cusps have the same bits where they meet on the axis.
+    // The sum with 0 turns -0 into 0, so the cusps have the same bits where they meet on the axis.
     places.push_back({rotation_xyz({0, 0, view(turns)[cusp]}), shift + Vec3{0, 0, 0}, cusp});
   return places;
 }

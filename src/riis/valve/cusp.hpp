@@ -23,9 +23,9 @@ struct CuspShape {
   CuspProfile leaflet, bending;
 };
 
-// The parameters that determine how a cusp opens. Kinds of valves with cusps have them at the end of their lists.
+// The parameters that determine how a cusp opens. Kinds of valves with cusps have these parameters at the end of their lists.
 struct CuspOpening {
-  double radius_ratio;  // radius of the open free edge at the symmetry plane, divided by the root's radius
+  double radius_ratio;  // the radius of the open free edge at the symmetry plane, divided by the radius of the root
   double expansion;     // outward motion of the commissures, as a share of their radius
 };
 // Returns the specs of open_radius_ratio and commissure_expansion.
@@ -45,25 +45,26 @@ HalfCusp blend(const HalfCusp &closed, const HalfCusp &open, double opening);
 // Returns the derivatives of the control points with respect to the opening.
 HalfCusp rate(const HalfCusp &closed, const HalfCusp &open);
 
-// Refuses curves that reach far away. Values that are each acceptable can make such curves together. Examples are a high power
-// with a long tangent, and a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the right
-// cusp". `also` ends the message's list of parameters.
+// Refuses curves that extend far away. Values that are each acceptable can together make such curves. Examples are a high
+// power with a long tangent, and a bending curve near the root. `state` and `cusp` begin the message, for example "" and "the
+// right cusp". `also` is the end of the message's list of parameters.
 void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state, const char *cusp, const char *also);
 
-// The position of a cusp: it is turned and then shifted. The id of its leaflet also numbers its patches.
+// The position of a cusp. The cusp is turned and then shifted. The id of its leaflet also numbers its patches.
 struct CuspPlace {
   Rotation turn;
   Vec3 shift;
   std::int32_t leaflet_id;
 };
-// Adds the lower and the upper patch of half a cusp. At each place, both patches get images for both halves of the cusp, first
-// for y >= 0. The upper patch becomes the last of the set. Its side v1 is the free edge, which ends at the commissure, u = 1.
+// Adds the lower and the upper patch of half a cusp. At each place, both patches get images for both halves of the cusp, with
+// y >= 0 first. The upper patch becomes the last of the set. Its side v1 is the free edge, which ends at the commissure, u = 1.
 void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places);
 inline std::size_t top_patch(const PatchSet &set) { return set.patches.size() - 1; }
 
 // Returns the places of three equal cusps: right, left and non-coronary, turned by 0, 120 and -120 degrees and then shifted.
 Vector<CuspPlace> equal_places(Vec3 shift);
-// Sews the images of a patch of three equal cusps together. The half y < 0 of a cusp meets the half y >= 0 of the cusp before it.
+// Sews the images of a patch of three equal cusps together. The half y < 0 of each cusp meets the half y >= 0 of the cusp before
+// it.
 void sew_equal_cusps(PatchSet &set, std::size_t patch, SeamPlace place);
 
 }  // namespace riis

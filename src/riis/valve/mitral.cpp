@@ -94,7 +94,7 @@ class Annulus {
   const Curve &half() const { return half_; }
   Curve::PointAndTangent with_tangent(double u) const { return half_.with_tangent(2 * u); }
   // Returns U(u, x): the point at the distance x from the annulus, inwards and by an angle below the plane. (In the paper's
-  // formula the angle multiplies N. Since N has z = 0, the angle would have no effect.)
+  // formula, N is multiplied by the angle. The angle would have no effect, because the z component of N is 0.)
   Vec3 below(double u, double x, SineCosine angle) const {
     const auto [A, T] = with_tangent(u);
     const double in_plane = std::hypot(T.x, T.y);
@@ -117,7 +117,7 @@ Bezier free_edge(Vec3 first, Vec3 tip, Vec3 last, double arc_angle) {
   return Bezier::cubic(first, middle - along * half_chord + rise, middle + along * half_chord + rise, last);
 }
 
-// Returns the length of a free edge. Refuses an edge that is nearly one point, because it makes no leaflet.
+// Returns the length of a free edge. Refuses an edge that is nearly one point, because it bounds no leaflet.
 double checked_length(const Bezier &edge, const char *which, const Bezier &annulus) {
   const double length = arc_length(edge);
   if (!(length >= 1e-6 * arc_length(annulus)))
@@ -157,7 +157,7 @@ HalfValve half_valve(const ParameterValues &values, bool is_open) {
   half.anterior = free_edge(commissure, edge_point(0.5, value(anterior_length)), mirrored(commissure), arc_angle);
   half.cleft = 0;
   if (is_open) {
-    // The clefts stand at a third of the way along the annulus. (The paper swaps the tips and the ends of the side scallops.)
+    // The clefts are at a third of the way along the annulus. (The paper swaps the tips and the ends of the side scallops.)
     const Vec3 cleft = edge_point(u_pm / 3, commissure_length);
     half.side_scallop =
         free_edge(commissure, edge_point(2 * u_pm / 3, value(posterior_scallop_length1)), cleft, arc_angle);
@@ -228,8 +228,8 @@ class Patches {
         is_closed ? anterior_middle : set_.add(up_to_symmetry_plane(half.middle_scallop, 0.5)).curve;
     const Side commissure = set_.add(Bezier::point(side_edge.first()));
 
-    // u runs along the annulus. The part of the annulus beside the triangle is divided between the spans of the anterior edge
-    // in proportion to their lengths.
+    // u runs along the annulus. Beside the triangle, the annulus is divided between the spans of the anterior edge in
+    // proportion to their lengths.
     const double u_pm = half.u_commissure, u_triangle = u_pm + half.triangle_width;
     const double side_length = arc_length(side_edge), middle_length = arc_length(middle_edge);
     const double u_anterior_cleft = u_triangle + side_length / (side_length + middle_length) * (0.5 - u_triangle);
@@ -261,8 +261,8 @@ class Patches {
 
   void begin_at(double u, Vec3 on_edge) { last_arc_ = arc(u, on_edge); }
 
-  // Patches run clockwise, down from the anterior point. So S_u x S_v points into the ventricle, downstream. The minus sign is
-  // there because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
+  // Patches run clockwise, and down from the anterior point. So S_u x S_v points into the ventricle, downstream. The minus
+  // sign is there because O points along (edge - annulus) x (the annulus' counter-clockwise direction).
   void add_patch(Side edge, double to_u, Vec3 on_edge, std::int32_t leaflet_id, std::int32_t patch_id,
                  std::int32_t mirrored_patch_id) {
     const Arc from = last_arc_, to = arc(to_u, on_edge);
@@ -301,8 +301,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 }  // namespace
 
-// The annulus has six points and tangents, and the half has points 0 to 3. The paper prints IT_distance for the widest point's x
-// on one side, but the annulus is symmetric only with ALPM_diameter / 2.
+// The annulus has six points and tangents, and the half has points 0 to 3. For the x of the widest point, the paper prints
+// IT_distance on one side, but the annulus is symmetric only with ALPM_diameter / 2.
 std::array<Bezier, 3> half_annulus(const MitralAnnulus &annulus) {
   const double ap = annulus.AP_diameter, alpm = annulus.ALPM_diameter, position = annulus.ALPM_position_ratio,
                it = annulus.IT_distance, indent = annulus.indent_depth, anterior_height = annulus.anterior_horn_height,

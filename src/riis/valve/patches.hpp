@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The patches of a valve, in the form in which the valve passes them to the surface. Patches refer to curves by position, so
-// they can share curves.
+// several patches can share a curve.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ enum class Mirror { none, in_x, in_y };
 
 inline constexpr std::size_t no_patch = static_cast<std::size_t>(-1);
 
-// The placement of a patch: it may be mirrored, then it is turned, then moved. All images of a patch come from the same
-// operations on the same points. So a patch and its mirror image meet in the mirror's plane to the last bit.
+// The placement of a patch. The patch may be mirrored, then it is turned, and then it is moved. All images of a patch come from
+// the same operations on the same points. So a patch and its mirror image meet in the mirror's plane to the last bit.
 struct PatchImage {
   Mirror mirror;
   Rotation rotation;
@@ -50,15 +50,15 @@ struct Side {
 // The side at which tissue or a stent holds a patch, or none.
 enum class AttachedSide : std::uint8_t { none, v0, u1 };
 
-// A line, given by a point and a direction. A skirt leads away from it (valve/skirt.hpp). The direction is 0 if nothing
-// determines it.
+// A line, given by a point and a direction. A skirt leads away from this line (valve/skirt.hpp). The direction is 0 if
+// nothing determines it.
 struct AxisLine {
   Vec3 centre, direction;
 };
 
 // A patch, given by its four sides. Each side is named after the parameter that is constant on it. A curve that two patches
-// share is listed once. So it becomes one polyline, and the patches meet without cracks. S_u x S_v points downstream. The
-// triangles of mirror images are turned over, so that their normals also point downstream.
+// share is listed once. The curve therefore becomes one polyline, and the patches meet without cracks. S_u x S_v points
+// downstream. The triangles of mirror images are turned over, so that their normals also point downstream.
 struct Patch {
   Side v0, v1, u0, u1;
   Vector<PatchImage> images;
@@ -67,10 +67,10 @@ struct Patch {
   double bulge = 0;
   AttachedSide attached = AttachedSide::none;
   AxisLine axis = {{0, 0, 0},
-                   {0, 0, 1}};  // before an image is placed; the line that a skirt of this patch leads away from
+                   {0, 0, 1}};  // the line from which a skirt of this patch leads away, before an image is placed
   bool is_skirt = false;
-  // The patch of arcs that this patch is a skirt of, or no_patch. The skirt lies at the side v0 of that patch, and this side is
-  // the skirt's v1.
+  // The patch of arcs that this skirt continues, or no_patch. The skirt lies at the side v0 of that patch, which is the skirt's
+  // side v1.
   std::size_t skirt_of_arcs = no_patch;
 };
 
@@ -78,8 +78,8 @@ struct Patch {
 enum class SeamPlace : std::uint8_t { corner, side_v1, side_u1 };  // the corner is u = v = 1
 
 // Two images, of one patch or of two patches, that have points in common. Before both images are placed, these points are the
-// same points of the patches. The image `image` takes them from the image `twin`, because turning both images separately would
-// round differently.
+// same points of the patches. The image `image` takes these points from the image `twin`, because to turn both images
+// separately would round differently.
 struct Seam {
   std::size_t patch, image, twin;
   SeamPlace place;
@@ -91,13 +91,13 @@ struct Seam {
   }
 };
 
-// A curve of a warped valve follows the points of the curve before the warp. They are known at this many even shares of that
-// curve's length, from its first point to its last.
+// A curve of a warped valve follows the points of the original curve. At this many even shares of the original
+// curve's length, from its first to its last point, these points are known.
 inline constexpr std::size_t n_material = 7;
 constexpr double material_share(std::size_t k) { return static_cast<double>(k) / (n_material - 1); }
 
-// Where the map takes these points, and the points of the warped curve that stand for them. The warped curve approximates the
-// mapped curve at equal parameters.
+// The places to which the map takes these points, and the corresponding points of the warped curve. The warped curve
+// approximates the mapped curve at equal parameters.
 struct MaterialPoints {
   std::array<Vec3, n_material> mapped;
   std::array<PointOnSpan, n_material> on_curve;
@@ -118,8 +118,9 @@ struct MaterialPoints {
   }
 };
 
-// Where the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that begin at the even
-// shares. In another patch, they are the four points with u and v of 1/3 or 2/3. The points with v = 1/3 come first.
+// The places to which the map takes points inside a warped patch. In a patch of arcs, these are the middles of the arcs that
+// begin at the even shares. In another patch, they are the four points with u and v of 1/3 or 2/3. The points with v = 1/3 come
+// first.
 struct MappedInside {
   bool of_arcs;
   std::array<Vec3, n_material> points;
@@ -155,7 +156,7 @@ struct PatchSet {
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
   // equal shares stand for the same points without it.
   Vector<std::optional<MaterialPoints>> material = {};
-  // Only warped patches have this list. It says for each patch where the map takes points inside the patch.
+  // Only warped patches have this list. For each patch, the list says to which places the map takes points inside the patch.
   Vector<MappedInside> mapped_inside = {};
   // Only valves whose skirts lead away from the axis of the attachment have this list. Their patches have one image each.
   Vector<NeighbourEnds> neighbour_ends = {};

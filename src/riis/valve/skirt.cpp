@@ -14,17 +14,17 @@
 namespace riis {
 namespace {
 
-// A skirt of one length has this many parts on each side of a patch. Its outer edge is then right to a thousandth of the length
-// (tests/surface/test_skirt.c).
+// A skirt of one length has this many parts on each side of a patch. The outer edge is then accurate to a thousandth of the
+// length (tests/surface/test_skirt.c).
 constexpr std::size_t n_even_parts = 8;
-// The ends of two cusps that are not joined are neighbours if they are at most this far apart, times the longest side.
+// Two ends of cusps that are not joined are neighbours if their distance is at most this multiple of the longest side.
 constexpr double most_between_ends = 0.5;
 // The line through two neighbouring ends has an angle to the outward direction. If the angle's sine is in this range, the skirts
-// lead along the line. A sine is positive if the ends have passed each other. Outside of the range, the sine falls back to 0.
+// lead along the line. The sine is positive if the ends have passed each other. Outside of the range, the sine falls back to 0.
 constexpr double most_apart_in_line = -0.5, most_past_in_line = 0.98;
-// The sine also falls to 0 if the line is nearer to the axis than this sine.
+// The sine also falls to 0 if the sine of the line's angle to the axis is below this.
 constexpr double least_sine_to_axis = 0.2;
-// A side leans as its tangent does, if the sine of its rise is at least this. A flatter side leans less, and a side perpendicular
+// A side leans as its tangent does if the sine of its rise is at least this. A flatter side leans less, and a side perpendicular
 // to the axis does not lean.
 constexpr double least_rise = 0.5;
 // A skirt that is turned at rest keeps its place there, as long as the warp turns it by less than this. In between it goes over.
@@ -160,7 +160,7 @@ class SkirtMaker {
     set_.patches.push_back(std::move(strip));
   }
 
-  // Sews the strips together where their patches are sewn together at the end of their attached sides.
+  // Sews the strips together if their patches are sewn together at the end of their attached sides.
   void sew() {
     const Vector<Seam> seams = set_.seams;
     for (const Seam &seam : seams) {
@@ -184,7 +184,7 @@ class SkirtMaker {
     return found->second;
   }
 
-  // Returns the growth of the length at one of the shares, for each step. Between two shares, the length then stays between the
+  // For each step, returns the growth of the length at one of the shares. Between two shares, the length then stays between the
   // lengths there, so a skirt does not overshoot at a corner of the wall (F. N. Fritsch, R. E. Carlson 1980).
   static double growth_at(const Vector<double> &lengths, std::size_t i) {
     const double before = i == 0 ? 0 : lengths[i] - lengths[i - 1];
@@ -196,7 +196,7 @@ class SkirtMaker {
     return std::clamp(mean, -most, most);
   }
 
-  // Each part is a cubic. At both of its ends it has the exact point and the exact derivative by the share of length.
+  // Each part is a cubic. At both ends, each cubic has the exact point and the exact derivative by the share of length.
   Curve outer_curve(std::size_t side, const Curve &inner, const Patch &parent, const Vector<double> &lengths) const {
     const std::size_t n = lengths.size() - 1;
     const double step = 1 / static_cast<double>(n);
@@ -230,7 +230,7 @@ class SkirtMaker {
     return Curve(std::move(spans));
   }
 
-  // Returns the material points of the outer side. They lie outwards from the inner side's points.
+  // Returns the material points of the outer side. They lie outwards of the inner side's points.
   MaterialPoints material_of_outer(const Curve &inner, const Side &side, const Curve &outer) const {
     const MaterialPoints &given = *set_.material[side.curve];
     const MaterialPoints points = side.reversed ? given.reversed(inner.spans().size()) : given;
@@ -257,7 +257,7 @@ class SkirtMaker {
   SkirtDirections directions_;
   std::int32_t leaflet_id_, n_ids_ = 0;
   std::map<std::array<double, 6>, std::size_t> lines_;
-  std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and image of a patch and its image
+  std::map<std::array<std::size_t, 2>, std::array<std::size_t, 2>> places_;  // strip and its image, patch and its image
 };
 
 // An end of a held side of an image. `is_before` tells whether the side ends there, as seen along the axis.
@@ -356,8 +356,8 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
 }
 
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after) {
-  // Seen along `rise`, one side leaves its end to the left, and the other leaves its end to the right. The planes of the skirts'
-  // ends contain it.
+  // Seen along `rise`, one side leaves its end to the left, and the other side leaves its end to the right. The planes of the
+  // skirts' ends contain `rise`.
   const auto lean = [&](Vec3 tangent) {
     const double up = dot(tangent, axis.direction);
     return (up / std::max(least_rise * least_rise, up * up)) * (tangent - up * axis.direction);
@@ -475,7 +475,8 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
     const PatchImage &image = patch.images.front();
     const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
     patch.axis = {without_placement(turn, whole.centre - image.translation), without_placement(turn, whole.direction)};
-    // A plane of symmetry contains the line. Rounding must not move it, because then mirror images would not meet.
+    // A plane of symmetry contains the line. Rounding must not move the line out of this plane, because the mirror images would
+    // then not meet.
     for (const PatchImage &other : patch.images) {
       if (other.mirror == Mirror::in_x) patch.axis.centre.x = patch.axis.direction.x = 0;
       if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The skirt of a valve: a strip that leads outwards from the attachment to the wall (docs/theory/skirt.md).
-// In: the patches of a valve, the length of the skirt. Out: the same patches and those of the skirt.
+// In: the patches of a valve, the length of the skirt. Out: the same patches and the patches of the skirt.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace riis {
 
-// The line that a skirt leads away from. The direction is perpendicular to this line.
+// The line from which a skirt leads away. The direction is perpendicular to this line.
 enum class SkirtAxis : std::uint8_t {
   none,      // the kind of valve has no skirt
   of_cusp,   // the z axis before a patch's image is placed, which is the root's axis
   vertical,  // the line along z through the centroid of the attachment
-  boundary   // the line through that centroid along the vector area of the attachment
+  boundary   // the line through the centroid of the attachment, along its vector area
 };
 
 // Gives every attached patch its axis.
@@ -28,7 +28,7 @@ void aim_skirt(PatchSet &set, SkirtAxis axis);
 // before the warp, with their axes. The identity keeps all axes, and a map without scale turns them as a placement does.
 void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
-// A side at which a patch is attached. It is a side of no other patch.
+// A side at which a patch is attached. No other patch has this side.
 struct HeldSide {
   std::size_t patch;
   Side side;
@@ -37,7 +37,7 @@ struct HeldSide {
 Vector<HeldSide> held_sides(const PatchSet &set);
 
 // The lengths of a skirt whose length is not the same everywhere. There is one list for each image of each patch with a held
-// side, in the order of held_sides. It has the lengths at evenly spaced shares of the side's length.
+// side, in the order of held_sides. The list has the lengths at evenly spaced shares of the side's length.
 using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
@@ -56,7 +56,7 @@ struct SideEnd {
 // on the points and the tangents.
 Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEnd &after);
 
-// The direction in which a skirt leads away from its attachment: outwards from the axis, except near neighbouring ends.
+// The direction in which a skirt leads away from its attachment. It is outwards from the axis, except near neighbouring ends.
 class SkirtDirections {
  public:
   SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides);
@@ -72,15 +72,15 @@ class SkirtDirections {
     std::optional<double> angle;  // in place of the direction, the angle by which the skirt is turned about the axis
   };
   Vector<AxisLine> axes_;
-  Vector<std::array<End, 2>> ends_;  // of each side: its first and its last end
+  Vector<std::array<End, 2>> ends_;  // for each side: its first and its last end
 };
 
 // Returns the mean distance of the attachment from its axis. Fails with RIIS_INVALID_PARAMETER unless every side has an outward
 // direction.
 double attachment_radius(const PatchSet &set, const Vector<HeldSide> &sides);
-// A skirt is at least and at most this many such distances long.
+// The least and the largest length of a skirt, in such distances.
 inline constexpr double least_skirt = 1e-4, most_skirt = 10;
-// A skirt to a wall is at least this many such distances long. The vertices of its outer edge are at even shares of the edge's
+// The least length of a skirt to a wall, in such distances. The vertices of its outer edge are at even shares of the edge's
 // length, so they are not exactly beside the attachment's vertices. A thinner strip along a round attachment would go through
 // itself.
 inline constexpr double least_skirt_to_wall = 0.01;
@@ -88,8 +88,8 @@ inline constexpr double least_skirt_to_wall = 0.01;
 // Returns the unit vector from the axis through the point, perpendicular to the axis. It is 0 if the point is on the axis.
 Vec3 outwards(const AxisLine &axis, Vec3 point);
 
-// Adds the patches of a skirt. The length is `length` if `lengths` is empty. The patches continue the leaflets outwards, and have
-// the leaflet_id of skirt_leaflet and the patch_id of the leaflet's patch plus the number of these ids. Fails with
+// Adds the patches of a skirt. If `lengths` is empty, the length is `length`. The patches continue the leaflets outwards, and
+// have the leaflet_id of skirt_leaflet and the patch_id of the leaflet's patch plus the number of these ids. Fails with
 // RIIS_INVALID_PARAMETER if the attachment has no outward direction, and for a length that does not fit its size.
 void add_skirt(PatchSet &set, double length, const SkirtLengths &lengths);
 

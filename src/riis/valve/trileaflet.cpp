@@ -22,7 +22,7 @@ enum Parameter {
 // Half the angle of a cusp in degrees, from its symmetry plane to the end of its free edge.
 constexpr double half_angle = 60;
 
-// The rules for sizes that the caller did not set. If other sizes change and these do not follow, the cusps cross
+// The rules for sizes that the caller did not set. If other sizes change without these, the cusps cross
 // (docs/theory/trileaflet.md).
 using Rule = std::array<double, 3>;
 Rule bending_height_rule(const ParameterValues &values) { return {0.5 * values[leaflet_height][0]}; }
@@ -37,8 +37,8 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
 
 // The defaults are in centimetres, and docs/theory/trileaflet.md lists their sources. The root follows Roman et al. 1989. The
 // heights follow Bierbach et al. 2010 and Schaefers et al. 2013. The orifice follows Bonow et al. 2006, and the expansion of the
-// commissures Pang et al. 2000. Root and commissures have equal radii: their measured ratio is 1.11 in Jelenc et al. 2024 and
-// 1/1.2 in Thubrikar et al. 1981. The bending curve is chosen to fit these values.
+// commissures Pang et al. 2000. Root and commissures have equal radii, because their measured ratio is 1.11 in
+// Jelenc et al. 2024 and 1/1.2 in Thubrikar et al. 1981. The bending curve is chosen to fit these values.
 // clang-format off
 ValveKind make_kind() {
   constexpr double shortest = 1e-9, longest = 1e9;
@@ -109,7 +109,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   const Vec3 shift = riis::blend(vector_of(closed.values[translation]), vector_of(open.values[translation]), opening);
   PatchSet set;
   add_cusps(set, blend(closed_half, open_half, opening), rate(closed_half, open_half), equal_places(shift));
-  // Sews the cusps together along their free edges at opening 0, and otherwise only at the commissures.
+  // At opening 0 sews the cusps together along their free edges, otherwise only at the commissures.
   sew_equal_cusps(set, top_patch(set), opening == 0 ? SeamPlace::side_v1 : SeamPlace::corner);
   return set;
 }

@@ -38,7 +38,8 @@ std::string create_beside(const std::string &place, const struct stat *replaced)
   const std::filesystem::path folder = std::filesystem::path(place).parent_path();
   for (;;) {
     const std::string name = ".riis-" + std::to_string(getpid()) + "-" + std::to_string(n_created++) + ".tmp";
-    std::string path = (folder / name).string();  // returned without a copy, which could fail and leave the file
+    std::string path = (folder / name).string();  // returned without a copy, because a copy could fail and leave the
+                                                  // file
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
       // The owner may always read and write, because the writer opens the file again. A file system without permissions may

@@ -48,7 +48,7 @@ vtkSmartPointer<Array> named_array(const std::string &name, vtkIdType n_tuples, 
 // Returns a text such as "; there are: a, b" for a message about a missing array.
 std::string list_of_arrays(vtkFieldData *data);
 
-// Lines and words of files that are scanned before VTK reads them. Blanks and capitals are ASCII's in any locale.
+// Lines and words of files that are scanned before VTK reads them. Blanks and capitals are those of ASCII in any locale.
 bool is_blank(char c);
 
 std::string lower_case(std::string_view text);
@@ -66,15 +66,15 @@ bool read_number(std::string_view text, Number &number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// XML files, element by element (xml_elements.cpp). No tree is built, because a hostile file could nest so deeply that destroying
-// the tree would overflow the stack.
+// XML files, element by element (xml_elements.cpp). No tree is built, because a hostile file could nest so deeply that the
+// destruction of the tree would overflow the stack.
 
 // Names and values in turn, and then NULL.
 using XmlAttributes = const char **;
 std::optional<std::string> value_of(XmlAttributes attributes, const char *name);
 
 // Calls visit(way, attributes) for each element that lies at most three elements deep. `way` has the names of the elements around
-// it, from the outermost one, and then its own name. Fails if the file is not XML.
+// it, beginning with the outermost, and then its own name. Fails if the file is not XML.
 using VisitElement = std::function<void(const std::vector<std::string> &way, XmlAttributes attributes)>;
 void for_each_element(const std::string &path, const CaughtOutput &caught, const VisitElement &visit);
 
@@ -117,12 +117,13 @@ class ReplacingFile {
   // Writes content from memory to the temporary file.
   void write(const unsigned char *bytes, std::int64_t n_bytes);
   // Moves the file to its final place. Fails unless the temporary file ends with `closing`, the last bytes of its format. On a
-  // full disk the file ends early, and not every writer notices this.
+  // full disk the file ends too early, and not every writer notices this.
   void commit(const std::string &closing);
 
  private:
   std::string path_;   // the path as the caller gave it
-  std::string place_;  // the path with links resolved, so that a link stays and its target is replaced or made
+  std::string place_;  // the path with links resolved, so that a link stays and the file behind it is replaced or
+                       // made
   std::string temporary_;
 };
 

@@ -18,8 +18,8 @@ namespace {
 // The limit on a path's length leaves room for the reason in the core's message.
 constexpr std::size_t longest_path = 250;
 
-// Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n", and
-// only its last part helps users.
+// Returns the useful part of a message of VTK. The message is "ERROR: In FILE, line N\nvtkClass (0xADDRESS): message\n\n".
+// Only its last part helps users.
 std::string message_of(const std::string &vtk_text) {
   const std::size_t object = vtk_text.find("): ");
   const std::string message = object == std::string::npos ? vtk_text : vtk_text.substr(object + 3);

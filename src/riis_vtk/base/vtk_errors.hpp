@@ -89,9 +89,9 @@ void destroy(Object **object) {
   *object = nullptr;
 }
 
-// While an object of this type lives, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
-// repeats every error. VTK does not tell the level of the log on stderr, only the highest level of all logs. So the destructor
-// sets the log on stderr to that highest level.
+// While an object of this type exists, it replaces VTK's process-wide output window, and silences VTK's log on stderr, which
+// repeats every error. VTK reports only the highest level of all logs, not the level of the log on stderr. The destructor
+// therefore sets the log on stderr to this highest level.
 class CaughtOutput {
  public:
   CaughtOutput();
@@ -100,7 +100,7 @@ class CaughtOutput {
   CaughtOutput &operator=(const CaughtOutput &) = delete;
 
   // Fails with RIIS_FILE_ERROR for the path if VTK reported an error. The message is the first error since this object was made,
-  // in one line without VTK's source positions. The first error is the cause, and later ones come from higher layers of VTK.
+  // in one line without VTK's source positions. The first error is the cause. Later errors come from higher layers of VTK.
   void check(const std::string &path) const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Centres of cells, and the pairs of cells that share a face, for solvers whose unknowns are at the centres. The centres equal
 // OpenFOAM's (primitiveMeshFaceCentresAndAreas.C, primitiveMeshCellCentresAndVols.C). A face is cut into triangles around the
-// mean of its nodes. A cell is cut into pyramids around the mean of its faces' centres. For cells that are not star-shaped,
-// OpenFOAM takes volumes of both signs, and here all volumes count as positive.
+// mean of its nodes. A cell is cut into pyramids around the mean of its faces' centres. If a cell is not star-shaped,
+// OpenFOAM takes volumes of both signs. Here all volumes count as positive.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -80,8 +80,8 @@ Vector center_of_cell(vtkCell *cell) {
   return volume > 0 ? 1 / volume * moment : mean;
 }
 
-// A face, by its nodes, and a cell that it belongs to. Different faces may have three nodes in common, if these lie on one edge.
-// So the other nodes count also, by their number and a hash.
+// A face, given by its nodes, and a cell to which it belongs. Different faces may have three nodes in common if these lie on
+// one edge. The other nodes therefore count too, by their number and a hash.
 struct FaceOfCell {
   std::array<vtkIdType, 3> smallest;
   std::uint64_t others;

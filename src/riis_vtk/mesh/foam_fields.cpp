@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the arrays of cells as fields of OpenFOAM, volScalarField and volVectorField, into the folder of a time. The fields are
-// text with the shortest digits that give the same doubles. A patch gets the value of its cells, and a patch of a type that
-// OpenFOAM prescribes, such as empty or cyclic, its own type.
+// text with the shortest digits that give the same doubles. A patch gets the value of its cells. If OpenFOAM prescribes the
+// patch's type, such as empty or cyclic, the field has this type.
 #include <riis/riis_vtk.h>
 
 #include <algorithm>

@@ -41,10 +41,10 @@ struct riis_vtk_mesh {
 
 namespace riis::vtk {
 
-// Gives the grid points in double precision. A grid without points gets an empty list of them.
+// Gives the grid points in double precision. A grid without points gets an empty list.
 void make_points_double(vtkUnstructuredGrid *grid);
 
-// The properties that all cells of a type of VTK have in common. Nodes are positions in the cell's list of nodes. Edges and faces
+// The properties that all cells of one VTK type have in common. Nodes are positions in the cell's list of nodes. Edges and faces
 // are empty if they depend on the cell.
 using Edge = std::array<vtkIdType, 2>;
 struct CellShape {

@@ -100,7 +100,7 @@ const double *points_of(const riis_vtk_mesh *mesh) {
                        : vtkDoubleArray::SafeDownCast(mesh->grid->GetPoints()->GetData())->GetPointer(0);
 }
 
-// Returns the pairs of neighbouring cells whose centres are the ends of such edges.
+// Returns the pairs of neighbouring cells. The centres of a pair are the ends of such an edge.
 std::vector<std::int64_t> long_pairs_of(const CellCenters &centers, const LongEdges &wanted) {
   std::vector<std::int64_t> pairs;
   for (std::int64_t i = 0; i < view(centers.pairs).size(); i += 2) {
@@ -151,7 +151,7 @@ struct Within {
   const std::int64_t *node_id = nullptr;
 };
 
-// Adds an array that has `values` at the nodes within the limit, and `elsewhere` at the others.
+// Adds an array that has `values` at the nodes within the limit, and `elsewhere` at the other nodes.
 template <class Array, class Value>
 void add_field(riis_vtk_mesh *mesh, const std::string &name, const Within &within, int n_components,
                const Value *values, Value elsewhere) {

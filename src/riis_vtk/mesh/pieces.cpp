@@ -36,7 +36,7 @@ struct Declared {
 }  // namespace riis::vtk
 
 struct riis_vtk_pieces {
-  std::string path;  // of the .pvtu file; "" if the list was not read from a file
+  std::string path;  // the path of the .pvtu file; "" if the list was not read from a file
   std::vector<std::string> files;
   std::vector<const char *> paths;  // points into files
   std::vector<riis::vtk::Declared> point_arrays, cell_arrays;
@@ -150,7 +150,7 @@ std::vector<Declared> arrays_of(vtkFieldData *data) {
   return arrays;
 }
 
-// Refuses a piece whose arrays are not the declared arrays. Then the pieces would not form one mesh.
+// Refuses a piece whose arrays differ from the declared arrays. The pieces would otherwise not form one mesh.
 void check_arrays(const riis_vtk_pieces &pieces, const std::string &path, const char *kind, vtkFieldData *data,
                   const std::vector<Declared> &declared) {
   const std::vector<Declared> arrays = arrays_of(data);
@@ -205,8 +205,8 @@ vtkUnsignedCharArray *ghosts_of(vtkDataSetAttributes *data, const char *kind) {
 }
 
 // Finds the nodes that other pieces may share. A face that two cells of a piece share is inside the piece. Each node keeps the
-// combined bits of its faces. A face combines twice if it is inside, and then leaves nothing. This shows without a list of faces
-// whether all faces of a node are inside. The answer is wrong with a probability of 2^-64 for a node.
+// combined bits of its faces. A face inside the piece is combined twice, and then leaves nothing. So it is known without a
+// list of faces whether all faces of a node are inside. For each node, the answer is wrong with a probability of 2^-64.
 class NodeRoles {
  public:
   explicit NodeRoles(vtkUnstructuredGrid *grid)

@@ -68,7 +68,7 @@ void add_face(vtkCell *face, std::vector<Edge> &edges) {
   }
 }
 
-// Adds the edges that lie inside the cell and on none of its faces.
+// Adds the edges that lie inside the cell and not on its faces.
 void add_inner_edges(int type, std::vector<Edge> &edges) {
   const auto add_star = [&](vtkIdType centre, vtkIdType first) {
     for (vtkIdType i = first; i < centre; ++i) edges.push_back(edge_between(i, centre));
@@ -112,8 +112,8 @@ CellShape shape_from_vtk(int type) {
 using Orders = std::array<int, 4>;  // the orders along three axes, then the number of nodes, as in VTK
 
 void add_tetrahedron_lattice(int order, std::vector<Edge> &edges) {
-  // A small tetrahedron is given by four whole numbers, whose sum is order - 1. Adding 1 to one of them gives a corner's
-  // barycentric coordinates.
+  // A small tetrahedron is given by four whole numbers whose sum is order - 1. If 1 is added to one of them, they are a
+  // corner's barycentric coordinates.
   for (vtkIdType i = 0; i < order; ++i)
     for (vtkIdType j = 0; i + j < order; ++j)
       for (vtkIdType k = 0; i + j + k < order; ++k) {
@@ -180,8 +180,8 @@ std::vector<Edge> lattice_edges(int type, const Orders &orders) {
   return edges;
 }
 
-// Finds the orders of a cell with n_nodes nodes. Either the file gives them (`given`), or they are equal along all axes. Returns
-// false if neither fits n_nodes, so that the nodes form no lattice.
+// Finds the orders of a cell with n_nodes nodes. The file gives them (`given`), or they are equal along all axes. Returns false
+// if neither fits n_nodes, because the nodes then form no lattice.
 bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &orders) {
   orders[3] = static_cast<int>(n_nodes);
   const auto fit = [&] {
@@ -201,15 +201,15 @@ bool find_orders(int type, vtkIdType n_nodes, const double *given, Orders &order
 }
 
 // The edges of cells. If a cell has straight sides, its edges are these sides. The nodes of a cell of higher order divide it
-// into linear cells, and the cell has the edges of these. A face without a node in its middle has edges between the middles of
-// neighbouring sides.
+// into linear cells, whose edges it has. A face without a node in its middle has edges between the middles of neighbouring
+// sides.
 class CellEdges {
  public:
   explicit CellEdges(vtkUnstructuredGrid *grid) : grid_(grid), degrees_(grid->GetCellData()->GetHigherOrderDegrees()) {
     if (degrees_ && degrees_->GetNumberOfComponents() != 3) degrees_ = nullptr;
   }
 
-  // Returns whether the cell is a volume. Other cells are on the boundary of volumes or do not belong to any.
+  // Returns whether the cell is a volume. Other cells are on the boundary of volumes, or belong to no volume.
   bool is_volume(vtkIdType cell) const { return shape_of(grid_->GetCellType(cell)).dimension == 3; }
 
   // Calls visit with both nodes of each edge of a face or a volume. Returns false if the edges are not known.

@@ -16,8 +16,8 @@ class vtkUnsignedCharArray;
 namespace riis::vtk {
 
 // Holds a connection to the X display while VTK draws. VTK 9.1 renders only through X and GLX, and aborts the process if either
-// is missing. An X server resets itself when its last client leaves, and refuses connections meanwhile. So this connection stays
-// open.
+// is missing. An X server resets itself after its last client has left, and refuses connections meanwhile. So this connection
+// stays open.
 class HeldDisplay {
  public:
   // Fails with RIIS_UNAVAILABLE if there is no display, or if the display lacks GLX.

@@ -154,10 +154,10 @@ Bounds bounds_of(const double *lower, const double *upper) {
 }  // namespace riis::vtk
 
 struct riis_vtk_film {
-  riis::vtk::HeldDisplay display;  // held for as long as the scene's window exists
+  riis::vtk::HeldDisplay display;  // held as long as the scene's window exists
   std::int32_t view;
   riis::vtk::Bounds bounds;
-  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; its grid is NULL if there is no mesh
+  riis_vtk_mesh mesh;  // shares the grid with the caller's mesh; without a mesh its grid is NULL
   riis::vtk::Scene scene;
 };
 

@@ -23,7 +23,7 @@ namespace {
 
 using Corners = std::vector<vtkIdType>;
 
-// The cells of a grid as polygons of corners. VTK gives the faces that depend on the cell.
+// The cells of a grid as polygons of corners. If faces depend on the cell, VTK gives them.
 class Polygons {
  public:
   explicit Polygons(vtkUnstructuredGrid *grid) : grid_(grid) {}

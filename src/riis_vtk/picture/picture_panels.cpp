@@ -134,7 +134,7 @@ double mean_edge_length(vtkPolyData *faces) {
   return sum / std::max(1.0, static_cast<double>(faces->GetNumberOfCells()));
 }
 
-// Moves an actor away from the eye. Without perspective, this changes only which parts are in front.
+// Moves an actor away from the eye. Without perspective, this only changes which parts are in front.
 void move_away(vtkActor *actor, const View &view, double length) {
   actor->SetPosition(length * view.away()[0], length * view.away()[1], length * view.away()[2]);
 }

@@ -31,7 +31,7 @@ namespace {
 
 constexpr int least_letter = 6;
 constexpr int least_height_with_texts = 120;
-constexpr std::int32_t n_views = 3;  // views in a picture of three views
+constexpr std::int32_t n_views = 3;  // the number of views in a picture of three views
 constexpr const char *view_names[] = {"side", "top", "oblique"};
 
 // Returns the number with commas between thousands.
@@ -137,7 +137,8 @@ void add_scale_bar(vtkRenderer *renderer, const Layout &layout, double x, double
   add_fitting_text(renderer, text.str(), after, y, right - after, layout.letter());
 }
 
-// Adds arrows for x, y and z as long as these axes appear in the view. If an axis points at the eye, its name is in the middle.
+// Adds arrows for x, y and z, as long as these axes appear in the view. If an axis points at the eye, its name is at the origin
+// of the arrows.
 void add_axes(vtkRenderer *renderer, const Layout &layout, double x, double y, double length, const View &view) {
   const char *const names[3] = {"x", "y", "z"};
   std::vector<Line> lines;
@@ -240,8 +241,8 @@ std::vector<PanelTexts> texts_of(const std::string &title, const std::vector<std
 
 KeyEntry dashes_entry() { return {"dashed: the mesh goes on", grey}; }
 
-// Returns the texts of a picture of three views: the lines and the keys of its panels, spread over the columns. Below its line,
-// each column has the name of its view.
+// Returns the texts of a picture of three views: the lines and the keys of its panels, distributed over the columns. Below its
+// line, each column has the name of its view.
 std::vector<PanelTexts> texts_of_columns(const std::vector<PanelTexts> &panels, std::int32_t first) {
   std::vector<PanelTexts> columns(n_views);
   std::size_t n_lines = 0;

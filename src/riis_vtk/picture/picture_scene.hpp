@@ -65,10 +65,10 @@ struct View {
   Extents extents_of(const Bounds &bounds) const;
 };
 
-// The part of space that a panel shows, in terms of the axes of its view.
+// The part of space that a panel shows, along the axes of its view.
 struct Sight {
-  Extents shown;                  // x and y up to the panel's edges; z is the depth of surface and mesh
-  std::array<Extent, 2> uncut;    // x and y at which a mesh that extends further is cut
+  Extents shown;                  // x and y extend to the panel's edges; z is the depth of surface and mesh
+  std::array<Extent, 2> uncut;    // x and y at which the mesh is cut if it extends further
   std::array<bool, 2> cut_below;  // whether the mesh is cut on the left, and below
   std::array<bool, 2> cut_above;  // whether the mesh is cut on the right, and above
   bool is_cut() const { return cut_below[0] || cut_below[1] || cut_above[0] || cut_above[1]; }
@@ -124,8 +124,8 @@ struct MarkCounts {
   vtkIdType n_partly_cells = 0;  // cells with some but not all nodes marked
 };
 
-// The panel with marked cells inside the faint boundary of the mesh. A cell has the colour of its closest node's leaflet, and a
-// partly marked cell is paler. Leaking edges are red. Cells below the grid's largest dimension are left out.
+// The panel with marked cells inside the faint boundary of the mesh. A cell has the colour of its closest node's leaflet. If it
+// is partly marked, the colour is paler. Leaking edges are red. Cells below the grid's largest dimension are left out.
 class MarksPanel {
  public:
   // `pixels` is the width of a line.
@@ -151,7 +151,7 @@ class MarksPanel {
 };
 
 // The positions of a picture's parts, in pixels from the lower left corner. A picture that is not high enough for bands has no
-// texts. The panels are side by side or, in a column of three views, above each other. Texts belong to a column of panels.
+// texts. The panels are side by side. In a column of three views they are above each other. Texts belong to a column of panels.
 class Layout {
  public:
   enum class Panels { side_by_side, stacked };

@@ -49,7 +49,8 @@ void grow(Extents &extents, const View &view, const double point[3]) {
   }
 }
 
-// A side of the panel cuts the mesh. It has an axis, a position on the axis, and the direction towards the part that remains.
+// A side of the panel that cuts the mesh. It has an axis, a position on the axis, and the direction towards the part that
+// remains.
 struct Side {
   std::size_t axis;
   double at;

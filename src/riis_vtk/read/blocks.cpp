@@ -35,8 +35,8 @@ struct Block {
 
 using Grids = std::vector<vtkSmartPointer<vtkUnstructuredGrid>>;
 
-// Copies the arrays that all blocks have, with the same type and number of components. `place` gives the new place of each
-// value. If several blocks have a value, the first block decides.
+// Copies the arrays that all blocks have, with the same type and number of components. `place` gives the new position of
+// each value. If several blocks have a value, the first block decides.
 template <class DataOf, class Place>
 void join_arrays(const std::vector<Block> &blocks, vtkIdType n, const DataOf &data_of, const Place &place,
                  vtkDataSetAttributes *to) {
@@ -128,8 +128,8 @@ struct HashOfPoint {
   }
 };
 
-// Numbers the nodes of all blocks. Nodes of different blocks are one node if they have the same global id. If a block has no ids,
-// equal coordinates decide. Nodes of one block stay different, so that slits stay open. Returns the number of nodes.
+// Numbers the nodes of all blocks. Nodes of different blocks become one node if they have the same global id. If a block has no
+// ids, equal coordinates decide. Nodes of one block stay different, so that slits stay open. Returns the number of nodes.
 vtkIdType number_nodes(std::vector<Block> &blocks) {
   const bool have_ids =
       std::all_of(blocks.begin(), blocks.end(), [](const Block &b) { return global_ids_of(b.grid) != nullptr; });
@@ -224,7 +224,8 @@ vtkSmartPointer<vtkUnstructuredGrid> read_exodus(const std::string &path, const 
   vtkNew<vtkExodusIIReader> reader;
   if (!reader->CanReadFile(path.c_str())) fail_file(path, "is not an Exodus file, is damaged or truncated");
   reader->SetFileName(path.c_str());
-  // Each block gets all points of the file. So the blocks keep the file's numbers of nodes, and shared nodes stay one.
+  // Each block gets all points of the file. The blocks therefore keep the file's numbers of nodes, and shared nodes stay one
+  // node.
   reader->SetSqueezePoints(false);
   reader->SetApplyDisplacements(0);
   reader->UpdateInformation();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh's .msh files, of versions 2 and 4.1, as text or binary. The format is in the chapter "Gmsh file formats" of gmsh's manual,
 // and the orders of nodes are in its section "Node ordering". Nodes and elements keep the file's order. Elements of all
-// dimensions become cells, and their physical groups the cell array gmsh:physical.
+// dimensions become cells. Their physical groups become the cell array gmsh:physical.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -114,7 +114,7 @@ class GmshFile {
       expect_end_of(section);
     }
     if (!tags_) fail_file(path_, "is truncated: it has no section $Nodes");
-    // gmsh always writes this section, also if it has no elements.
+    // gmsh always writes this section, even if it has no elements.
     if (!has_elements_) fail_file(path_, "is truncated: it has no section $Elements");
     const std::int64_t n_copies = drop_copies();
     const auto grid = mesh_.grid(path_);
@@ -197,7 +197,7 @@ class GmshFile {
     return n;
   }
 
-  // The least sizes of text take a digit and a blank for each number.
+  // In text, a number takes at least a digit and a blank.
   std::vector<std::int64_t> read_old_nodes() {
     const std::int64_t n = text_count(in_.is_binary ? int_bytes + 3 * real_bytes : 8, "nodes");
     std::vector<std::int64_t> tags(static_cast<std::size_t>(n));
@@ -336,8 +336,8 @@ class GmshFile {
     physical_.push_back(static_cast<std::int32_t>(physical));
   }
 
-  // Version 2 has an element once for each of its physical groups, each time with another number. Keeps the first of these
-  // elements, and returns how many are left out. Equal elements of one group stay.
+  // Version 2 lists an element once for each of its physical groups, each time with another number. Keeps the first of
+  // these elements, and returns how many are left out. If equal elements are in one group, all stay.
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });

@@ -115,8 +115,8 @@ void check_cell_sizes(const std::string &path, vtkUnstructuredGrid *grid) {
   fail_file(path, "cell ", cell, " has broken polyhedron faces");
 }
 
-// Checks a polyhedron's faces. From the cell's location on, VTK's array of faces has the number of faces, and then the size and
-// the points of each face.
+// Checks a polyhedron's faces. At the cell's location, VTK's array of faces has the number of faces, and then the size and the
+// points of each face.
 void check_polyhedron(const std::string &path, vtkIdType cell_id, vtkIdType location, vtkIdTypeArray *faces,
                       vtkIdType n_points) {
   const vtkIdType n_values = faces->GetNumberOfValues();
@@ -173,7 +173,7 @@ vtkIdType id_at(vtkDataArray *array, vtkIdType i) {
   return value >= 0 ? static_cast<vtkIdType>(std::min(value, most)) : -1;
 }
 
-// Makes visible the failures that VTK's XML readers only record. Refuses an array before VTK reads it if the file holds less
+// Makes failures visible that VTK's XML readers only record. Refuses an array before VTK reads it if the file holds less
 // data than VTK would read.
 template <class Reader>
 class WatchedReader : public Reader {
@@ -261,7 +261,8 @@ class WatchedReader : public Reader {
   std::string path_;
   std::optional<XmlSizes> sizes_;
   Steps steps_;
-  std::vector<vtkIdType> face_ends_;  // for each cell of the piece, the end of its faces; -1 if it is no polyhedron
+  std::vector<vtkIdType> face_ends_;  // for each cell of the piece, the end of its faces; -1 for cells that are not
+                                      // polyhedra
 };
 
 // Also reads the faces of polyhedra in the layout that VTK writes since 9.4, which older releases of VTK ignore. In this layout,
@@ -341,7 +342,7 @@ class GridReader : public WatchedReader<vtkXMLUnstructuredGridReader> {
 };
 
 // Explains why a file could not be read. VTK 9.1 crashes while it writes its message about an unreadable array, so the first
-// reader ran with messages off. A second reader skips the arrays, and can therefore report any other fault.
+// reader ran without messages. A second reader skips the arrays, so it can report any other fault.
 template <class Watched>
 [[noreturn]] void explain_failure(const std::string &path, const CaughtOutput &caught) {
   vtkNew<Watched> reader;
@@ -402,7 +403,7 @@ void finish_polydata(const std::string &path, vtkPolyData *data) {
   }
   check_faces(path, data->GetPolys(), 0, data->GetNumberOfPoints());
   check_faces(path, data->GetStrips(), data->GetNumberOfPolys(), data->GetNumberOfPoints());
-  // VTK determines the types of the cells in this call.
+  // In this call, VTK determines the types of the cells.
   data->BuildCells();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a path. Out: a VTK data set that has the sizes stated in the file and whose cells refer only to existing points. VTK
+// In: a path. Out: a VTK data set that has the sizes stated in the file, and whose cells refer only to existing points. VTK
 // continues after many errors and returns an incomplete data set. These functions refuse an incomplete file. The scans declared
 // below find most errors before VTK reads the file.
 #pragma once
@@ -33,8 +33,8 @@ vtkSmartPointer<vtkPolyData> read_polydata(const std::string &path, const Caught
 vtkSmartPointer<vtkPointSet> read_legacy_surface(const std::string &path, const CaughtOutput &caught);
 
 // Returns the content of a legacy .vtk file. Fails for another kind of data and for a file that is not complete. VTK's legacy
-// reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. So this function
-// checks the sections before VTK reads them.
+// reader believes every count, reads a truncated file as a smaller one, and ends the process on some files. This function
+// therefore checks the sections before VTK reads them.
 enum class LegacyKinds { grid, grid_or_polydata };
 struct LegacyContent {
   bool is_polydata;

@@ -33,8 +33,8 @@ int size_of_type(std::string_view type) {
   return is_in({"string", "utf8_string"}) ? 0 : -1;
 }
 
-// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams. They refuse infinite and too
-// large numbers, but accept too small ones.
+// Returns whether VTK reads the whole word as a number of this type. VTK reads with C++ streams. VTK's functions refuse
+// infinite and too large numbers, but accept too small ones.
 bool is_number(std::string_view word, const std::string &type) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   if (type == "float" || type == "double") {
@@ -46,7 +46,7 @@ bool is_number(std::string_view word, const std::string &type) {
     return error == std::errc() && std::isfinite(value) &&
            (type == "double" || std::isfinite(static_cast<float>(value)));
   }
-  // In text files, VTK writes and reads a single byte as a number of 32 bits, so a larger value is no fault.
+  // In text files, VTK writes and reads a single byte as a number of 32 bits, so a larger value is not a fault.
   const bool is_unsigned = type.rfind("unsigned", 0) == 0 || type == "vtktypeuint64";
   const int n_bits = type == "short" || type == "unsigned_short" ? 16 : size_of_type(type) == 8 ? 64 : 32;
   if (is_unsigned && size_of_type(type) > 1) {
@@ -73,7 +73,7 @@ std::string upper_case(std::string text) {
 
 bool begins_with(std::string_view text, std::string_view what) { return text.substr(0, what.size()) == what; }
 
-// A sequence of whole numbers. The scan has already checked that they exist and are numbers.
+// A sequence of whole numbers. The scan has already checked that the numbers exist and are valid.
 class Numbers {
  public:
   // `size` is the number of bytes of each number in a binary file, 4 or 8. It is 0 for an ASCII file.
@@ -170,8 +170,8 @@ class Scan {
     if (first.rfind(magic, 0) != 0) refuse("is not a legacy VTK file");
     std::string version = first.substr(magic.size());
     while (!version.empty() && is_blank(version.back())) version.pop_back();
-    // An unknown version is refused, because VTK would read such a file as one of an old version. The same holds for a number
-    // that is too large for VTK.
+    // An unknown version is refused, because VTK would read such a file like an old version. A version number that is too
+    // large for VTK is also refused.
     const std::size_t dot = version.find('.');
     std::int64_t minor = 0;
     constexpr std::size_t longest = 16;
@@ -222,7 +222,7 @@ class Scan {
     }
   }
 
-  // Skips n values that begin on the next line. n must not exceed the number of bits left in the file.
+  // Skips n values that begin on the next line. n must be at most the number of remaining bits in the file.
   void skip_values(std::int64_t n, const std::string &type) {
     line();
     if (type == "bit") return binary_ ? skip_bytes((n + 7) / 8) : skip_words(n, "int");
@@ -232,7 +232,7 @@ class Scan {
     binary_ ? skip_bytes(n * size) : skip_words(n, type);
   }
 
-  // Skips an array. It consists of n tuples of a width that the file gives. VTK's writer may add a block of METADATA after them.
+  // Skips an array. The array has n tuples of a width that the file gives. VTK's writer may add a block of METADATA after them.
   void skip_tuples(std::int64_t n, std::int64_t width, const std::string &type) {
     if (width > 0 && n > n_bits_left() / width) refuse_end();
     skip_values(n * width, type);
@@ -482,7 +482,7 @@ class Scan {
     return true;
   }
 
-  // Colours are bytes in a binary file, and numbers from 0 to 1 in an ASCII file.
+  // In a binary file, colours are bytes. In an ASCII file, they are numbers from 0 to 1.
   std::string type_of_colors() const { return binary_ ? "unsigned_char" : "float"; }
 
   void scalars() {
@@ -513,7 +513,7 @@ class Scan {
   std::string_view types_, offsets_, corners_;
   std::string type_of_offsets_ = "int", type_of_corners_ = "int";
   std::int64_t n_corners_ = 0;
-  std::int64_t n_tuples_ = 0;  // number of tuples in each array of the present POINT_DATA or CELL_DATA
+  std::int64_t n_tuples_ = 0;  // the number of tuples in each array of the present POINT_DATA or CELL_DATA
 };
 
 }  // namespace

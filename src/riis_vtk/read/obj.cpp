@@ -13,7 +13,7 @@
 namespace riis::vtk {
 namespace {
 
-// The keywords that tell nothing about the places of faces.
+// Keywords that say nothing about the places of faces.
 constexpr std::array<std::string_view, 16> keywords_to_skip = {
     "vt",     "vn",     "vp",     "g",     "s",        "o",   "mg",         "mtllib",
     "usemtl", "usemap", "maplib", "bevel", "c_interp", "lod", "shadow_obj", "trace_obj"};
@@ -24,7 +24,7 @@ class ObjFile {
 
   vtkSmartPointer<vtkUnstructuredGrid> read() {
     while (!in_.rest().empty()) {
-      // The statement is read before its lines are skipped, so that errors name its first line.
+      // The statement is copied before its lines are skipped, so that errors name its first line.
       std::string_view rest = in_.rest();
       read_statement(statement(rest));
       in_.skip(in_.rest().size() - rest.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes of OpenFOAM: the files points, faces, owner and neighbour of a folder polyMesh, as text or binary, compressed by gzip or
-// not. The format is in OpenFOAM's user guide, "Mesh description" and "Basic input/output format". VTK's reader of OpenFOAM hands
-// out coordinates in single precision. This reader keeps doubles. Cells with the faces of a tetrahedron, pyramid, prism or
-// hexahedron become these cells of VTK, and all others polyhedra.
+// not. The format is in OpenFOAM's user guide, "Mesh description" and "Basic input/output format". VTK's reader of OpenFOAM
+// returns coordinates in single precision. This reader keeps doubles. Cells with the faces of a tetrahedron, pyramid, prism or
+// hexahedron become these cells of VTK, and all other cells become polyhedra.
 #include <vtk_zlib.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ std::optional<double> time_of(const fs::path &folder) {
   return read_number(std::string_view(folder.filename().string()), time) ? std::optional<double>(time) : std::nullopt;
 }
 
-// Unpacks a gzip file. A damaged file ends with an error, and the memory grows only with the content.
+// Unpacks a gzip file. A damaged file causes an error, and the memory grows only with the content.
 std::string unpacked(const std::string &path, std::string_view packed) {
   z_stream stream{};
   if (inflateInit2(&stream, 15 + 16) != Z_OK) throw std::bad_alloc();
@@ -255,7 +255,7 @@ class FoamFile {
     expect(")");
   }
 
-  // Such a list is longer than its file, so it has a limit of its own. The limit is the number of entries that a mesh of one
+  // Such a list is longer than its file, so it has a separate limit. The limit is the number of entries that a mesh of one
   // block of cells could need.
   template <class ReadOne>
   void read_equal(std::int64_t n, const char *things, const ReadOne &read_one) {
@@ -325,7 +325,7 @@ Faces read_all_faces(const Folders &folders, std::int64_t n_points) {
   return faces;
 }
 
-// A cell's faces. Each is a face's number, and whether its normal points out of the cell.
+// A cell's faces. Each entry is a face's number, and whether the face's normal points out of the cell.
 struct CellFace {
   std::int64_t face;
   bool is_outward;
@@ -345,7 +345,7 @@ Corners sorted(Corners corners) {
   return corners;
 }
 
-// One of VTK's linear cells, which has a base. Its other nodes are one apex, or one node above each of the base.
+// One of VTK's linear cells, which has a base. Its other nodes are one apex, or one node above each node of the base.
 struct Shape {
   int vtk_type;
   std::int64_t n_faces, base_size, n_nodes;
@@ -374,7 +374,7 @@ vtkIdType node_above(const Faces &faces, const std::vector<CellFace> &cell, cons
   return above;
 }
 
-// Returns the nodes of the cell in VTK's order if the cell has this shape, and none otherwise.
+// Returns the cell's nodes in VTK's order if it has this shape, otherwise none.
 Corners nodes_as(const Shape &shape, const Faces &faces, const std::vector<CellFace> &cell) {
   if (static_cast<std::int64_t>(cell.size()) != shape.n_faces) return {};
   const auto base_face =

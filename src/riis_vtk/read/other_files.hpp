@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes and surfaces of other programs.
 // In: a path. Out: a grid with points in double precision, whose cells have VTK's types and orders of nodes. read_grid checks the
-// cells again. No count of a file is believed before the file holds as many bytes as the count needs.
+// cells again. No count of a file is believed before the file is known to hold as many bytes as the count needs.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ bool is_openfoam(const std::string &path);
 vtkSmartPointer<vtkUnstructuredGrid> read_openfoam(const std::string &path);
 std::string foam_case_of(const std::string &path);
 
-// Whether the path is a folder of a time in a case of OpenFOAM, which may be missing.
+// Whether the path is a folder of a time in a case of OpenFOAM. The folder may be missing.
 bool is_foam_time(const std::string &path);
 
 // XDMF with its data in the file itself or in HDF5 files (xdmf.cpp).
@@ -52,7 +52,7 @@ struct PlainGrid {
   vtkNew<vtkIdTypeArray>
       ids;  // the nodes of all cells. A polyhedron has the stream of its faces: their number, and then
             // the size and the nodes of each face
-  vtkNew<vtkIdTypeArray> ends;  // the first entry is 0, then the end of each cell in ids
+  vtkNew<vtkIdTypeArray> ends;  // the first entry is 0; then follows the end of each cell in ids
   vtkNew<vtkUnsignedCharArray> types;
   bool has_polyhedra = false;
 
@@ -82,16 +82,16 @@ class Source {
   std::string_view line() { return take_line(rest_); }
   std::string_view word() { return take_word(rest_); }
 
-  // Returns the number that a word is.
+  // Returns the number that a word stands for.
   std::int64_t integer_of(std::string_view text) const;
   double real_of(std::string_view text) const;
-  // Reads the next number. A binary one has n_bytes bytes, and a real one of 4 bytes is a float.
+  // Reads the next number. A binary number has n_bytes bytes. A real number of 4 bytes is a float.
   std::int64_t integer(int n_bytes);
   double real(int n_bytes);
   // Reads the next binary number of this type.
   template <class T>
   T raw();
-  // Returns the next number of things. Fails if the rest of the file cannot hold that many: each takes `least_bytes` or more.
+  // Returns the next count. Fails if the rest of the file cannot hold so many items, of which each takes `least_bytes` or more.
   std::int64_t count(int n_bytes, std::int64_t least_bytes, const char *things);
   void check_count(std::int64_t n, std::int64_t least_bytes, const char *things) const;
 
@@ -107,7 +107,7 @@ class Source {
   std::string_view bytes_, rest_;
 };
 
-// In: the bytes of an XML file. Out: its elements. This is enough for XDMF and .vtm files: names, attributes, and the text before
+// In: the bytes of an XML file. Out: its elements. This suffices for XDMF and .vtm files: names, attributes, and the text before
 // an element's first child. Declarations and comments are skipped, and a document type is not followed.
 struct XmlElement {
   std::string name;
@@ -156,7 +156,7 @@ class Hdf5Writer {
 
   std::string path_;
   ReplacingFile file_;
-  std::int64_t id_ = -1;  // HDF5's identifier of the file, below 0 if it is closed
+  std::int64_t id_ = -1;  // HDF5's identifier of the file; below 0 if it is closed
 };
 
 }  // namespace riis::vtk

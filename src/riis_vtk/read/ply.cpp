@@ -25,7 +25,7 @@ constexpr PlyType ply_types[] = {{"char", "int8", 1, false},    {"uchar", "uint8
 
 struct PlyProperty {
   std::string name;
-  const PlyType *count;  // the type of a list's number of values; NULL for a single number
+  const PlyType *count;  // the type of the number at a list's beginning; NULL for a single number
   const PlyType *type;
 };
 
@@ -137,7 +137,7 @@ class PlyFile {
     return type.is_real ? in_.real(type.n_bytes) : static_cast<double>(whole_number(type));
   }
 
-  // Returns the number of values of the list that comes next.
+  // Returns the number of values in the next list.
   std::int64_t length_of(const PlyProperty &list) {
     const std::int64_t n = whole_number(*list.count);
     in_.check_count(n, in_.is_binary ? list.type->n_bytes : 1, "values of a list");
@@ -212,7 +212,7 @@ class PlyFile {
     expect_end_of_line();
   }
 
-  // In a text file, each vertex and each face has a line of its own.
+  // In a text file, each vertex and each face has its own line.
   void expect_end_of_line() const {
     if (in_.is_binary) return;
     std::string_view rest = in_.rest(), line = take_line(rest);

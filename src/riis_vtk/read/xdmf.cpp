@@ -84,7 +84,7 @@ class XdmfFile {
   }
 
  private:
-  // Returns the first grid that is no collection. A collection over time begins with its first time.
+  // Returns the first grid that is not a collection. A collection over time begins with its first time.
   const XmlElement &first_mesh(const XmlElement &parent) const {
     const XmlElement *grid = parent.child("Grid");
     if (!grid) fail_file(path_, "holds no Grid with a Topology");
@@ -98,12 +98,12 @@ class XdmfFile {
     return *grid;
   }
 
-  // Returns the Topology or the Geometry of a grid. A grid of a series in time may include the one of another grid, which meshio
-  // and dolfinx write once.
+  // Returns the Topology or the Geometry of a grid. A grid of a series in time may refer to the Topology or Geometry of another
+  // grid, which meshio and dolfinx write once.
   const XmlElement &part_of(const XmlElement &domain, const XmlElement &grid, const char *name) const {
     if (const XmlElement *own = grid.child(name)) return *own;
     for (const XmlElement &child : grid.children) {
-      // The prefix of the element's name may be any.
+      // The element's name may have any prefix.
       const std::string &element = child.name;
       if (element.substr(element.rfind(':') + 1) != "include") continue;
       if (!child.attribute("href").empty()) fail_file(path_, "includes the mesh of another file");
@@ -122,8 +122,8 @@ class XdmfFile {
     return pointer.substr(first, pointer.find(pointer[first - 1], first) - first);
   }
 
-  // Returns the first grid that has a part of a mesh itself, and that is in a grid of the given name or has the name itself.
-  // The name "" stands for any. Returns NULL if there is none.
+  // Returns the first grid that itself has a part of a mesh, and that has the given name or is in a grid of this name. The
+  // name "" stands for any name. Returns NULL if there is no such grid.
   static const XmlElement *grid_with(const XmlElement &parent, const char *part, const std::string &name) {
     for (const XmlElement &child : parent.children) {
       if (child.name != "Grid") continue;
@@ -341,7 +341,7 @@ class XdmfFile {
     }
   }
 
-  // Adds the values of nodes or cells. Others, such as the functions of FEniCS's checkpoints, are left out.
+  // Adds the values of nodes or cells. Other values, such as the functions of FEniCS's checkpoints, are left out.
   void read_attribute(const XmlElement &attribute, vtkUnstructuredGrid *grid) {
     const std::string center = lower_case(attribute.attribute("Center")), name = attribute.attribute("Name");
     const bool is_of_cells = center == "cell";
@@ -471,7 +471,7 @@ class XdmfWriter {
     text_ += "</Topology>\n";
   }
 
-  // Writes the numbers of nodes or cells. Names and other text have no place in XDMF.
+  // Writes the numbers of nodes or cells. Names and other texts have no place in XDMF.
   void write_arrays(vtkDataSetAttributes *from, const char *center) {
     for (int i = 0; i < from->GetNumberOfArrays(); ++i) {
       vtkDataArray *const array = from->GetArray(i);
@@ -485,7 +485,7 @@ class XdmfWriter {
                       "\" Center=\"", center, "\">\n");
       std::string dataset = std::string(center) + "_" + name;
       std::replace(dataset.begin(), dataset.end(), '/', '_');
-      // The names a/b and a_b would become one name otherwise.
+      // Otherwise the names a/b and a_b would become one name.
       while (!datasets_.insert(dataset).second) dataset += '_';
       const std::int64_t n = array->GetNumberOfTuples();
       if (array->GetDataType() == VTK_DOUBLE || array->GetDataType() == VTK_FLOAT) {

@@ -108,7 +108,7 @@ std::string xml_type(std::string_view head) {
   return "";
 }
 
-// Returns the least number of bits that a value takes. A string takes at least its final byte.
+// Returns the least number of bits of a value. A string takes at least its final byte.
 std::uint64_t bits_of(const char *type) {
   static const std::map<std::string_view, std::uint64_t> sizes = {{"Bit", 1},    {"Int16", 16},  {"UInt16", 16},
                                                                   {"Int32", 32}, {"UInt32", 32}, {"Float32", 32},
@@ -168,7 +168,7 @@ void XmlSizes::refuse(vtkXMLDataElement *element, const Parts &...parts) const {
   fail_file(path_, "is damaged: array ", name ? std::string(name).substr(0, 40) : "without a name", " ", parts...);
 }
 
-// Finds the data in the same way as VTK. If there is an offset, the data is appended, whatever the format attribute says.
+// Finds the data as VTK does. If there is an offset, the data is appended, regardless of the format attribute.
 XmlSizes::ArrayData XmlSizes::data_of(vtkXMLDataParser *parser, vtkXMLDataElement *element) const {
   const std::size_t size = bytes_.size();
   if (element->GetAttribute("offset")) {
@@ -256,7 +256,7 @@ void XmlSizes::check_bits(vtkXMLDataParser *parser, vtkXMLDataElement *element, 
   if (is_new) {
     const ArrayData data = data_of(parser, element);
     held.is_text = data.form == ArrayData::ascii;
-    // A number takes at least one character, and a blank separates it from the next.
+    // A number takes at least one character, and a blank before the next number.
     held.n = held.is_text ? (data.end - data.begin + 1) / 2 : n_bytes_in(parser, element, data);
   }
   // Each number of a text is one value, or eight values of one bit.

@@ -185,7 +185,7 @@ void check_places(const std::string &path, const std::vector<double> &xyz, const
 
 // Appends a frame. frames.times must already have the times of all frames.
 void add_frame(Frames &frames, const std::vector<double> &xyz) {
-  // Reserves the memory for all frames at once, because an array that grows by doubling may take twice its memory.
+  // Reserves the memory for all frames at once, because an array that doubles may take twice its memory.
   if (frames.xyz.empty()) frames.xyz.reserve(xyz.size() * frames.times.size());
   frames.xyz.insert(frames.xyz.end(), xyz.begin(), xyz.end());
 }

@@ -165,7 +165,7 @@ RIIS_API riis_status riis_vtk_motion_append(riis_vtk_motion *motion, const riis_
     std::vector<const char *> paths;
     for (const std::string &file : files) paths.push_back(file.c_str());
     append_frames(motion->frames, other->frames);
-    // The texts keep their places while the list of files moves.
+    // The texts stay in place when the list of files moves.
     motion->files = std::move(files);
     motion->paths = std::move(paths);
   });

@@ -45,7 +45,7 @@ std::int64_t ascii_count(const std::string &path, std::string_view text) {
 }
 
 // Returns the number of triangles that reading the file must give. VTK ignores the count in a binary file and the end mark in an
-// ASCII file. So it reads a truncated file as a smaller surface.
+// ASCII file. VTK therefore reads a truncated file as a smaller surface.
 std::int64_t promised_triangles(const std::string &path, std::string_view bytes) {
   const std::int64_t n = binary_count(bytes);
   const std::int64_t n_behind =
@@ -60,7 +60,7 @@ std::int64_t promised_triangles(const std::string &path, std::string_view bytes)
 }
 
 // Reads an .stl file, ASCII or binary. Returns polydata with the triangles in the file's order. Each triangle has its own three
-// points. Merging points would remove triangles and change the ids of others.
+// points. If points were merged, triangles would vanish, and the ids of others would change.
 vtkSmartPointer<vtkPolyData> read_stl(const std::string &path, const CaughtOutput &caught) {
   const std::int64_t n_promised = promised_triangles(path, MappedFile(path, check_readable(path)).bytes());
   if (n_promised == 0) fail_file(path, "holds no faces");

@@ -73,8 +73,8 @@ bool is_inner_diagonal(vtkPointSet *data, const vtkIdList *ids, vtkIdType i) {
   return vtkMath::Dot(one.data(), other.data()) > 0;
 }
 
-// Both this file and the core cut quads from their first corner to their third. So if only the other diagonal lies inside the
-// quad, rotates the list of corners by one.
+// Both this file and the core cut quads from their first corner to their third. If only the other diagonal lies inside the
+// quad, the list of corners is therefore rotated by one.
 void put_inner_diagonal_first(vtkPointSet *data, vtkIdList *ids) {
   if (!is_inner_diagonal(data, ids, 0) && is_inner_diagonal(data, ids, 1)) {
     std::rotate(ids->begin(), ids->begin() + 1, ids->end());
@@ -123,7 +123,7 @@ bool holds_quads_only(vtkPointSet *data) {
   return true;
 }
 
-// Returns one leaflet id for each cell, or none if the array is missing. Fails if it is missing and required.
+// Returns one leaflet id for each cell, or none if the array is missing. Fails if the array is missing but required.
 std::vector<std::int32_t> leaflets_of_cells(const std::string &path, vtkPointSet *data, const LeafletArray &wanted) {
   const std::string name = "cell array " + wanted.name;
   vtkAbstractArray *abstract = data->GetCellData()->GetAbstractArray(wanted.name.c_str());

@@ -54,11 +54,11 @@ void append_faces(Faces &faces, const Faces &other);
 // their coordinates are exactly equal.
 std::vector<std::int64_t> places_of(const Faces &faces);
 
-// Returns the piece that every face belongs to. Pieces are numbered in the order of their first faces. Faces are connected if
-// they share a vertex or have vertices with exactly equal coordinates.
+// Returns the piece to which every face belongs. Pieces are numbered in the order of their first faces. Faces are connected
+// if they share a vertex or have vertices with exactly equal coordinates.
 std::vector<std::int32_t> pieces_of(const Faces &faces);
 
-// Fills the caller's struct with the arrays of the faces. struct_size is the size that the struct has in the caller's release of
+// Fills the caller's struct with the arrays of the faces. struct_size is the size of the struct in the caller's release of
 // riis.h.
 void give_arrays(const Faces &faces, riis_surface_arrays *arrays, std::int64_t struct_size);
 
@@ -76,7 +76,7 @@ struct Frames {
   std::vector<double> xyz;    // (3, n_vertices, n_keys)
 };
 
-// Reads a file for each time. Fails if a file has other cells than the first one, or if a coordinate is not finite. In .stl
+// Reads a file for each time. Fails if a file has other cells than the first file, or if a coordinate is not finite. In .stl
 // files, corners at the same position in the first file become one vertex. In each other file, these corners must also share one
 // position.
 Frames frames_of_files(const std::vector<std::string> &paths, std::vector<double> times, const LeafletArray &leaflets,
@@ -88,8 +88,8 @@ Frames frames_of_displacements(const std::string &path, const std::string &prefi
                                const LeafletArray &leaflets, const CaughtOutput &caught);
 
 // Reads the frames of svMultiPhysics: a .dat file with the positions of all nodes, frame by frame. The faces are in a .vtu or
-// .vtp file beside it: NAME_motion_open.dat takes NAME_motion_open, NAME_motion or NAME, each also followed by _mesh or _face.
-// The times are multiples of the time step, from 0.
+// .vtp file in the same folder. For NAME_motion_open.dat it is NAME_motion_open, NAME_motion or NAME, each also followed by
+// _mesh or _face. The times are multiples of the time step, from 0.
 Frames frames_of_text(const std::string &path, double time_step, const LeafletArray &leaflets,
                       const CaughtOutput &caught);
 
