@@ -3870,11 +3870,11 @@ subroutine riisf_surface_orifice_in_wall(surface, wall, half_thickness, rim, are
   integer(int64), intent(in) :: wall                      !< A ring or a tube in the same frame.
   real(c_double), intent(in) :: half_thickness            !< eps of the resistance; RIIS_AUTO: the surface's.
   integer(int32), intent(in) :: rim                       !< RIIS_RIM_*, usually RIIS_RIM_ROUND.
-  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline only axis and
-                                                          !! rim_reach differ from 0.
+  real(c_double), intent(inout) :: area                   !< The area of the orifice. Without an outline, all fields but axis
+                                                          !! and rim_reach are 0.
   real(c_double), intent(inout) :: outline_area           !< The area inside the outline.
-  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. The edge is
-                                                          !! first moved inwards by a tenth of the half thickness, so that
+  real(c_double), intent(inout) :: perimeter              !< The length of the orifice's edge along the triangles. Before that,
+                                                          !! the edge moves inwards by a tenth of the half thickness, so
                                                           !! narrower slits do not count. Parts of the edge on the outline are
                                                           !! walls and do not count.
   real(c_double), intent(inout) :: effective_area         !< The area that the band around the valve leaves to the flow. The
