@@ -131,6 +131,14 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
  * At most 20,000 cells, at equal distances in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
+/* Tells which points are farther than a distance outside the mesh, that is from all of its volume cells. Cells of
+ * higher order count with straight edges. A point is outside a mesh in pieces if it is outside of each piece.
+ *   xyz         (3, n_points), finite
+ *   distance    >= 0, finite. 0 asks which points no cell contains
+ *   is_outside  (n_points). In: 0 for points that are not asked about. Out: 0 also for the points that are not outside */
+RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
+                                                double distance, uint8_t *is_outside);
+
 /* Makes a mesh of all cells that have one of the given nodes, with all nodes of these cells. Nodes and cells
  * keep their order and their data. Two arrays have their ids in the whole mesh: riis_node_id of points and
  * riis_cell_id of cells (Int64). The part borrows nothing.

@@ -483,10 +483,33 @@ def test_a_valve_outside(small):
     model.cure("inside")
     assert light(model, "inside").level == "good" and abs(model.valves[i].origin[1]) < 1.0
     model.place(i, (1.0, 0.0, 0.0))
-    vertices = numpy.array(model.surface(i).vertices)
-    share = (numpy.hypot(vertices[:, 0], vertices[:, 1]) > 1.3 + 0.1).mean()
+    share = share_outside(model.surface(i), 1.3 + 0.1)
     found = light(model, "inside")
-    assert found.level == "warn" and found.cure is None and abs(float(re.match("([0-9]+) %", found.text)[1]) / 100 - share) < 0.06
+    assert found.level == "warn" and found.cure is None and abs(float(re.match("([0-9]+) %", found.text)[1]) / 100 - share) < 0.02
+    assert 0 < len(found.points) <= 300 and (numpy.hypot(found.points[:, 0], found.points[:, 1]) > 1.3).all()
+
+
+def share_outside(surface, radius):
+    """The share of the area outside a cylinder, by the middles of the triangles."""
+    corners = numpy.array(surface.vertices)[surface.triangles.vertex_id]
+    area = numpy.linalg.norm(numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return area[numpy.hypot(*corners.mean(axis=1)[:, :2].T) > radius].sum() / area.sum()
+
+
+def test_the_light_inside_is_green_up_to_two_percent(fine):
+    """The valve is shifted step by step. The light turns where the share of the area outside the cylinder passes 2 %."""
+    model = view.Model(*fine, unit="cm")
+    i = model.add("coapting")
+    model.set(i, "half_thickness", 0.16)
+    levels = {}
+    for shift in numpy.linspace(0.0, 0.8, 17):
+        model.place(i, (shift, 0.0, 0.0))
+        share = share_outside(model.surface(i), 1.3 + 0.16)
+        found = light(model, "inside")
+        if abs(share - 0.02) > 0.012:
+            assert found.level == ("good" if share < 0.02 else "warn"), (shift, share, found.text)
+        levels[found.level] = share
+    assert levels["good"] < 0.035 and levels["warn"] > 0.1
 
 
 def test_crossing_leaflets(small):

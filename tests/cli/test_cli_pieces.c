@@ -57,7 +57,8 @@ static void expect_same_numbers(const char *a, const char *b) {
                                      "most",
                                      "mean_edge",
                                      "n_edges",
-                                     "effective_area"};
+                                     "effective_area",
+                                     "share"};
   for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) expect_same(keys[i], a, b);
 }
 

@@ -234,6 +234,8 @@ Triangles in .stl files must have the same order in all files.
 A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
 any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
 does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
+It is printed, too, if more than 2 % of the leaflets' area is farther than the half thickness outside the mesh. Skirts and the
+housing of a bileaflet valve do not count. A series is judged where each valve is least and most open.
 One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
 advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
 allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
@@ -243,7 +245,7 @@ at that place. They have the unit of --unit.
      R"(
 The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
 of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. Leaks are
-unknown in a mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Leaking edges do
+unknown in a mesh without volume cells, if no node is marked, and at cells whose edges are not known. Leaking edges do
 not show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
 are points of the mesh on either side of the valve, each as X,Y,Z.
 The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half
