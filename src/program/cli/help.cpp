@@ -186,7 +186,8 @@ the meshes have only the cells near the valve's whole motion. Their arrays riis_
 from 0. All times have the same cells.
 A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line
 then gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second
-behind the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
+behind the files. Files of steps that an earlier run of riis wrote to the same name, and this one does not, are removed. If a
+list that riis did not write names such a file, or no list does, the run is refused. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
 seconds for surface and marks. --picture draws the first time. --movie draws all times with one camera, and needs the program
 ffmpeg. The check for leaks runs at the time when the valve is least open. For --surface it runs at the first time. The numbers of
 --stats are those of this time, and "times" has the openings, marks and speeds of all times. An orifice is that of the largest
