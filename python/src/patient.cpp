@@ -284,10 +284,11 @@ void add_patient(nb::module_ &module) {
   module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // of the largest side of the valve
   module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;
   module.attr("MOST_OUTSIDE") = program::most_outside;  // of the leaflets' area, outside a mesh
-  module.def("area_samples", &area_samples, nb::arg("surface"), nb::arg("n_leaflets"),
-             nb::sig("def area_samples(surface: Surface, n_leaflets: int) -> tuple[numpy.typing.NDArray[numpy.float64], "
-                     "numpy.typing.NDArray[numpy.float64]]"),
-             "Returns points on the leaflets below n_leaflets, and the area for which each point stands.");
+  module.def(
+      "area_samples", &area_samples, nb::arg("surface"), nb::arg("n_leaflets"),
+      nb::sig("def area_samples(surface: Surface, n_leaflets: int) -> tuple[numpy.typing.NDArray[numpy.float64], "
+              "numpy.typing.NDArray[numpy.float64]]"),
+      "Returns points on the leaflets below n_leaflets, and the area for which each point stands.");
   module.def("judge_sizes", &judge_sizes, nb::arg("mesh").none(), nb::arg("surface").none(), nb::arg("origin").none(),
              nb::arg("edge").none(), nb::arg("half_thickness").none(), nb::arg("is_unit_known").none(),
              nb::sig("def judge_sizes(mesh: tuple[typing.Any, typing.Any], surface: tuple[typing.Any, typing.Any], "

@@ -512,6 +512,22 @@ def test_the_light_inside_is_green_up_to_two_percent(fine):
     assert levels["good"] < 0.035 and levels["warn"] > 0.1
 
 
+def test_cells_of_two_physical_groups_are_read_once(tmp_path):
+    """gmsh's version 2 has each of the two cubes once for each group. The wall of the view would otherwise be missing."""
+    pytest.importorskip("pyvista", reason="PyVista is missing; ./run python installs it")
+    pytest.importorskip("meshio", reason="meshio is missing; ./run python installs it")
+    nodes = [(x, y, z) for z in range(3) for y in range(2) for x in range(2)]
+    cubes = [[1, 2, 4, 3, 5, 6, 8, 7], [5, 6, 8, 7, 9, 10, 12, 11]]
+    elements = [(5, 2, group, cube + 1, *corners) for group in (1, 2) for cube, corners in enumerate(cubes)]
+    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", "12"]
+    lines += [f"{i + 1} {x} {y} {z}" for i, (x, y, z) in enumerate(nodes)] + ["$EndNodes", "$Elements", "4"]
+    lines += [" ".join(map(str, (i + 1, *element))) for i, element in enumerate(elements)] + ["$EndElements", ""]
+    (tmp_path / "twice.msh").write_text("\n".join(lines))
+    grid = reading.read_mesh(str(tmp_path / "twice.msh"), {})
+    assert grid.n_cells == 2 and grid.n_points == 12 and list(grid.cell_data["gmsh:physical"]) == [1, 1]
+    assert numpy.isclose(view.Model(**reading.arrays_of(grid))._region().wall().info.area, 10.0)
+
+
 def test_crossing_leaflets(small):
     model = view.Model(*small, unit="cm")
     i = model.add("trileaflet")

@@ -5,7 +5,6 @@
 #include <riis/riis_vtk.h>
 
 #include "brick_meshes.h"
-#include "calls.h"
 #include "expect.h"
 #include "program.h"
 #include "scratch.h"

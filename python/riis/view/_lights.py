@@ -145,7 +145,8 @@ def inside(scene: Scene) -> Light:
         )
         return Light("inside", "bad", f"no node is marked: {places}" if n_marked == 0 else f"the valve is outside: {places}",
                      "move the valve, or click three points of the annulus", cure, valve=scene.number)
-    outside = f"{100 * share:.{1 if share < 0.1 else 0}f} % of the leaflets' area is farther than the half thickness outside the mesh"
+    percent = f"{100 * share:.{1 if share < 0.1 else 0}f} %"
+    outside = f"{percent} of the leaflets' area is farther than the half thickness outside the mesh"
     if share > MOST_OUTSIDE:
         points = samples[is_out]
         return Light("inside", "warn", outside, "move or turn the valve, or make it smaller",

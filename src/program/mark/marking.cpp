@@ -111,7 +111,8 @@ std::vector<std::string> Marking::names_of_arrays() const {
   }
   if (all_.has_resistance()) names.push_back(options().prefix + "_K");
   if (all_.has_resistance() && has_velocities()) names.push_back(options().prefix + "_K_u_surface");
-  if (all_.is_series() && !options().series.all_cells) names.emplace_back("riis_node_id");
+  if (all_.is_series() && !options().series.all_cells && options().cells_where.empty())
+    names.emplace_back("riis_node_id");
   return names;
 }
 
@@ -260,6 +261,7 @@ void Marking::judge() {
   report_.n_cells = counts.n_cells;
   for (std::size_t i = 0; i < valves_.size(); ++i) report_marks(i, n_nodes, counts);
   warn_of_apart(counts, matched[0], mesh_);
+  mesh_.warn_of_regions();
   warn_of_marks(n_nodes, counts);
   for (std::size_t i = 0; i < valves_.size(); ++i) report_outside(i, counts);
   if (all_.is_series()) move_to_least_openings();

@@ -42,11 +42,6 @@ std::optional<StepName> step_name_of(const std::string &stem, const fs::path &pa
   return made;
 }
 
-// Returns whether the part is that of a piece of a mesh, such as p0012.
-bool is_piece(const std::string &part) {
-  return part.size() >= 5 && part[0] == 'p' && part.find_first_not_of("0123456789", 1) == std::string::npos;
-}
-
 bool is_file(const fs::path &path) {
   std::error_code error;
   return fs::is_regular_file(path, error);
@@ -72,7 +67,11 @@ const std::string list_of_riis =
     "<?xml version=\"1.0\"?>\n<!-- written by riis -->\n"
     "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n";
 
-EarlierFiles::EarlierFiles(const std::string &list, const std::function<bool(const StepName &)> &is_written) {
+bool StepName::is_of_piece() const {
+  return part.size() >= 5 && part[0] == 'p' && part.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+EarlierFiles::EarlierFiles(const std::string &list, const std::function<StepKind(const StepName &)> &kind_of) {
   const std::string stem = fs::path(list).stem().string();
   const fs::path folder = fs::path(list).parent_path() / stem;
   std::set<std::string> listed, removed, listed_digits;
@@ -87,13 +86,14 @@ EarlierFiles::EarlierFiles(const std::string &list, const std::function<bool(con
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const fs::path &path = at->path();
     const auto step = step_name_of(stem, path.filename());
-    if (!step || is_written(*step)) continue;
+    const StepKind kind = step ? kind_of(*step) : StepKind::written;
+    if (kind == StepKind::written) continue;
     const bool is_of_riis =
-        listed.count(in_list(path)) != 0 || (is_piece(step->part) && listed_digits.count(step->digits) != 0);
+        listed.count(in_list(path)) != 0 || (step->is_of_piece() && listed_digits.count(step->digits) != 0);
     if (is_of_riis) {
       paths_.push_back(path.string());
       removed.insert(in_list(path));
-    } else if (step->part.empty() || is_piece(step->part)) {
+    } else if (kind == StepKind::further) {
       refuse_data(path.string() + " would be taken for a step of " + list +
                   ", and no list of riis names it: remove it, or name another output");
     }

@@ -53,12 +53,13 @@ void SeriesFiles::check_folder() const {
 void SeriesFiles::find_earlier(const std::vector<std::string> &parts, bool has_pieces) {
   if (!is_wanted()) return;
   earlier_.emplace(pvd_, [&](const StepName &name) {
-    const bool is_piece = has_pieces && name.ending == ".vtu" && !name.part.empty();
+    const bool is_piece = has_pieces && name.ending == ".vtu" && name.is_of_piece();
     if (!is_piece && (name.ending != ending_ || std::find(parts.begin(), parts.end(), name.part) == parts.end()))
-      return false;
+      return StepKind::other;
     const auto step = number_in(name.digits);
-    return step && *step < static_cast<double>(n_times_) &&
-           name.digits == padded(static_cast<std::size_t>(*step), n_digits_);
+    const bool is_written = step && *step < static_cast<double>(n_times_) &&
+                            name.digits == padded(static_cast<std::size_t>(*step), n_digits_);
+    return is_written ? StepKind::written : StepKind::further;
   });
 }
 

@@ -103,9 +103,7 @@ class PointGrid {
 class SolidCells {
  public:
   explicit SolidCells(vtkUnstructuredGrid *grid)
-      : grid_(grid),
-        xyz_(vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0)),
-        polygons_(grid) {}
+      : grid_(grid), xyz_(vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())->GetPointer(0)), polygons_(grid) {}
 
   // Calls visit with each volume cell and its bounds.
   template <class Visit>
