@@ -88,11 +88,13 @@ std::set<double> numbers_of(const Where &where, const std::vector<RegionName> &n
 }
 
 // Returns the values of volume cells as text, at most a few.
-std::string values_text(vtkUnstructuredGrid *grid, vtkDataArray *array) {
+std::string values_text(vtkUnstructuredGrid *grid, const std::vector<vtkDataArray *> &arrays) {
   constexpr std::size_t most_listed = 10;
   std::set<double> values;
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells() && values.size() <= most_listed; ++cell)
-    if (is_volume(grid, cell)) values.insert(array->GetTuple1(cell));
+    if (is_volume(grid, cell))
+      for (vtkDataArray *const array : arrays)
+        if (const double value = array->GetTuple1(cell); array == arrays[0] || value != 0) values.insert(value);
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : ", ") + joined(value);
   return values.size() > most_listed ? text + ", ..." : text;
@@ -118,7 +120,7 @@ void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chose
     *n_chosen = n;
   else if (n == 0)
     refuse_argument("where: no ", needs_volumes ? "volume cell" : "cell", " has such a value of ", where.name,
-                    needs_volumes ? "; they have " + values_text(grid, arrays[0]) : "");
+                    needs_volumes ? "; they have " + values_text(grid, arrays) : "");
   keep_cells(mesh, cells);
 }
 
