@@ -119,7 +119,7 @@ TEST(test_share_of_two_sheets) {
   CHECK_NEAR(json_number(strstr(json, "\"leaflets\""), "share"), expected, 0.003);
   assert_non_null(strstr(json, "\"name\": \"out\""));
   assert_null(strstr(json, "\"name\": \"in\""));
-  assert_non_null(strstr(program_err,
+  assert_non_null(strstr(program_outside,
                          "the surface stands through the wall: 31 % of the leaflets' area (out 46 %) is farther "
                          "than the half thickness 0.15 outside the mesh: move it"));
   assert_non_null(strstr(program_out, "outside   31 % of the leaflets' area (out 46 %)"));
@@ -131,7 +131,7 @@ TEST(test_share_of_two_sheets) {
   /* Up to 2 % is said, but is no warning. */
   write_sheet("out.obj", -2.21, 1);
   json = MARK_BOX("--half-thickness", "0.15", "--surface", scratch_path("out.obj"));
-  assert_string_equal(program_err, "");
+  assert_string_equal(program_outside, "");
   CHECK_NEAR(json_number(strstr(json, "\"outside\""), "share"), 0.06 / 3.21, 0.002);
   assert_non_null(strstr(program_out, "outside   1.9 % of the leaflets' area (leaflet 0 1.9 %)"));
   free(json);
@@ -184,8 +184,8 @@ TEST(test_skirts_and_housings_do_not_count) {
     const double expected = random_share(kinds[i], skirt, i == 0 ? 3 : 2, lower, size);
     CHECK_NEAR(json_number(strstr(json, "\"outside\""), "share"), expected, 0.005);
     assert_true(expected > 0.01);
-    assert_true((strstr(program_err, "stands through the wall") != NULL) == (expected > 0.02));
-    assert_null(strstr(program_err, "skirt"));
+    assert_true((strstr(program_outside, "stands through the wall") != NULL) == (expected > 0.02));
+    assert_null(strstr(program_outside, "skirt"));
     free(json);
   }
 }
@@ -200,7 +200,7 @@ TEST(test_a_series_tells_of_the_open_valve) {
   const double open = json_number(strstr(json, "\"outside\""), "share");
   assert_true(open > 0.02);
   CHECK_NEAR(json_number(strstr(json, "\"outside\""), "opening"), 1, 0);
-  assert_non_null(strstr(program_err, "the surface stands through the wall at opening 1: "));
+  assert_non_null(strstr(program_outside, "the surface stands through the wall at opening 1: "));
   free(json);
   json = MARK_BOX("--valve", "coapting", "--opening", "1");
   CHECK_NEAR(json_number(strstr(json, "\"outside\""), "share"), open, 1e-9);
