@@ -140,7 +140,7 @@ RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, do
  * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
 RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
 /* Gives a cell array that seems to tell domains apart: 2 to 16 whole numbers at the volume cells, two of which are at
- * cells with a common node. Arrays whose names speak of something else, such as "rank", do not count.
+ * cells of one type with a common node. Arrays whose names speak of something else, such as "rank", do not count.
  *   array     its name, until the next call or the mesh's destruction. "" if there is none
  *   n_values  the number of its values; 0 if there is none
  *   values    (n_values), ascending. NULL if they are not wanted */

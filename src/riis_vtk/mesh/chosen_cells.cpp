@@ -137,12 +137,14 @@ bool may_tell_domains(const std::string &array_name) {
                       [&](const char *word) { return name.find(word) != std::string::npos; });
 }
 
-// Returns the values of volume cells, if they are few whole numbers, and two of them are of cells with a common node. Otherwise
-// returns none.
+// Returns the values of volume cells, if they are few whole numbers, and two of them are of cells of one type with a common node.
+// Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
 std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
   constexpr std::size_t most_regions = 16;
   std::set<double> values;
+  // The value and the type of the first cell at each node.
   std::vector<double> of_node(static_cast<std::size_t>(grid->GetNumberOfPoints()), NAN);
+  std::vector<int> type_at(of_node.size());
   bool do_touch = false;
   vtkNew<vtkIdList> nodes;
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
@@ -151,10 +153,14 @@ std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *arr
     values.insert(value);
     if (value != std::floor(value) || values.size() > most_regions) return {};
     grid->GetCellPoints(cell, nodes);
+    const int type = grid->GetCellType(cell);
     for (const vtkIdType node : *nodes) {
       double &of = view(of_node)[node];
-      if (std::isnan(of)) of = value;
-      do_touch = do_touch || of != value;
+      if (std::isnan(of)) {
+        of = value;
+        view(type_at)[node] = type;
+      }
+      do_touch = do_touch || (of != value && view(type_at)[node] == type);
     }
   }
   if (!do_touch) return {};
