@@ -94,7 +94,7 @@ std::string outside_text(const OutsideReport &report) {
 void warn_of_outside(const OutsideReport &report, double half_thickness, const std::string &name) {
   if (report.share <= most_outside) return;
   const std::string at = report.opening ? printed(" at opening %g", *report.opening) : "";
-  warn({{Cause::place,
+  warn({{Cause::outside,
          name + " stands through the wall" + at + ": " + outside_text(report) + " is farther than the half thickness " +
              shown(half_thickness) + " outside the mesh",
          ": move it, turn it or make it smaller"}});
