@@ -131,6 +131,30 @@ RIIS_API riis_status riis_vtk_mesh_has_point_array(const riis_vtk_mesh *mesh, co
  * At most 20,000 cells, at equal distances in the list, are measured. */
 RIIS_API riis_status riis_vtk_mesh_get_median_edge(const riis_vtk_mesh *mesh, double *length);
 
+/* Keeps only the cells with certain values in a cell array, such as the fluid of a mesh that also has the wall, and
+ * their nodes. Nodes and cells keep their order and their data. As in riis_vtk_mesh_extract, riis_node_id and
+ * riis_cell_id have their ids in the whole mesh, also in later parts of this mesh.
+ *   where     NAME=VALUES, such as "region=1,2". NAME is a cell array of single numbers. For gmsh's physical groups it
+ *             is gmsh:physical, and VALUES may be names of groups; all groups of a cell count
+ *   n_chosen  the number of cells with such a value; only volume cells count if the mesh has some. NULL refuses none
+ * Errors: RIIS_INVALID_ARGUMENT if there is no such array or name; the mesh is then unchanged. */
+RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen);
+/* Gives a cell array that seems to tell domains apart: 2 to 16 whole numbers at the volume cells, two of which are at
+ * cells of one type with a common node. Arrays whose names speak of something else, such as "rank", do not count.
+ *   array     its name, until the next call or the mesh's destruction. "" if there is none
+ *   n_values  the number of its values; 0 if there is none
+ *   values    (n_values), ascending. NULL if they are not wanted */
+RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char **array, int64_t *n_values,
+                                                const double **values);
+
+/* Tells which points are farther than a distance outside the mesh, that is from all of its volume cells. Cells of
+ * higher order count with straight edges. A point is outside a mesh in pieces if it is outside of each piece.
+ *   xyz         (3, n_points), finite
+ *   distance    >= 0, finite. 0 asks which points no cell contains
+ *   is_outside  (n_points). In: 0 for points that are not asked about. Out: 0 also for the points that are not outside */
+RIIS_API riis_status riis_vtk_mesh_find_outside(const riis_vtk_mesh *mesh, int64_t n_points, const double *xyz,
+                                                double distance, uint8_t *is_outside);
+
 /* Makes a mesh of all cells that have one of the given nodes, with all nodes of these cells. Nodes and cells
  * keep their order and their data. Two new arrays give their ids in the whole mesh: riis_node_id of points
  * and riis_cell_id of cells (Int64). The part borrows nothing.

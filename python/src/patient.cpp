@@ -10,6 +10,7 @@
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "module.hpp"
+#include "program/base/area_samples.hpp"
 #include "program/base/refusal.hpp"
 #include "program/base/text.hpp"
 #include "program/base/units.hpp"
@@ -267,6 +268,14 @@ nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handl
   return nb::make_tuple(program::sizes_fit_at(1, sizes), factor ? nb::cast(1 / *factor) : nb::none());
 }
 
+nb::tuple area_samples(Surface &surface, std::int32_t n_leaflets) {
+  const Reading reading(surface.usage, "surface");
+  program::AreaSamples samples;
+  call_program("surface", [&] { samples = program::area_samples(surface.handle, n_leaflets); });
+  const std::size_t n = samples.area.size();
+  return nb::make_tuple(copy_of(samples.xyz.data(), {n, 3}), copy_of(samples.area.data(), {n}));
+}
+
 }  // namespace
 
 void add_patient(nb::module_ &module) {
@@ -275,6 +284,12 @@ void add_patient(nb::module_ &module) {
   module.attr("LARGEST_HALF_THICKNESS") = program::largest_half_thickness;  // as a multiple of the largest side of
                                                                             // the valve
   module.attr("USUAL_HALF_THICKNESS") = program::usual_half_thickness;
+  module.attr("MOST_OUTSIDE") = program::most_outside;  // of the leaflets' area, outside a mesh
+  module.def(
+      "area_samples", &area_samples, nb::arg("surface"), nb::arg("n_leaflets"),
+      nb::sig("def area_samples(surface: Surface, n_leaflets: int) -> tuple[numpy.typing.NDArray[numpy.float64], "
+              "numpy.typing.NDArray[numpy.float64]]"),
+      "Returns points on the leaflets below n_leaflets, and the area for which each point stands.");
   module.def("judge_sizes", &judge_sizes, nb::arg("mesh").none(), nb::arg("surface").none(), nb::arg("origin").none(),
              nb::arg("edge").none(), nb::arg("half_thickness").none(), nb::arg("is_unit_known").none(),
              nb::sig("def judge_sizes(mesh: tuple[typing.Any, typing.Any], surface: tuple[typing.Any, typing.Any], "

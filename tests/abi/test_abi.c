@@ -815,6 +815,9 @@ TEST(test_signatures) {
   SIGNATURE(riis_vtk_mesh_copy_cells, int32_t,
             (const riis_vtk_mesh *, int64_t, int64_t *, uint8_t *, int64_t, int64_t *));
   SIGNATURE(riis_vtk_mesh_get_median_edge, int32_t, (const riis_vtk_mesh *, double *));
+  SIGNATURE(riis_vtk_mesh_choose_cells, int32_t, (riis_vtk_mesh *, const char *, int64_t *));
+  SIGNATURE(riis_vtk_mesh_find_regions, int32_t, (riis_vtk_mesh *, const char **, int64_t *, const double **));
+  SIGNATURE(riis_vtk_mesh_find_outside, int32_t, (const riis_vtk_mesh *, int64_t, const double *, double, uint8_t *));
   SIGNATURE(riis_vtk_mesh_extract, int32_t, (const riis_vtk_mesh *, int64_t, const int64_t *, riis_vtk_mesh **));
   SIGNATURE(riis_vtk_mesh_get_file_size, int32_t, (const riis_vtk_mesh *, int64_t *));
   SIGNATURE(riis_vtk_mesh_write, int32_t, (const riis_vtk_mesh *, const char *));

@@ -41,8 +41,8 @@ static const int wedge_places[2][3][2] = {{{0, 0}, {2, 0}, {0, 2}}, {{2, 2}, {0,
 static const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
 static const int tetrahedron_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
-/* The place of node a of element i of a brick. Half of the tetrahedra are inside out, and the solver corrects them. */
-static void place_in_brick(const element *type, int i, int a, int at[3]) {
+/* The place of node a of element i of a brick. Half of the tetrahedra are inside out, and the solver turns them. */
+static inline void place_in_brick(const element *type, int i, int a, int at[3]) {
   if (type->n_in_brick == 1) {
     memcpy(at, hexahedron_places[a], 3 * sizeof *at);
   } else if (type->n_in_brick == 2) {
@@ -61,7 +61,7 @@ static void place_in_brick(const element *type, int i, int a, int at[3]) {
 }
 
 /* The share of the cell's volume that belongs to its node a. */
-static double share_of_node(const element *type, int a) {
+static inline double share_of_node(const element *type, int a) {
   switch (type->vtk) {
     case 24:
       return a < 4 ? -1.0 / 20 : 1.0 / 5;
@@ -74,8 +74,8 @@ static double share_of_node(const element *type, int a) {
   }
 }
 
-/* Makes a box of n bricks along each side. The columns of `side` are the box's sides. */
-static mesh make_mesh(const element *type, const int n[3], const double corner[3], double side[3][3]) {
+/* Makes a box of n bricks along its sides, whose sides are the columns of `side`. */
+static inline mesh make_mesh(const element *type, const int n[3], const double corner[3], double side[3][3]) {
   mesh made = {type, 0, 0, NULL, NULL, NULL, 0};
   const int n_bricks = n[0] * n[1] * n[2], lines[3] = {2 * n[0] + 1, 2 * n[1] + 1, 2 * n[2] + 1};
   static int number[most_nodes];
@@ -111,13 +111,13 @@ static mesh make_mesh(const element *type, const int n[3], const double corner[3
   return made;
 }
 
-static void free_mesh(mesh *of) {
+static inline void free_mesh(mesh *of) {
   free(of->xyz);
   free(of->volume);
   free(of->node);
 }
 
-static void write_mesh(const mesh *of, const char *name) {
+static inline void write_mesh(const mesh *of, const char *name) {
   FILE *file = fopen(scratch_path(name), "w");
   assert_non_null(file);
   fprintf(file, "# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS %d double\n", of->n_nodes);
@@ -141,14 +141,14 @@ typedef struct {
   double point[27][3], weight[27]; /* weights are shares of the cell's volume */
 } rule;
 
-static void add_point(rule *to, double x, double y, double z, double weight) {
+static inline void add_point(rule *to, double x, double y, double z, double weight) {
   const double point[3] = {x, y, z};
   memcpy(to->point[to->n], point, sizeof point);
   to->weight[to->n++] = weight;
 }
 
 /* All points whose four barycentric coordinates are a, a, b, b or a, b, b, b in any order. */
-static void add_barycentric(rule *to, double a, double b, int n_a, double weight) {
+static inline void add_barycentric(rule *to, double a, double b, int n_a, double weight) {
   for (int set = 0; set < 16; ++set) {
     double l[4];
     int n = 0;
@@ -160,7 +160,7 @@ static void add_barycentric(rule *to, double a, double b, int n_a, double weight
   }
 }
 
-static rule gauss_of(const element *type) {
+static inline rule gauss_of(const element *type) {
   rule to;
   memset(&to, 0, sizeof to);
   if (type->vtk == 10) {

@@ -14,7 +14,7 @@
 
 int program_exit_code;
 char program_out[longest_output], program_err[longest_output], program_leaks[longest_output],
-    program_crossings[longest_output];
+    program_crossings[longest_output], program_outside[longest_output];
 const char *program_file = NULL;
 const char *program_stdout;
 static int out, err; /* streams of the running process */
@@ -40,17 +40,19 @@ static void take_text(int file, char text[longest_output]) {
   close(file);
 }
 
-/* Moves the warnings about leaks and crossings from program_err to buffers of their own. Most meshes of the tests are so
- * coarse that the valve leaks, and leaflets of unusual sizes cross. */
+/* Moves the warnings about leaks, crossings and leaflets outside the mesh from program_err to buffers of their own. Most meshes
+ * of the tests are so coarse that the valve leaks, some are smaller than the valve, and leaflets of unusual sizes cross. */
 static void take_common_warnings(void) {
-  program_leaks[0] = program_crossings[0] = 0;
+  program_leaks[0] = program_crossings[0] = program_outside[0] = 0;
   for (char *line = program_err; *line;) {
     char *const end = strchr(line, '\n'), *const next = end ? end + 1 : line + strlen(line);
     const size_t length = (size_t)(next - line);
     const char *const leaks = strstr(line, " leaks: "), *const cross = strstr(line, " go through each other");
+    const char *const outside = strstr(line, " stands through the wall");
     const int is_leak = strncmp(line, "riis: the surface", 17) == 0 && leaks && leaks < next;
-    if (is_leak || (cross && cross < next)) {
-      strncat(is_leak ? program_leaks : program_crossings, line, length);
+    const int is_outside = outside && outside < next;
+    if (is_leak || is_outside || (cross && cross < next)) {
+      strncat(is_leak ? program_leaks : is_outside ? program_outside : program_crossings, line, length);
       memmove(line, next, strlen(next) + 1);
     } else {
       line = next;

@@ -15,6 +15,7 @@ extern int program_exit_code; /* 128 + N if signal N ended the program */
 extern char program_out[longest_output], program_err[longest_output];
 extern char program_leaks[longest_output];     /* the warning about leaks, not in program_err; "" if none */
 extern char program_crossings[longest_output]; /* the warning about crossings; "" if there was none */
+extern char program_outside[longest_output];   /* the warning about leaflets outside the mesh; "" if there was none */
 
 /* The path of a file for the program's stdout, or "" for a closed stdout. NULL, the default, keeps stdout in program_out. */
 extern const char *program_stdout;

@@ -252,7 +252,7 @@ TEST(test_other_cells) {
   assert_true(json_number(json, "n_volume_cells") == 3 * 8);
   free(json);
   run_program("mark", scratch_path("zoo.vtu"), "--translate", "50,0,0", NULL);
-  assert_non_null(strstr(program_out, "\nleaks     none: no edge crosses the surface between unmarked nodes\n"));
+  assert_non_null(strstr(program_out, "\nleaks     unknown: no node is marked\n"));
 }
 
 /* Tests the coordinates of a leak in a small mesh far from the origin, in two units. The number of digits depends on the

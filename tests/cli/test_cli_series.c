@@ -30,10 +30,10 @@ static const char *step_path(const char *folder, int step, const char *ending) {
 static void expect_list(const char *pvd, const char *folder, const char *ending, int n,
                         const char *const time_texts[]) {
   char *found = scratch_read(scratch_path(pvd), NULL), *expected = malloc(4096);
-  int at =
-      sprintf(expected,
-              "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-              "  <Collection>\n");
+  int at = sprintf(expected,
+                   "<?xml version=\"1.0\"?>\n<!-- written by riis -->\n<VTKFile type=\"Collection\" version=\"0.1\" "
+                   "byte_order=\"LittleEndian\">\n"
+                   "  <Collection>\n");
   for (int i = 0; i < n; ++i)
     at += sprintf(expected + at, "    <DataSet timestep=\"%s\" part=\"0\" file=\"%s/%s_%04d.%s\"/>\n", time_texts[i],
                   folder, folder, i, ending);
@@ -387,6 +387,78 @@ TEST(test_names) {
   assert_non_null(strstr(list, "file=\"a &amp; &lt;b&gt;/a &amp; &lt;b&gt;_0000.vtu\""));
   assert_true(scratch_exists("a & <b>/a & <b>_0004.vtu"));
   free(list);
+}
+
+/* Marks at times with this last one, every 0.1. */
+#define RUN_UNTIL(mesh, last, ...)                                                                    \
+  (run_program("mark", scratch_path(mesh), "--valve", "mitral", "--half-thickness", "0.3", "--cycle", \
+               scratch_path("cycle.csv"), "--times", "0:" last ":0.1", __VA_ARGS__, NULL),            \
+   assert_int_equal(program_exit_code, 0))
+
+TEST(test_files_of_an_earlier_run_go) {
+  scratch_write_text("cycle.csv", cycle);
+  RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("old.pvd"), "--surface-output", scratch_path("leaf.pvd"));
+  assert_null(strstr(program_out, "removed"));
+  /* Files of other names are the user's. */
+  scratch_write_text("old/old_notes_2024.vtu", "mine");
+  scratch_write_text("old/old_12.vtu", "mine");
+  scratch_write_text("old/other_0003.vtu", "mine");
+  RUN_UNTIL("in.vtu", "0.1", "--output", scratch_path("old.pvd"), "--surface-output", scratch_path("leaf.pvd"));
+  assert_non_null(strstr(program_out, "2 files in "));
+  assert_non_null(strstr(program_out, "; 3 files of an earlier run removed\n"));
+  for (int step = 0; step < n_times; ++step) {
+    char name[64];
+    snprintf(name, sizeof name, "old/old_%04d.vtu", step);
+    assert_int_equal(scratch_exists(name), step < 2);
+    snprintf(name, sizeof name, "leaf/leaf_%04d.vtp", step);
+    assert_int_equal(scratch_exists(name), step < 2);
+  }
+  assert_true(scratch_exists("old/old_notes_2024.vtu") && scratch_exists("old/old_12.vtu"));
+  assert_true(scratch_exists("old/other_0003.vtu"));
+  static const char *const texts[] = {"0", "0.1"};
+  expect_list("old.pvd", "old", "vtu", 2, texts);
+}
+
+TEST(test_files_of_a_hand_made_list_stay) {
+  static const char *const by_hand =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
+      "<Collection>\n"
+      "    <DataSet timestep=\"0.3\" part=\"0\" file=\"hand/hand_0003.vtu\"/>\n  </Collection>\n</VTKFile>\n";
+  scratch_write_text("cycle.csv", cycle);
+  RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("hand.pvd"));
+  /* Another list, which riis did not write, names one of the files. */
+  scratch_write_text("mine.pvd", by_hand);
+  RUN_REFUSED(1, "mine.pvd names hand/hand_0003.vtu, a step of an earlier ", "mark", scratch_path("in.vtu"), "--valve",
+              "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"), "--times", "0,0.1", "--output",
+              scratch_path("hand.pvd"));
+  assert_true(scratch_exists("hand/hand_0003.vtu") && scratch_exists("hand/hand_0004.vtu"));
+  /* The list of this name is not by riis. */
+  assert_int_equal(remove(scratch_path("mine.pvd")), 0);
+  scratch_write_text("hand.pvd", by_hand);
+  for (int is_listed = 1; is_listed >= 0; --is_listed) {
+    RUN_REFUSED(1, "and no list of riis names it: remove it, or name another output", "mark", scratch_path("in.vtu"),
+                "--valve", "mitral", "--half-thickness", "0.3", "--cycle", scratch_path("cycle.csv"), "--times",
+                "0,0.1", "--output", scratch_path("hand.pvd"));
+    assert_true(scratch_exists("hand/hand_0003.vtu") && scratch_exists("hand/hand_0004.vtu"));
+    remove(scratch_path("hand.pvd"));
+  }
+  /* A run that writes all these files replaces them, as ever. */
+  RUN_UNTIL("in.vtu", "0.4", "--output", scratch_path("hand.pvd"));
+}
+
+TEST(test_earlier_files_of_a_mesh_in_pieces_go) {
+  scratch_write_text("cycle.csv", cycle);
+  assert_int_equal(shim_write_pieces(scratch_path("in.vtu"), scratch_path("parts.pvtu"), 3), 1);
+  RUN_UNTIL("parts.pvtu", "0.4", "--output", scratch_path("pieces.pvd"));
+  assert_true(scratch_exists("pieces/pieces_0003.pvtu") && scratch_exists("pieces/pieces_p0002_0003.vtu"));
+  RUN_UNTIL("parts.pvtu", "0.2", "--output", scratch_path("pieces.pvd"));
+  assert_non_null(strstr(program_out, "; 8 files of an earlier run removed\n"));
+  assert_true(scratch_exists("pieces/pieces_0002.pvtu") && scratch_exists("pieces/pieces_p0002_0002.vtu"));
+  assert_false(scratch_exists("pieces/pieces_0003.pvtu") || scratch_exists("pieces/pieces_p0002_0003.vtu"));
+  /* The whole mesh has other files. */
+  RUN_UNTIL("in.vtu", "0.1", "--output", scratch_path("pieces.pvd"));
+  assert_non_null(strstr(program_out, "; 12 files of an earlier run removed\n"));
+  assert_false(scratch_exists("pieces/pieces_0000.pvtu") || scratch_exists("pieces/pieces_p0000_0000.vtu"));
 }
 
 static int make_mitral_box(void **state) { return make_box_of(state, (double[3]){-3, -3, -2}, (double[3]){3, 3, 2}); }

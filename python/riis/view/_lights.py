@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from riis._errors import Error
 from riis._place import UNITS, WORDS_OF_UNITS
 from riis._riis import (
-    LARGEST_HALF_THICKNESS, USUAL_HALF_THICKNESS, Marks, Surface, find_crossings, find_leaks, find_passage, judge_sizes,
+    LARGEST_HALF_THICKNESS, MOST_OUTSIDE, USUAL_HALF_THICKNESS, Marks, Surface, area_samples, find_crossings, find_leaks,
+    find_passage, judge_sizes,
 )
 from riis.view._cells import Region, WholeMesh
 from riis.view._valves import ValveState
@@ -26,7 +27,8 @@ Reals = NDArray[numpy.float64]
 NAMES = ("unit", "inside", "half_thickness", "crossing", "wall", "sealed")  # in the order in which faults are corrected
 LEVELS = ("bad", "warn", "good", "off")  # the worst first
 
-_N_LEAFLETS = {"aortic": 3, "coapting": 3, "trileaflet": 3, "mitral": 2}  # a skirt has the next leaflet id
+# Skirts have the leaflet id 3, and the housing 2.
+_N_LEAFLETS = {"aortic": 3, "coapting": 3, "trileaflet": 3, "mitral": 2, "bileaflet": 2}
 _MOST_DRAWN = 300  # crossing pairs that are drawn
 
 _NO_POINTS = numpy.empty((0, 3))
@@ -123,34 +125,34 @@ def unit(scene: Scene) -> Light:
 
 
 def inside(scene: Scene) -> Light:
-    """Judges whether the valve lies in the mesh. A skirt may extend beyond the wall."""
-    faces = scene.surface.triangles
-    of_leaflets = faces.leaflet_id < _N_LEAFLETS.get(scene.state.kind, 2**31 - 1)
-    vertices = numpy.array(scene.surface.vertices)[numpy.unique(faces.vertex_id[of_leaflets])]
+    """Judges whether the valve lies in the mesh. A skirt may reach beyond the wall."""
+    samples, area = area_samples(scene.surface, _N_LEAFLETS.get(scene.state.kind, 2**31 - 1))
     info = scene.surface.info
     wall = scene.region.wall()
     if wall is not None:
-        found = wall.closest_points(vertices, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
+        found = wall.closest_points(samples, side=True, point=False, normal=False, triangle_id=False, leaflet_id=False)
         assert found.side is not None and found.distance is not None
         is_out = (found.side > 0) & (found.distance > info.half_thickness)
     else:
         low, high = scene.region.points.min(axis=0, initial=math.inf), scene.region.points.max(axis=0, initial=-math.inf)
-        is_out = ((vertices < low - info.half_thickness) | (vertices > high + info.half_thickness)).any(axis=1)
-    share, n_marked = float(is_out.mean()), len(scene.marks)
+        is_out = ((samples < low - info.half_thickness) | (samples > high + info.half_thickness)).any(axis=1)
+    share, n_marked = float(area[is_out].sum() / area.sum()), len(scene.marks)
     cure = ("Move the valve into the mesh", "inside")
-    if n_marked == 0 or share == 1.0:
+    if n_marked == 0 or is_out.all():
         places = (
             f"the valve is at {_place((info.lower + info.upper) / 2)}, the mesh from {_place(scene.whole.lower)} to "
             f"{_place(scene.whole.upper)}"
         )
         return Light("inside", "bad", f"no node is marked: {places}" if n_marked == 0 else f"the valve is outside: {places}",
                      "move the valve, or click three points of the annulus", cure, valve=scene.number)
-    if share > 0.2:
-        return Light("inside", "warn", f"{100 * share:.0f} % of the leaflets lie outside the mesh",
-                     "move or turn the valve, or make it smaller", points=vertices[is_out][:_MOST_DRAWN],
-                     valve=scene.number)
+    percent = f"{100 * share:.{1 if share < 0.1 else 0}f} %"
+    outside = f"{percent} of the leaflets' area is farther than the half thickness outside the mesh"
+    if share > MOST_OUTSIDE:
+        points = samples[is_out]
+        return Light("inside", "warn", outside, "move or turn the valve, or make it smaller",
+                     points=points[:: 1 + len(points) // _MOST_DRAWN], valve=scene.number)
     text = f"{counted(n_marked, 'node')} {'is' if n_marked == 1 else 'are'} marked"
-    return Light("inside", "good", text + (f"; {100 * share:.0f} % of the leaflets lie outside" if share > 0.005 else ""),
+    return Light("inside", "good", text + (f"; {outside}" if share > 0.0005 else ""),
                  valve=scene.number)
 
 

@@ -77,11 +77,29 @@ def _by_meshio(path: str) -> Any:
     except ImportError:
         raise Refusal(f"{path}: this format needs meshio: pip install meshio") from None
     try:
-        return pyvista.from_meshio(meshio.read(path))
+        return pyvista.from_meshio(_cells_once(meshio.read(path)))
     except SystemExit:  # meshio ends the process for some files
         raise Refusal(f"{path}: is not a mesh that meshio can read") from None
     except Exception as error:
         raise Refusal(f"{path}: is not a mesh that meshio can read ({error})") from error
+
+
+def _cells_once(mesh: Any) -> Any:
+    """Leaves out cells that an earlier block has. gmsh's version 2 has a cell once for each of its physical groups."""
+    groups = mesh.cell_data.get("gmsh:physical")
+    if groups is None or len(numpy.unique(numpy.concatenate(groups))) < 2:
+        return mesh
+    before: dict[str, Any] = {}
+    for k, block in enumerate(mesh.cells):
+        rows = numpy.sort(block.data, axis=1)
+        earlier = before.get(block.type, rows[:0])
+        _, first = numpy.unique(numpy.concatenate([earlier, rows]), axis=0, return_index=True)
+        new = numpy.sort(first[first >= len(earlier)]) - len(earlier)
+        before[block.type] = numpy.concatenate([earlier, rows])
+        block.data = block.data[new]
+        for values in mesh.cell_data.values():
+            values[k] = values[k][new]
+    return mesh
 
 
 def arrays_of(grid: Any) -> dict[str, Any]:

@@ -30,6 +30,7 @@ struct ValveOptions {
   std::optional<double> opening;      // from 0 to 1
   std::optional<double> skirt;        // length of a skirt in the mesh's unit; with a wall, the longest to accept
   std::string wall;                   // a file with the wall that the skirt reaches; "": none
+  std::string cells_where;            // NAME=VALUES: the cells of the mesh that count; "": all
   std::string warp;                   // a file of landmarks on the valve and in the patient; "": none
   riis_surface_options surface_options = defaults<riis_surface_options>();
   std::optional<Unit> unit, surface_unit;  // units of the mesh and of the surface's file; they give the scale

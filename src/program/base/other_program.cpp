@@ -12,6 +12,7 @@
 #include <new>
 
 #include "program/base/refusal.hpp"
+#include "program/base/text.hpp"
 
 extern char **environ;
 

@@ -35,6 +35,8 @@ inline std::string with_option_named(const std::string &text) {
                                                                 {"options.n_threads ", "--threads "},
                                                                 {"arrays.far_distance ", "--far-distance "},
                                                                 {"resistance.R ", "--resistance "},
+                                                                {"where: ", "--cells-where: "},
+                                                                {"where is ", "--cells-where is "},
                                                                 {"time ", "--time "},
                                                                 {"frames.period ", "--period "},
                                                                 {"frames.time ", "--period: the time "}};

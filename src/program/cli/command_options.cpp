@@ -311,10 +311,17 @@ void declare_series(Command &command, MarkOptions &options) {
   command.option("--time")->excludes(times);
 }
 
+void declare_cells_where(Command &command, ValveOptions &options) {
+  command.text("--cells-where", "NAME=VALUES",
+               "Take only cells with such a value of a cell array, or gmsh:physical=NAME: riis help mesh",
+               options.cells_where);
+}
+
 void declare_mesh(Command &command, MarkOptions &options) {
   command.group("Mesh");
   command.text("MESH", "FILE", "The mesh: .vtu, .pvtu, .vtk, .vtm, .msh, .xdmf, .exo, or a case of OpenFOAM",
                options.mesh);
+  declare_cells_where(command, options);
 }
 
 void declare_allow_none(Command &command, MarkOptions &options) {
@@ -444,6 +451,8 @@ void declare_states(Command command, StatesOptions &options) {
 void declare_export(Command command, ExportOptions &options) {
   command.text("FOLDER", "FOLDER", "A new or empty folder for the files of svMultiPhysics", options.folder)->required();
   command.text("MESH", "FILE", "The mesh of the solver's run: say what the solver will do in it", options.mesh);
+  declare_cells_where(command, options);
+  command.option("--cells-where")->needs(command.option("MESH"));
   command
       .parsed("--time-step", "DT", "Time step of the solver, which plays one frame a step", options.time_step,
               parse_positive_finite)
@@ -494,6 +503,8 @@ void declare_place(Command command, PlaceOptions &options) {
   declare_loudness(command, options);
   command.group("Landmarks");
   command.text("--mesh", "MESH", "Refuse landmarks that are not at this mesh", options.mesh);
+  declare_cells_where(command, options);
+  command.option("--cells-where")->needs(command.option("--mesh"));
   declare_unit_of(command, "--unit", "Unit of the mesh (default that of the landmarks)", options.unit);
   command.text("--axes", "LPS|RAS", "Axes of the mesh (default those of the landmarks)", options.axes)
       ->check(CLI::IsMember(std::vector<std::string>{"LPS", "RAS"}));

@@ -85,6 +85,10 @@ const Topic topics[] = {
 The marked mesh is a copy of the input. Its nodes keep the input's order. It has the point arrays riis_marked (UInt8: 0 or
 1), riis_distance (Float64) and riis_leaflet (Int32: -1 for none). --prefix NAME names them NAME_marked and so on, so a mesh
 can have the marks of several valves. An array that the mesh already has is replaced only with --replace.
+--cells-where NAME=VALUES takes only the cells with such a value of a cell array, such as the fluid of a mesh that also has the
+wall: --cells-where region=1,2. The rest of the file does not count, and is not written. riis_node_id and riis_cell_id then have
+the ids in the whole mesh, from 0. gmsh's physical groups are the array gmsh:physical, and VALUES may be their names. If domains
+touch and none is chosen, a line on stderr says so.
 )"},
     {"pieces", "meshes larger than memory, and MPI",
      R"(
@@ -184,13 +188,14 @@ Each mesh has the point arrays of a marked mesh, and riis_normal, riis_side and 
 first time they are means over a step as long as the first one. A series of one time has no velocities. Without --all-cells
 the meshes have only the cells near the valve's whole motion. Their arrays riis_node_id and riis_cell_id are ids of the input,
 from 0. All times have the same cells.
-A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line
-then gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second
-behind the files. --series-table has a line for each time: opening, marked nodes, the largest speed of the surface, and the
-seconds for surface and marks. --picture draws the first time. --movie draws all times with one camera, and needs the program
-ffmpeg. The check for leaks runs at the time when the valve is least open. For --surface it runs at the first time. The numbers of
---stats are those of this time, and "times" has the openings, marks and speeds of all times. An orifice is that of the largest
-opening.
+A line on stderr gives the size of all files before they are written. Ctrl-C ends a series after the present step. A line then
+gives the number of steps written, and the .pvd lists them. If the process is killed, the list is at most a second behind the
+files. Files of steps that an earlier run of riis wrote to the same name, and this one does not, are removed. If a list that
+riis did not write names such a file, or no list does, the run is refused. --series-table has a line for each time: opening,
+marked nodes, the largest speed of the surface, and the seconds for surface and marks. --picture draws the first time. --movie
+draws all times with one camera, and needs the program ffmpeg. The check for leaks runs at the time when the valve is least
+open. For --surface it runs at the first time. The numbers of --stats are those of this time, and "times" has the openings,
+marks and speeds of all times. An orifice is that of the largest opening.
 )"},
     {"cases", "several valves in one mesh, from a file",
      R"(
@@ -215,7 +220,8 @@ A "warp" takes landmarks on the valve to landmarks in the patient, exactly or sm
   {"sources": [[1,0,0], [0,1,0], ...], "targets": [[1.1,0,0], [0,1.2,0], ...], "noise": 0.03, "coordinates": "mesh"}
 With "times", and perhaps "period" and "interpolation", "targets" has an array of points for each time. "open" may have the
 "sources" and "targets" of the open state. With "coordinates": "valve", landmarks are those of the valve before its placement.
-"check_leaks": [x,y,z, x,y,z] has two points, as riis check leaks --between (riis help leaks).
+"check_leaks": [x,y,z, x,y,z] has two points, as riis check leaks --between (riis help leaks). "cells_where": "region=1" chooses
+cells of the mesh, as --cells-where.
 If there are several valves, each one has its own arrays, NAME_marked and so on. riis_K and riis_K_u_surface are sums over
 the valves. Without times there is one mesh, --output marked.vtu. With --stats, "valves" has an object for each of several
 valves, with the keys that a single valve has.
@@ -234,6 +240,8 @@ Triangles in .stl files must have the same order in all files.
 A line on stderr names a suspicious result and the options to write instead. It is printed if no node, all nodes or hardly
 any nodes are marked. It is also printed if the half thickness does not fit the surface or the edges of the mesh. --quiet
 does not silence it, because wrong marks look like right ones. --allow-none is for valves that are sometimes near no node.
+It is printed, too, if more than 2 % of the leaflets' area is farther than the half thickness outside the mesh. Skirts and the
+housing of a bileaflet valve do not count. A series is judged where each valve is least and most open.
 One fault may cause the others. The order is units, half thickness, places, leaks. Only the first warning in this order has
 advice. Correct that fault and run the program again. A unit that you name by --unit or --scale counts as known, if the sizes
 allow it. With --strict the status is 4 after a warning of any kind. Coordinates have enough digits for an edge of the mesh
@@ -243,7 +251,7 @@ at that place. They have the unit of --unit.
      R"(
 The surface leaks if an edge of the mesh crosses it between two unmarked nodes. A line on stderr and --stats give the number
 of leaking edges, and the half thickness that closes them. Edges of at most two half thicknesses do not leak. Leaks are
-unknown in a mesh without volume cells, and at cells whose edges are not known, such as convex point sets. Leaking edges do
+unknown in a mesh without volume cells, if no node is marked, and at cells whose edges are not known. Leaking edges do
 not show gaps between leaflets, nor ways round the valve. riis check leaks MESH --between FROM TO finds these. FROM and TO
 are points of the mesh on either side of the valve, each as X,Y,Z.
 The program says whether unmarked nodes join the points. It also gives the place of the widest passage, and the half

@@ -41,7 +41,7 @@ void check_mesh(const PlaceOptions &options, const Placed &placed) {
   if (options.mesh.empty()) return;
   const MeshFile mesh = [&] {
     const Stage stage("reading " + options.mesh, options.quiet);
-    return read_mesh_file(options.mesh);
+    return read_mesh_file(options.mesh, options.cells_where);
   }();
   int64_t n_nodes = 0;
   const double *nodes = nullptr;

@@ -20,8 +20,8 @@ namespace riis::program {
 
 namespace {
 
-const std::vector<std::string> case_keys = {"mesh",       "unit",  "half_thickness", "distance_limit",
-                                            "resistance", "times", "valves",         "check_leaks"};
+const std::vector<std::string> case_keys = {"mesh",  "unit",   "half_thickness", "distance_limit", "resistance",
+                                            "times", "valves", "check_leaks",    "cells_where"};
 const std::vector<std::string> valve_keys = {
     "name",      "valve",          "surface",      "leaflets",       "parameters",    "open_parameters",
     "opening",   "half_thickness", "resistance",   "scale",          "surface_unit",  "rotate",
@@ -49,6 +49,7 @@ class CaseReader {
     if (options.mesh.empty() && !options.check_crossing) options.mesh = file_of(values, "mesh");
     if (options.mesh.empty() && options.needs_mesh)
       values.refuse("mesh", "it is missing, and no MESH is on the command line");
+    if (options.cells_where.empty()) options.cells_where = values.text("cells_where");
     options.unit = values.unit("unit");
     if (const auto length = values.above_zero("half_thickness")) {
       options.has_half_thickness = true;

@@ -186,14 +186,37 @@ std::vector<std::string> data_files_of(const std::string &path) {
   return found;
 }
 
-MeshFile read_mesh_file(const std::string &path) {
-  if (may_crash(path)) return read_by_child(path);
+namespace {
+
+MeshFile read_here(const std::string &path) {
   MeshFile file;
   check_mesh_read(riis_vtk_mesh_read(path.c_str(), file.out()), path);
   const char *text = nullptr;
   check(riis_vtk_mesh_get_notes(file, &text));
   note(path, text);
   return file;
+}
+
+}  // namespace
+
+MeshFile read_mesh_file(const std::string &path, const std::string &cells_where) {
+  MeshFile file = may_crash(path) ? read_by_child(path) : read_here(path);
+  if (!cells_where.empty()) check(riis_vtk_mesh_choose_cells(file, cells_where.c_str(), nullptr));
+  return file;
+}
+
+std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh) {
+  constexpr std::int64_t most_listed = 4;
+  const char *array = nullptr;
+  std::int64_t n = 0;
+  const double *values = nullptr;
+  check(riis_vtk_mesh_find_regions(mesh, &array, &n, &values));
+  if (n == 0) return "";
+  std::string list;
+  for (std::int64_t i = 0; i < std::min(n, most_listed); ++i)
+    list += (i == 0 ? "" : i + 1 == n ? " and " : ", ") + shortest(values[i]);
+  return path + " has the regions " + list + (n > most_listed ? ", ..." : "") + " of the cell array " + array +
+         ", and they touch: --cells-where " + array + "=" + shortest(values[0]) + " takes only the cells of one";
 }
 
 std::string take_notes() { return std::exchange(kept_notes, ""); }

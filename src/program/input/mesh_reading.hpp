@@ -9,8 +9,11 @@
 
 namespace riis::program {
 
-// Reads a mesh. Keeps the reader's note, such as that the file has single precision, for the summary.
-MeshFile read_mesh_file(const std::string &path);
+// Reads a mesh. Keeps the reader's note, such as that the file has single precision, for the summary. `cells_where` chooses
+// cells, unless it is "".
+MeshFile read_mesh_file(const std::string &path, const std::string &cells_where);
+// Returns a sentence about domains that touch, if a cell array tells them apart, or "".
+std::string text_of_regions(const std::string &path, riis_vtk_mesh *mesh);
 // Returns the files that an .xdmf file takes numbers from, as far as they exist, and none for other files.
 std::vector<std::string> data_files_of(const std::string &path);
 // Returns the lines of the notes since the last call, for the beginning of the summary.

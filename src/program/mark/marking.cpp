@@ -91,6 +91,7 @@ Marking::Marking(Case &all, const MeshPieces &mesh)
     sums_.push_back(
         {MeshLeaks(valves_[i].options(), mesh, valves_[i].surface(), valves_[i].source().valve, all.surface_of(i))});
   }
+  if (!options().mesh.empty()) take_states_for_outside();
 }
 
 bool Marking::has_marks() const {
@@ -110,7 +111,8 @@ std::vector<std::string> Marking::names_of_arrays() const {
   }
   if (all_.has_resistance()) names.push_back(options().prefix + "_K");
   if (all_.has_resistance() && has_velocities()) names.push_back(options().prefix + "_K_u_surface");
-  if (all_.is_series() && !options().series.all_cells) names.emplace_back("riis_node_id");
+  if (all_.is_series() && !options().series.all_cells && options().cells_where.empty())
+    names.emplace_back("riis_node_id");
   return names;
 }
 
@@ -136,6 +138,16 @@ ValveReport Marking::report_of(std::size_t i) {
 
 // Leaks matter where a valve is least open. An open valve is not meant to stop the flow.
 void Marking::move_to_least_openings() { move_to_first(times_, valves_, std::less<>()); }
+
+// The leaflets may reach beyond the wall where the valve is closed, and also where it is open.
+void Marking::take_states_for_outside() {
+  for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].outside.emplace_back(valves_[i]);
+  if (!all_.is_series()) return;
+  move_to_first(times_, valves_, std::greater<>());
+  for (std::size_t i = 0; i < valves_.size(); ++i)
+    if (valves_[i].opening() != report_.valves[i].opening) sums_[i].outside.emplace_back(valves_[i]);
+  move_to_least_openings();
+}
 
 void Marking::move_to_step(std::size_t step) {
   const double time = times_[step];
@@ -177,6 +189,7 @@ void Marking::measure(Piece &piece) {
     ValveSums &sums = sums_[i];
     combine(sums.marks, valves_[i].stats());
     sums.leaks.add(piece, valves_[i].result());
+    for (LeafletsOutside &state : sums.outside) state.add(piece);
     node_counts_.add(piece.nodes, list_of(valves_[i].result(), RIIS_LIST_WITHIN_LIMIT), within_limit(i));
     std::vector<std::int64_t> regions;
     if (wants_measures_ && has_edges) regions = sums.band.add(piece, valves_[i].result(), options().mark_options);
@@ -248,7 +261,9 @@ void Marking::judge() {
   report_.n_cells = counts.n_cells;
   for (std::size_t i = 0; i < valves_.size(); ++i) report_marks(i, n_nodes, counts);
   warn_of_apart(counts, matched[0], mesh_);
+  mesh_.warn_of_regions();
   warn_of_marks(n_nodes, counts);
+  for (std::size_t i = 0; i < valves_.size(); ++i) report_outside(i, counts);
   if (all_.is_series()) move_to_least_openings();
   const Stage stage("looking for leaks", options().quiet);
   for (std::size_t i = 0; i < valves_.size(); ++i) sums_[i].leaks.judge(report_.valves[i]);
@@ -286,6 +301,7 @@ void Marking::report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts
   const double limit = valve.options().mark_options.distance_limit;
   report.distance_limit = limit > 0 ? limit : report.surface.half_thickness;
   report.distance = valve.options().surface_options.measure;
+  report.leaks.is_near = stats.n_marked > 0;
   report.leaks.n_volume_cells = counts.n_volume_cells;
   report.leaks.n_cells_left_out = counts.n_cells_left_out;
 }
@@ -312,6 +328,20 @@ void Marking::warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts) {
         "the marks may be incomplete: --search paper misses nodes that are not connected to its one start; --search "
         "neighbor finds them");
   warn(warnings);
+}
+
+// Reports the state of which most is outside, and warns if the valve is in the mesh at all.
+void Marking::report_outside(std::size_t i, const MeshCounts &counts) {
+  std::optional<OutsideReport> &report = report_.valves[i].outside;
+  for (const LeafletsOutside &state : sums_[i].outside) {
+    const OutsideReport found = state.report();
+    if (!report || found.share > report->share) report = found;
+  }
+  if (counts.n_volume_cells == 0) report.reset();
+  if (!report) return;
+  if (report->opening == report_.valves[i].opening) report->opening.reset();
+  if (n_marked_[marked_at(most_steps_[i], i)] > 0)
+    warn_of_outside(*report, report_.valves[i].surface.half_thickness, all_.surface_of(i));
 }
 
 // Measures the orifices. In a series, each valve is measured where it is most open.

@@ -15,6 +15,7 @@
 #include "program/mark/mesh_marking.hpp"
 #include "program/mark/mesh_pieces.hpp"
 #include "program/mark/moving_valve.hpp"
+#include "program/mark/outside.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -54,6 +55,7 @@ class Marking {
     riis_mark_stats marks = no_stats();
     BandMeasures band{};
     std::vector<std::vector<SharedNode>> shared{};  // by piece, with the open regions of this valve
+    std::vector<LeafletsOutside> outside{};         // at the least opening, and in a series at the largest
   };
 
   const MarkOptions &options() const { return all_.options; }
@@ -68,11 +70,13 @@ class Marking {
   std::size_t within_limit(std::size_t valve) const { return marked_at(times_.size(), valve); }
 
   void move_to_least_openings();
+  void take_states_for_outside();
   void find_neighbors_for_search(Piece &piece);
   void mark_at_all_times(Piece &piece);
   void set_arrays(riis_vtk_mesh *file) const;
   void report_marks(std::size_t i, std::int64_t n_nodes, const MeshCounts &counts);
   void warn_of_marks(std::int64_t n_nodes, const MeshCounts &counts);
+  void report_outside(std::size_t i, const MeshCounts &counts);
   void report_orifices();
 
   Case &all_;

@@ -97,6 +97,7 @@ class MarkingRun {
       draw(nullptr);
       return true;
     }
+    find_earlier();
     if (!mesh_.is_whole()) begin_writing();
     mesh_.for_each_own(
         [&](Piece &piece) {
@@ -115,6 +116,15 @@ class MarkingRun {
   bool has_marks() const { return marking_.has_marks(); }
 
  private:
+  // Refuses early, before the marking.
+  void find_earlier() {
+    if (!all_.is_series()) return;
+    std::vector<std::string> parts;
+    for (std::size_t i = 0; i < valves_.size(); ++i) parts.push_back(all_.part_of(i));
+    files_.find_earlier();
+    surfaces_.find_earlier(parts, false);
+  }
+
   void begin_writing() {
     // In a series, a signal such as Ctrl-C waits for the end of a step. So even then the lists are written and the movie's frames
     // are removed.

@@ -36,11 +36,25 @@ MeshPieces::~MeshPieces() = default;
 
 MeshFile MeshPieces::read(std::int64_t piece) const {
   if (is_whole_) {
-    MeshFile mesh = read_mesh_file(path());
+    MeshFile mesh = read_mesh_file(path(), cells_where());
+    if (cells_where().empty()) regions_ = text_of_regions(path(), mesh.get());
     if (options_.at_cells) check(riis_vtk_mesh_use_centers(mesh), path());
     return mesh;
   }
-  return create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
+  auto mesh = create<MeshFile>(riis_vtk_pieces_read_mesh, list_, piece);
+  std::int64_t n_chosen = 0;
+  if (!cells_where().empty())
+    check(riis_vtk_mesh_choose_cells(mesh, cells_where().c_str(), &n_chosen));
+  else if (regions_.empty())
+    regions_ = text_of_regions(path(), mesh.get());
+  return mesh;
+}
+
+void MeshPieces::warn_of_regions() const {
+  std::vector<char> own(regions_.begin(), regions_.end());
+  if (!own.empty()) own.push_back('\n');
+  const std::vector<char> all = ranks::gather(own);
+  if (!all.empty()) warn(std::string(all.begin(), std::find(all.begin(), all.end(), '\n')));
 }
 
 void MeshPieces::for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds,
@@ -175,6 +189,8 @@ void MeshCounts::add(const MeshCounts &other) {
 MeshCounts sum_of(const MeshCounts &own, const MeshPieces &mesh) {
   MeshCounts all;
   for (const MeshCounts &counts : ranks::gather(std::vector<MeshCounts>{own})) all.add(counts);
+  if (all.n_with_nodes == 0 && !mesh.cells_where().empty())
+    refuse_usage("--cells-where: no cell of " + mesh.path() + " has " + mesh.cells_where());
   if (all.n_with_nodes == 0) refuse_data(mesh.path() + ": no piece holds points");
   if (all.n_with_ids != 0 && all.n_with_ids != all.n_with_nodes)
     refuse_data(mesh.path() + ": " + std::to_string(all.n_with_ids) + " of " + std::to_string(all.n_with_nodes) +

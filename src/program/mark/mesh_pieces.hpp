@@ -44,6 +44,9 @@ class MeshPieces {
   const std::string &path() const { return options_.mesh; }
   const std::vector<std::string> &files() const { return files_; }
   bool is_whole() const { return is_whole_; }
+  const std::string &cells_where() const { return options_.cells_where; }
+  // Warns of domains that touch, if the user chose none of them. This rank has read its pieces.
+  void warn_of_regions() const;
   // Calls `work` with each of this rank's pieces, in ascending order, or only with those whose numbers `is_wanted` accepts. A
   // failure ends all ranks. Adds to the seconds of reading, unless they are NULL.
   void for_each_own(const std::function<void(Piece &)> &work, Seconds *seconds = nullptr,
@@ -62,6 +65,7 @@ class MeshPieces {
   PieceList list_;
   std::vector<std::string> files_;
   mutable std::unique_ptr<Piece> held_;  // the piece of a whole mesh, once it is read
+  mutable std::string regions_;          // about the first piece with domains that touch
 };
 
 struct NodeKey {

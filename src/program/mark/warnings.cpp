@@ -15,7 +15,7 @@ namespace riis::program {
 namespace {
 
 std::int64_t n_printed = 0;
-Cause first_cause = Cause::leaks;  // the cause whose advice was printed
+Cause first_cause = Cause::outside;  // the cause whose advice was printed
 
 // Smaller meshes are not judged, because all nodes of a small mesh may well lie near the surface.
 constexpr int64_t fewest_judged_nodes = 100;

@@ -31,7 +31,10 @@ std::string padded(std::size_t number, std::size_t n_digits) {
 }  // namespace
 
 SeriesFiles::SeriesFiles(const std::string &pvd, const std::string &ending, std::size_t n_times)
-    : pvd_(pvd), ending_(ending), n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
+    : pvd_(pvd),
+      ending_(ending),
+      n_times_(n_times),
+      n_digits_(std::max<std::size_t>(4, std::to_string(n_times - 1).size())) {
   const std::filesystem::path path(pvd);
   stem_ = path.stem().string();
   folder_ = (path.parent_path() / stem_).string();
@@ -47,12 +50,26 @@ void SeriesFiles::check_folder() const {
   }
 }
 
+void SeriesFiles::find_earlier(const std::vector<std::string> &parts, bool has_pieces) {
+  if (!is_wanted()) return;
+  earlier_.emplace(pvd_, [&](const StepName &name) {
+    const bool is_piece = has_pieces && name.ending == ".vtu" && name.is_of_piece();
+    if (!is_piece && (name.ending != ending_ || std::find(parts.begin(), parts.end(), name.part) == parts.end()))
+      return StepKind::other;
+    const auto step = number_in(name.digits);
+    const bool is_written = step && *step < static_cast<double>(n_times_) &&
+                            name.digits == padded(static_cast<std::size_t>(*step), n_digits_);
+    return is_written ? StepKind::written : StepKind::further;
+  });
+}
+
 void SeriesFiles::make_folder() const {
   if (!is_wanted()) return;
   check_folder();
   std::error_code error;
   std::filesystem::create_directory(folder_, error);
   if (error) refuse_data(folder_ + ": the folder cannot be made: " + error.message());
+  if (earlier_) earlier_->remove();
 }
 
 std::string SeriesFiles::path_of(std::size_t step, const std::string &part) const {
@@ -65,9 +82,7 @@ void SeriesFiles::add(double time, std::size_t part_number, const std::string &p
 
 void SeriesFiles::write_list() const {
   if (entries_.empty()) return;
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n  "
-      "<Collection>\n";
+  std::string text = list_of_riis + "  <Collection>\n";
   for (const Entry &entry : entries_) {
     text += "    <DataSet timestep=\"" + shortest(entry.time) + "\" part=\"" + std::to_string(entry.part_number) +
             "\" file=\"" + in_xml(entry.name) + "\"/>\n";
@@ -76,7 +91,10 @@ void SeriesFiles::write_list() const {
 }
 
 void SeriesFiles::report(Report &report) const {
-  if (is_wanted()) report.written.push_back(pvd_ + ", " + counted(view(entries_).size(), "file") + " in " + folder_);
+  if (!is_wanted()) return;
+  const std::int64_t n_removed = earlier_ ? static_cast<std::int64_t>(earlier_->n()) : 0;
+  report.written.push_back(pvd_ + ", " + counted(view(entries_).size(), "file") + " in " + folder_ +
+                           (n_removed > 0 ? "; " + counted(n_removed, "file") + " of an earlier run removed" : ""));
 }
 
 // ---- Series lists ----
@@ -141,6 +159,10 @@ MarkedFiles::MarkedFiles(const Case &all, const MeshPieces &mesh)
       steps_(is_foam_case_ ? "" : path_, is_whole_ ? ".vtu" : ".pvtu",
              is_series_ ? times_.size() : mesh.files().size()),
       pieces_(path_, ".vtu", is_series_ ? times_.size() : mesh.files().size()) {}
+
+void MarkedFiles::find_earlier() {
+  if (has_list()) steps_.find_earlier({""}, !is_whole_);
+}
 
 void MarkedFiles::make_folder() const {
   if (is_series_ || !is_whole_) steps_.make_folder();

@@ -8,12 +8,14 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "program/input/case.hpp"
 #include "program/mark/mesh_pieces.hpp"
+#include "program/output/earlier_files.hpp"
 #include "program/output/report.hpp"
 
 namespace riis::program {
@@ -29,7 +31,10 @@ class SeriesFiles {
   bool is_wanted() const { return !pvd_.empty(); }
   // Refuses a folder that cannot be written to, and a path that is a file.
   void check_folder() const;
-  // Makes the folder if it is wanted and does not exist.
+  // Finds the files that an earlier run left (earlier_files.hpp). `parts` are those of path_of, and `has_pieces` says whether
+  // each step also has files of pieces, whose parts are p0000 and so on.
+  void find_earlier(const std::vector<std::string> &parts, bool has_pieces);
+  // Makes the folder if it is wanted and does not exist, and removes the files of an earlier run.
   void make_folder() const;
   // Returns the path of a step's file. If a step has several files, `part`, a valve's name, distinguishes them. Otherwise it is
   // "".
@@ -49,8 +54,9 @@ class SeriesFiles {
     std::string name;  // the path relative to the .pvd
   };
   std::string pvd_, folder_, stem_, ending_;
-  std::size_t n_digits_;
+  std::size_t n_times_, n_digits_;
   std::vector<Entry> entries_;
+  std::optional<EarlierFiles> earlier_;
 };
 
 // Writes the lists of a series within half a second after its files, even during a long step. So a killed process leaves lists
@@ -91,6 +97,8 @@ class MarkedFiles {
   bool is_wanted() const { return !path_.empty(); }
   // Returns whether the files of a series are in a list.
   bool has_list() const { return is_wanted() && is_series_ && !is_foam_case_; }
+  // Finds the files that an earlier run left, if this one writes a series.
+  void find_earlier();
   // Makes the folder of the files, if there is more than one file.
   void make_folder() const;
   void write(std::int64_t piece, std::size_t step, const riis_vtk_mesh *file);

@@ -11,6 +11,7 @@
 #include "program/base/options.hpp"
 #include "program/base/text.hpp"
 #include "program/input/valve_file.hpp"
+#include "program/mark/outside.hpp"
 #include "program/mark/warnings.hpp"
 
 namespace riis::program {
@@ -88,11 +89,29 @@ void add_leaks(const ValveReport &valve, std::ostringstream &out) {
   if (leaks.found.n_edges > 0)
     out << counted(leaks.found.n_edges, "edge") << " between unmarked nodes across the surface, length up to "
         << leaks.found.longest_length << (unknown.empty() ? "" : "; more are unknown: ") << unknown;
-  else if (unknown.empty())
+  else if (unknown.empty() && leaks.is_near)
     out << "none: no edge crosses the surface between unmarked nodes";
   else
-    out << "unknown: " << unknown;
+    out << "unknown: " << (unknown.empty() ? "no node is marked" : unknown);
   out << "\n";
+}
+
+void add_outside(const ValveReport &valve, std::ostringstream &out) {
+  constexpr double least_said = 0.0005;
+  if (!valve.outside || valve.outside->share < least_said) return;
+  std::ostringstream state = table_stream();
+  state << valve.name;
+  if (valve.outside->opening) state << (valve.name.empty() ? "" : ", ") << "opening " << *valve.outside->opening;
+  out << line("outside", state.str()) << outside_text(*valve.outside)
+      << " is farther than the half thickness outside the mesh\n";
+}
+
+nlohmann::ordered_json json_of_outside(const OutsideReport &outside) {
+  nlohmann::ordered_json json = {{"share", outside.share}, {"leaflets", nlohmann::ordered_json::array()}};
+  if (outside.opening) json["opening"] = *outside.opening;
+  for (const OutsideReport::Leaflet &leaflet : outside.leaflets)
+    json["leaflets"].push_back({{"name", leaflet.name}, {"share", leaflet.share}});
+  return json;
 }
 
 void add_crossings(const ValveReport &valve, std::ostringstream &out) {
@@ -258,7 +277,7 @@ nlohmann::ordered_json json_of_seconds(const Seconds &seconds) {
 void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
   const riis_mark_stats &marks = valve.marks;
   const LeakReport &leaks = valve.leaks;
-  const bool are_known = leaks.found.n_edges > 0 || leaks.has_all_edges();
+  const bool are_known = leaks.found.n_edges > 0 || (leaks.has_all_edges() && leaks.is_near);
   json.update({{"distance_limit", valve.distance_limit},
                {"search", view(search_names)[marks.search]},
                {"distance", view(distance_names)[valve.distance]},
@@ -270,7 +289,8 @@ void add_marks(const ValveReport &valve, nlohmann::ordered_json &json) {
                {"longest_leaking_edge_middle", if_known(are_known, leaks.found.longest_middle)},
                {"closing_half_thickness", if_known(leaks.closing_half_thickness > 0, leaks.closing_half_thickness)},
                {"n_volume_cells", leaks.n_volume_cells},
-               {"n_cells_without_known_edges", leaks.n_cells_left_out}});
+               {"n_cells_without_known_edges", leaks.n_cells_left_out},
+               {"outside", valve.outside ? json_of_outside(*valve.outside) : nlohmann::ordered_json()}});
 }
 
 // Returns the keys of a valve. The only valve also gets the keys of the run.
@@ -356,7 +376,10 @@ std::string table_of(const Report &report) {
         add_marks(valve, out);
       add_search(valve, out);
     }
-    for (const ValveReport &valve : report.valves) add_leaks(valve, out);
+    for (const ValveReport &valve : report.valves) {
+      add_outside(valve, out);
+      add_leaks(valve, out);
+    }
     out << line_of_passage(report);
     for (const ValveReport &valve : report.valves)
       if (report.prints_flow) add_flow(valve, out);

@@ -46,6 +46,7 @@ struct LeakReport {
   double closing_half_thickness = 0;  // for the user to type; 0 if none was found
   int64_t n_volume_cells = 0;
   int64_t n_cells_left_out = 0;  // volume cells whose edges are not known
+  bool is_near = true;           // whether a node of the mesh is marked
 
   bool has_all_edges() const { return n_volume_cells > 0 && n_cells_left_out == 0; }
 };
@@ -58,6 +59,17 @@ struct FlowReport {
   std::optional<int64_t> n_open_regions;      // set if the mesh's edges are known
   std::optional<riis_first_passage> first;    // set if the first passage was looked for
   std::optional<double> leak_per_drop, drop;  // set if the user gave a resistance
+};
+
+// The shares of the area that is farther than the half thickness outside the mesh.
+struct OutsideReport {
+  struct Leaflet {
+    std::string name;
+    double share;
+  };
+  double share = 0;               // of the area of all leaflets
+  std::vector<Leaflet> leaflets;  // those with a share above 0
+  std::optional<double> opening;  // set if it differs from that of the marks
 };
 
 struct CrossingReport {
@@ -88,6 +100,7 @@ struct ValveReport {
   riis_mark_stats marks{};
   LeakReport leaks;
   FlowReport flow;
+  std::optional<OutsideReport> outside;     // set if the mesh has volume cells
   std::optional<CrossingReport> crossings;  // set if crossings were looked for
   std::vector<TimeReport> times;            // the steps of a series that are complete
 };

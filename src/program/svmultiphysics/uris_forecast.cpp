@@ -26,10 +26,12 @@ class Forecaster {
   Forecaster(const ExportOptions &options, UrisLeaflets &leaflets)
       : options_(options),
         leaflets_(leaflets),
-        file_(read_mesh_file(options.mesh)),
+        file_(read_mesh_file(options.mesh, options.cells_where)),
         mesh_(solver_mesh_of(file_.get(), options.mesh)),
         half_thickness_(leaflets.half_thickness()) {
     check(riis_vtk_mesh_get_median_edge(file_.get(), &median_edge_));
+    const std::string regions = options.cells_where.empty() ? text_of_regions(options.mesh, file_.get()) : "";
+    if (!regions.empty()) warn(regions);
   }
 
   UrisForecast forecast(const UrisMotion &motion) {

@@ -26,6 +26,18 @@ struct CellCenters {
 };
 CellCenters centers_of(vtkUnstructuredGrid *grid);
 
+// A named value of a cell array, such as one of gmsh's physical groups.
+struct RegionName {
+  double number;
+  std::string name;
+};
+
+// The values of a cell array that tells the domains of a mesh, or none.
+struct Regions {
+  std::string array = {};
+  std::vector<double> values = {};
+};
+
 }  // namespace riis::vtk
 
 struct riis_vtk_mesh {
@@ -34,6 +46,10 @@ struct riis_vtk_mesh {
   std::string foam_case = {};                 // the folder of the case that the mesh was read from, or ""
   // If there are centres, they are the mesh's nodes, and data of nodes is data of cells.
   std::unique_ptr<const riis::vtk::CellCenters> centers = {};
+  std::vector<riis::vtk::RegionName> region_names = {};  // of gmsh's physical groups of volumes
+  riis::vtk::Regions regions = {};                       // those that riis_vtk_mesh_find_regions gave
+  // If only a part of the cells was kept, the ids of its nodes and cells in the whole mesh. Otherwise empty.
+  std::vector<std::int64_t> whole_node_ids = {}, whole_cell_ids = {};
 
   std::int64_t n_nodes() const { return centers ? grid->GetNumberOfCells() : grid->GetNumberOfPoints(); }
   vtkDataSetAttributes *node_data() const;
@@ -102,6 +118,9 @@ inline constexpr std::int64_t most_measured =
 // Returns the median length of the edges of faces and volumes, or 0 if no edge is known. An edge counts once for each of its
 // cells.
 double median_edge_of(vtkUnstructuredGrid *grid);
+
+// Keeps only these cells, in ascending order, and their nodes (mesh_parts.cpp).
+void keep_cells(riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells);
 
 // Writes the arrays of cells as fields of a case of OpenFOAM, into the folder of a time (foam_fields.cpp).
 void write_foam_fields(const std::string &path, const riis_vtk_mesh &mesh);

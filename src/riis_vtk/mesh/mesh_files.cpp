@@ -34,6 +34,19 @@ std::string take_note(vtkUnstructuredGrid *grid) {
   return note.empty() && grid->GetPoints()->GetDataType() == VTK_FLOAT ? "its points have single precision" : note;
 }
 
+// Takes the names of physical groups out of the grid.
+std::vector<RegionName> take_region_names(vtkUnstructuredGrid *grid) {
+  std::vector<RegionName> names;
+  if (auto *const array = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray(region_names_array))) {
+    for (vtkIdType i = 0; i + 1 < array->GetNumberOfValues(); i += 2) {
+      names.push_back({0, array->GetValue(i + 1)});
+      read_number(std::string_view(array->GetValue(i)), names.back().number);
+    }
+    grid->GetFieldData()->RemoveArray(region_names_array);
+  }
+  return names;
+}
+
 void make_points_double(vtkUnstructuredGrid *grid) {
   if (grid->GetPoints() && vtkDoubleArray::SafeDownCast(grid->GetPoints()->GetData())) return;
   vtkNew<vtkPoints> points;
@@ -249,6 +262,7 @@ RIIS_API riis_status riis_vtk_mesh_read(const char *path, riis_vtk_mesh **mesh) 
       auto made = std::make_unique<riis_vtk_mesh>();
       made->grid = read_grid(path, caught);
       made->notes = take_note(made->grid);
+      made->region_names = take_region_names(made->grid);
       if (is_openfoam(path)) made->foam_case = foam_case_of(path);
       make_points_double(made->grid);
       *mesh = made.release();
@@ -390,6 +404,8 @@ RIIS_API riis_status riis_vtk_mesh_write(const riis_vtk_mesh *mesh, const char *
     require(mesh, "mesh");
     require(path, "path");
     naming(path, [&] {
+      if (is_foam_time(path) && !mesh->whole_cell_ids.empty())
+        refuse_argument("mesh has only a part of the cells, and fields of OpenFOAM are of all cells");
       if (is_foam_time(path))
         write_foam_fields(path, *mesh);
       else if (ending_of(path) == "xdmf")

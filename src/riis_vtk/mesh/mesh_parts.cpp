@@ -57,15 +57,24 @@ std::vector<vtkIdType> ids_of(const Chosen &chosen) {
   return ids;
 }
 
+// Returns ids in the whole mesh. `whole` has those of the mesh, or is empty if the mesh is whole.
+std::vector<std::int64_t> whole_ids(const std::vector<vtkIdType> &ids, const std::vector<std::int64_t> &whole) {
+  std::vector<std::int64_t> made(ids.begin(), ids.end());
+  if (!whole.empty())
+    for (std::int64_t &id : made) id = view(whole)[id];
+  return made;
+}
+
 // Copies the values of some nodes or cells, and adds an array with the ids of these nodes or cells in the whole mesh.
 void copy_data(vtkDataSetAttributes *from, const std::vector<vtkIdType> &ids, const char *id_array,
-               vtkDataSetAttributes *to) {
+               const std::vector<std::int64_t> &whole, vtkDataSetAttributes *to) {
   const auto n = static_cast<vtkIdType>(ids.size());
   to->CopyAllOn();
   to->CopyAllocate(from, n);
   for (vtkIdType i = 0; i < n; ++i) to->CopyData(from, view(ids)[i], i);
   const auto array = named_array<vtkTypeInt64Array>(id_array, n);
-  std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+  const std::vector<std::int64_t> in_whole = whole_ids(ids, whole);
+  std::copy(in_whole.begin(), in_whole.end(), array->GetPointer(0));
   to->AddArray(array);
 }
 
@@ -88,8 +97,10 @@ void add_cell(vtkUnstructuredGrid *grid, vtkIdType cell, const std::vector<vtkId
   part->InsertNextCell(type, nodes);
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> part_of(vtkUnstructuredGrid *grid, Chosen chosen) {
-  const std::vector<vtkIdType> cells = cells_around(grid, chosen);
+// Makes a grid of cells and of the chosen nodes, among which are those of the cells.
+vtkSmartPointer<vtkUnstructuredGrid> part_of(const riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells,
+                                             const Chosen &chosen) {
+  vtkUnstructuredGrid *const grid = mesh.grid;
   const std::vector<vtkIdType> nodes = ids_of(chosen);
   std::vector<vtkIdType> new_id(chosen.size());
   vtkNew<vtkPoints> points;
@@ -106,8 +117,8 @@ vtkSmartPointer<vtkUnstructuredGrid> part_of(vtkUnstructuredGrid *grid, Chosen c
   part->AllocateEstimate(static_cast<vtkIdType>(cells.size()), 8);
   vtkNew<vtkIdList> corners;
   for (const vtkIdType cell : cells) add_cell(grid, cell, new_id, corners, part);
-  copy_data(grid->GetPointData(), nodes, node_id_array, part->GetPointData());
-  copy_data(grid->GetCellData(), cells, cell_id_array, part->GetCellData());
+  copy_data(grid->GetPointData(), nodes, node_id_array, mesh.whole_node_ids, part->GetPointData());
+  copy_data(grid->GetCellData(), cells, cell_id_array, mesh.whole_cell_ids, part->GetCellData());
   part->GetFieldData()->PassData(grid->GetFieldData());
   return part;
 }
@@ -137,6 +148,20 @@ std::int64_t file_size_of(vtkUnstructuredGrid *grid) {
 }
 
 }  // namespace
+
+void keep_cells(riis_vtk_mesh &mesh, const std::vector<vtkIdType> &cells) {
+  Chosen chosen(static_cast<std::size_t>(mesh.grid->GetNumberOfPoints()));
+  vtkNew<vtkIdList> nodes;
+  for (const vtkIdType cell : cells) {
+    mesh.grid->GetCellPoints(cell, nodes);
+    for (const vtkIdType node : *nodes) view(chosen)[node] = 1;
+  }
+  const auto part = part_of(mesh, cells, chosen);
+  mesh.whole_node_ids = whole_ids(ids_of(chosen), mesh.whole_node_ids);
+  mesh.whole_cell_ids = whole_ids(cells, mesh.whole_cell_ids);
+  mesh.grid = part;
+}
+
 }  // namespace riis::vtk
 
 using namespace riis::vtk;
@@ -150,7 +175,9 @@ RIIS_API riis_status riis_vtk_mesh_extract(const riis_vtk_mesh *mesh, int64_t n_
     if (mesh->centers) refuse_argument("mesh has its nodes at the centres of cells, and has no parts");
     require(part, "part");
     auto made = std::make_unique<riis_vtk_mesh>();
-    made->grid = part_of(grid, chosen_nodes(grid, n_ids, node_ids));
+    Chosen chosen = chosen_nodes(grid, n_ids, node_ids);
+    const std::vector<vtkIdType> cells = cells_around(grid, chosen);
+    made->grid = part_of(*mesh, cells, chosen);
     *part = made.release();
   });
 }

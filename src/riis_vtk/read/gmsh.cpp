@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gmsh's .msh files, of versions 2 and 4.1, as text or binary. The format is in the chapter "Gmsh file formats" of gmsh's manual,
 // and the orders of nodes are in its section "Node ordering". Nodes and elements keep the file's order. Elements of all
-// dimensions become cells. Their physical groups become the cell array gmsh:physical.
+// dimensions become cells, and their physical groups the cell array gmsh:physical, with a further array for further groups.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -10,6 +10,8 @@
 
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkFieldData.h>
+#include <vtkStringArray.h>
 #include <vtkTypeInt32Array.h>
 
 #include "common/array_view.hpp"
@@ -107,6 +109,8 @@ class GmshFile {
         is_new_ ? read_elements() : read_old_elements();
       } else if (section == "Entities" && is_new_) {
         read_entities();
+      } else if (section == "PhysicalNames") {
+        read_names();
       } else {
         skip_to_end_of(section);
         continue;
@@ -121,14 +125,30 @@ class GmshFile {
     if (n_copies > 0)
       add_note(grid, joined(n_copies, " elements of further physical groups are the cells of the first ones"));
     if (std::any_of(physical_.begin(), physical_.end(), [](std::int32_t tag) { return tag != 0; })) {
-      const auto array = named_array<vtkTypeInt32Array>("gmsh:physical", static_cast<vtkIdType>(physical_.size()));
-      std::copy(physical_.begin(), physical_.end(), array->GetPointer(0));
-      grid->GetCellData()->AddArray(array);
+      add_groups(grid, physical_array, physical_);
+      for (std::size_t k = 0; k < further_.size(); ++k)
+        add_groups(grid, joined(physical_array, "_", k + 2), further_[k]);
+      add_names(grid);
     }
     return grid;
   }
 
  private:
+  using Groups = std::vector<std::int32_t>;  // a group of each element, or 0
+
+  static void add_groups(vtkUnstructuredGrid *grid, const std::string &name, const Groups &groups) {
+    const auto array = named_array<vtkTypeInt32Array>(name, static_cast<vtkIdType>(groups.size()));
+    std::copy(groups.begin(), groups.end(), array->GetPointer(0));
+    grid->GetCellData()->AddArray(array);
+  }
+
+  void add_names(vtkUnstructuredGrid *grid) const {
+    if (names_.empty()) return;
+    const auto array = named_array<vtkStringArray>(region_names_array, static_cast<vtkIdType>(names_.size()));
+    for (std::size_t i = 0; i < names_.size(); ++i) array->SetValue(static_cast<vtkIdType>(i), names_[i]);
+    grid->GetFieldData()->AddArray(array);
+  }
+
   static constexpr int int_bytes = 4, size_bytes = 8, real_bytes = 8;
 
   void skip_blanks() {
@@ -160,6 +180,22 @@ class GmshFile {
     if (found == std::string_view::npos) fail_file(path_, "is truncated: it ends before $End", section);
     in_.skip(found);
     expect_end_of(section);
+  }
+
+  // Reads the names of groups of volumes: lines DIMENSION NUMBER "NAME", also in a binary file. Skips what is no such line.
+  void read_names() {
+    const std::size_t end = in_.rest().find("$EndPhysicalNames");
+    if (end == std::string_view::npos) fail_file(path_, "is truncated: it ends before $EndPhysicalNames");
+    std::string_view text = in_.rest().substr(0, end);
+    while (!text.empty()) {
+      std::string_view line = take_line(text);
+      const std::string_view dimension = take_word(line), number = take_word(line);
+      const std::size_t open = line.find('"'), close = line.rfind('"');
+      if (dimension != "3" || open == std::string_view::npos || close <= open) continue;
+      names_.emplace_back(number);
+      names_.emplace_back(line.substr(open + 1, close - open - 1));
+    }
+    in_.skip(end);
   }
 
   void read_format() {
@@ -227,12 +263,12 @@ class GmshFile {
           n_tags = in_.integer(int_bytes);
         }
         in_.check_count(n_tags, in_.is_binary ? int_bytes : 2, "tags of an element");
-        std::int64_t physical = 0;
+        std::vector<std::int64_t> group;
         for (std::int64_t t = 0; t < n_tags; ++t) {
           const std::int64_t value = in_.integer(int_bytes);
-          if (t == 0) physical = value;
+          if (t == 0) group.push_back(value);
         }
-        add_element(type_of(tag, type_number), tag, physical, int_bytes);
+        add_element(type_of(tag, type_number), tag, group, int_bytes);
       }
     }
   }
@@ -274,18 +310,17 @@ class GmshFile {
       const std::int64_t dimension = in_.integer(int_bytes), entity = in_.integer(int_bytes);
       const std::int64_t type_number = in_.integer(int_bytes), n_here = in_.integer(size_bytes);
       if (n_here < 0 || n_here > n - n_read) in_.refuse("a block has ", n_here, " elements; ", n - n_read, " are left");
-      const auto found = groups_.find({dimension, entity});
+      const std::vector<std::int64_t> &groups = groups_[{dimension, entity}];
       for (std::int64_t i = 0; i < n_here; ++i) {
         const std::int64_t tag = in_.integer(size_bytes);
-        add_element(type_of(tag, type_number), tag, found == groups_.end() ? 0 : found->second, size_bytes);
+        add_element(type_of(tag, type_number), tag, groups, size_bytes);
       }
       n_read += n_here;
     }
     if (n_read != n) in_.refuse("$Elements has ", n_read, " of the ", n, " elements that it claims");
   }
 
-  // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups. Its
-  // first one is kept.
+  // Reads the physical groups of the model's points, curves, surfaces and volumes. An entity may have several groups.
   void read_entities() {
     std::int64_t n[4];
     for (std::int64_t &n_entities : n) n_entities = in_.count(size_bytes, 8, "entities");
@@ -294,10 +329,7 @@ class GmshFile {
         const std::int64_t entity = in_.integer(int_bytes);
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) in_.real(real_bytes);
         const std::int64_t n_groups = in_.count(size_bytes, 2, "physical groups");
-        for (std::int64_t k = 0; k < n_groups; ++k) {
-          const std::int64_t group = in_.integer(int_bytes);
-          if (k == 0) groups_[{dimension, entity}] = group;
-        }
+        for (std::int64_t k = 0; k < n_groups; ++k) groups_[{dimension, entity}].push_back(in_.integer(int_bytes));
         if (dimension == 0) continue;
         const std::int64_t n_sides = in_.count(size_bytes, 2, "sides of an entity");
         for (std::int64_t k = 0; k < n_sides; ++k) in_.integer(int_bytes);
@@ -321,7 +353,7 @@ class GmshFile {
     in_.refuse("element ", tag, " is of gmsh's type ", type_number, "; elements of orders 1 and 2 are read");
   }
 
-  void add_element(const ElementType &type, std::int64_t tag, std::int64_t physical, int id_bytes) {
+  void add_element(const ElementType &type, std::int64_t tag, const std::vector<std::int64_t> &groups, int id_bytes) {
     std::array<vtkIdType, 27> ids;
     for (int i = 0; i < type.n_nodes; ++i) {
       const std::int64_t node = in_.integer(id_bytes);
@@ -333,7 +365,20 @@ class GmshFile {
     for (int i = 0; i < n_kept; ++i)
       mesh_.ids->InsertNextValue(view(ids)[type.order.empty() ? i : view(type.order)[i]]);
     mesh_.end_cell(type.vtk_type);
-    physical_.push_back(static_cast<std::int32_t>(physical));
+    const std::size_t element = physical_.size();
+    physical_.push_back(groups.empty() ? 0 : static_cast<std::int32_t>(groups[0]));
+    for (std::size_t k = 1; k < groups.size(); ++k) add_group(element, static_cast<std::int32_t>(groups[k]));
+  }
+
+  // Adds a further group to an element. A mesh has few groups that overlap, so there is a list for the second groups of all
+  // elements, one for the third groups, and so on.
+  void add_group(std::size_t element, std::int32_t group) {
+    std::size_t k = 0;
+    while (k < further_.size() && element < further_[k].size() && further_[k][element] != 0) ++k;
+    if (k >= most_groups) return;
+    if (k == further_.size()) further_.emplace_back();
+    if (further_[k].size() <= element) further_[k].resize(element + 1, 0);
+    further_[k][element] = group;
   }
 
   // Version 2 lists an element once for each of its physical groups, each time with another number. Keeps the first of
@@ -341,6 +386,7 @@ class GmshFile {
   std::int64_t drop_copies() {
     const bool are_grouped =
         std::any_of(physical_.begin(), physical_.end(), [&](std::int32_t group) { return group != physical_[0]; });
+    for (Groups &groups : further_) groups.resize(physical_.size(), 0);
     if (is_new_ || !are_grouped) return 0;
     const std::int64_t n = view(physical_).size();
     std::vector<std::pair<std::uint64_t, std::int64_t>> order;  // of the elements, by a hash of type and nodes
@@ -361,8 +407,10 @@ class GmshFile {
           sorted_nodes(a) != sorted_nodes(b))
         continue;
       view(is_copy)[b] = 1;
+      add_group(static_cast<std::size_t>(a), view(physical_)[b]);
       ++n_copies;
     }
+    for (Groups &groups : further_) groups.resize(physical_.size(), 0);
     if (n_copies > 0) remove(is_copy);
     return n_copies;
   }
@@ -382,21 +430,26 @@ class GmshFile {
       for (vtkIdType k = begin; k < end; ++k) mesh_.ids->SetValue(n_ids++, mesh_.ids->GetValue(k));
       mesh_.types->SetValue(n_kept, mesh_.types->GetValue(i));
       view(physical_)[n_kept] = view(physical_)[i];
+      for (Groups &groups : further_) view(groups)[n_kept] = view(groups)[i];
       mesh_.ends->SetValue(++n_kept, n_ids);
     }
     mesh_.ids->Resize(n_ids);
     mesh_.types->Resize(n_kept);
     mesh_.ends->Resize(n_kept + 1);
     physical_.resize(static_cast<std::size_t>(n_kept));
+    for (Groups &groups : further_) groups.resize(static_cast<std::size_t>(n_kept));
   }
 
   const std::string &path_;
   Source in_;
   bool is_new_ = false, has_elements_ = false;
   std::optional<NodeTags> tags_;
-  std::map<std::array<std::int64_t, 2>, std::int64_t> groups_;  // by dimension and entity
+  std::map<std::array<std::int64_t, 2>, std::vector<std::int64_t>> groups_;  // by dimension and entity
   PlainGrid mesh_;
-  std::vector<std::int32_t> physical_;
+  static constexpr std::size_t most_groups = 16;  // further ones of an element
+  Groups physical_;
+  std::vector<Groups> further_;
+  std::vector<std::string> names_;  // numbers and names of groups of volumes, in turn
 };
 
 }  // namespace

@@ -21,6 +21,10 @@ namespace riis::vtk {
 
 // The field array that a grid has if its file holds single precision. riis_vtk_mesh_get_notes reads it.
 inline constexpr const char *note_array = "riis_note";
+// The cell array with the first of gmsh's physical groups. Arrays of its name, _2, _3 and so on have further groups, or 0.
+inline constexpr const char *physical_array = "gmsh:physical";
+// The field array with the numbers and the names of the physical groups of volumes, in turn.
+inline constexpr const char *region_names_array = "riis_region_names";
 void add_note(vtkUnstructuredGrid *grid, const std::string &note);
 
 // Gmsh's .msh of versions 2 and 4.1, as text or binary (gmsh.cpp).

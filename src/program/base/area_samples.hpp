@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a surface. Out: points on it that stand for equal shares of its area, as nearly as its triangles allow.
+#pragma once
+
+#include <riis/riis.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace riis::program {
+
+// The largest share of the leaflets' area outside a mesh that needs no warning.
+inline constexpr double most_outside = 0.02;
+
+struct AreaSamples {
+  std::vector<double> xyz;  // (3, n)
+  std::vector<double> area;
+  std::vector<std::int32_t> leaflet;
+};
+
+// Takes only triangles whose leaflet is below n_leaflets. Each triangle is cut into equal ones, with a point in each.
+AreaSamples area_samples(const riis_surface *surface, std::int32_t n_leaflets);
+
+}  // namespace riis::program

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program/mark/outside.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "common/array_view.hpp"
+#include "program/base/handles.hpp"
+#include "program/base/ranks.hpp"
+#include "program/base/text.hpp"
+#include "program/input/valve_source.hpp"
+#include "program/mark/warnings.hpp"
+
+namespace riis::program {
+namespace {
+
+bool has_skirt(const riis_valve *valve) {
+  const std::vector<riis_parameter> all = all_parameters(valve);
+  return std::any_of(all.begin(), all.end(), [&](const riis_parameter &parameter) {
+    return std::string(parameter.name) == "skirt_length" && values_of(valve, parameter)[0] != 0;
+  });
+}
+
+// Returns the largest id of a leaflet plus one. A skirt has the largest id of its surface.
+std::int32_t n_leaflets_without_skirt(const MovingValve &valve) {
+  const std::int32_t n = n_leaflets_of(valve.surface());
+  const riis_valve *const shape = valve.source().valve.get();
+  if (!shape) return n;
+  if (valve.options().valve == "bileaflet") return RIIS_LEAFLET_HOUSING;
+  return has_skirt(shape) ? n - 1 : n;
+}
+
+std::string leaflet_text(const std::vector<std::string> &names, std::int32_t leaflet) {
+  const auto at = static_cast<std::size_t>(leaflet);
+  return at < names.size() ? names[at] : "leaflet " + std::to_string(leaflet);
+}
+
+std::string percent(double share) { return printed(share < 0.1 ? "%.2g %%" : "%.0f %%", 100 * share); }
+
+}  // namespace
+
+LeafletsOutside::LeafletsOutside(const MovingValve &valve)
+    : options_(valve.options()),
+      info_(info_of(valve.surface())),
+      opening_(valve.opening()),
+      samples_(area_samples(valve.surface(), n_leaflets_without_skirt(valve))),
+      is_outside_(samples_.area.size(), 1) {}
+
+void LeafletsOutside::add(const Piece &piece) {
+  double lower[3], upper[3];
+  for (int k = 0; k < 3; ++k) {
+    lower[k] = info_.lower[k] - info_.half_thickness;
+    upper[k] = info_.upper[k] + info_.half_thickness;
+  }
+  // Cells reach beyond the box of their centres.
+  if (options_.at_cells || piece.nodes.box().meets(lower, upper))
+    check(riis_vtk_mesh_find_outside(piece.file, view(is_outside_).size(), samples_.xyz.data(), info_.half_thickness,
+                                     is_outside_.data()),
+          piece.path);
+}
+
+OutsideReport LeafletsOutside::report() const {
+  struct Area {
+    double all = 0, outside = 0;
+  };
+  std::map<std::int32_t, Area> by_leaflet;
+  Area sum;
+  const std::vector<std::uint8_t> of_ranks = ranks::gather(is_outside_);
+  const std::size_t n = is_outside_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    bool is_out = true;
+    for (std::size_t at = i; at < of_ranks.size(); at += n) is_out = is_out && of_ranks[at] != 0;
+    for (Area *const area : {&sum, &by_leaflet[samples_.leaflet[i]]}) {
+      area->all += samples_.area[i];
+      if (is_out) area->outside += samples_.area[i];
+    }
+  }
+  OutsideReport made;
+  if (sum.all > 0) made.share = sum.outside / sum.all;
+  made.opening = opening_;
+  const std::vector<std::string> names = leaflet_names(options_);
+  for (const auto &[leaflet, area] : by_leaflet)
+    if (area.outside > 0) made.leaflets.push_back({leaflet_text(names, leaflet), area.outside / area.all});
+  return made;
+}
+
+std::string outside_text(const OutsideReport &report) {
+  std::string text;
+  for (const OutsideReport::Leaflet &leaflet : report.leaflets)
+    text += (text.empty() ? "" : ", ") + leaflet.name + " " + percent(leaflet.share);
+  return percent(report.share) + " of the leaflets' area (" + text + ")";
+}
+
+void warn_of_outside(const OutsideReport &report, double half_thickness, const std::string &name) {
+  if (report.share <= most_outside) return;
+  const std::string at = report.opening ? printed(" at opening %g", *report.opening) : "";
+  warn({{Cause::outside,
+         name + " stands through the wall" + at + ": " + outside_text(report) + " is farther than the half thickness " +
+             shown(half_thickness) + " outside the mesh",
+         ": move it, turn it or make it smaller"}});
+}
+
+}  // namespace riis::program

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a surface and the pieces of a mesh. Out: the share of its leaflets' area that is farther than the half thickness outside
+// the mesh. Skirts and the housing of a bileaflet valve do not count, because they may reach beyond the wall.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/base/area_samples.hpp"
+#include "program/mark/mesh_pieces.hpp"
+#include "program/mark/moving_valve.hpp"
+#include "program/output/report.hpp"
+
+namespace riis::program {
+
+class LeafletsOutside {
+ public:
+  // Takes the surface where the valve is now.
+  explicit LeafletsOutside(const MovingValve &valve);
+  void add(const Piece &piece);
+  // Returns the shares of all ranks' pieces.
+  OutsideReport report() const;
+
+ private:
+  const MarkOptions &options_;
+  riis_surface_info info_;
+  std::optional<double> opening_;
+  AreaSamples samples_;
+  std::vector<std::uint8_t> is_outside_;  // of all pieces so far
+};
+
+// Warns if more than a small share is outside. `name` is the surface's name in the warning.
+void warn_of_outside(const OutsideReport &report, double half_thickness, const std::string &name);
+// Returns a text such as "26 % of the leaflets' area (right 61 %)".
+std::string outside_text(const OutsideReport &report);
+
+}  // namespace riis::program

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Domains of a mesh, such as the fluid and the wall: cells with one value in a cell array. The caller keeps the cells of some
+// values, or learns which values are beside each other.
+#include <riis/riis_vtk.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+
+#include "common/array_view.hpp"
+#include "riis_vtk/base/files.hpp"
+#include "riis_vtk/mesh/mesh.hpp"
+#include "riis_vtk/read/other_files.hpp"
+
+namespace riis::vtk {
+namespace {
+
+bool is_volume(vtkUnstructuredGrid *grid, vtkIdType cell) { return shape_of(grid->GetCellType(cell)).dimension == 3; }
+
+bool has_volumes(vtkUnstructuredGrid *grid) {
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    if (is_volume(grid, cell)) return true;
+  return false;
+}
+
+// ---- The choice ----
+
+// "NAME=VALUES", with values that are separated by commas.
+struct Where {
+  std::string name;
+  std::vector<std::string> values;
+};
+
+Where parsed(const std::string &text) {
+  const std::size_t equals = text.rfind('=');
+  const auto refuse = [&] { refuse_argument("where is \"", text, "\"; it must be NAME=VALUES, such as region=1,2"); };
+  if (equals == std::string::npos || equals == 0) refuse();
+  Where where{text.substr(0, equals), {}};
+  for (std::size_t begin = equals + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end == begin) refuse();
+    where.values.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (where.values.empty()) refuse();
+  return where;
+}
+
+vtkDataArray *numbers_of_cells(vtkUnstructuredGrid *grid, const std::string &name) {
+  auto *const array = vtkDataArray::SafeDownCast(grid->GetCellData()->GetAbstractArray(name.c_str()));
+  return array && array->GetNumberOfComponents() == 1 ? array : nullptr;
+}
+
+// A cell of gmsh's may be in several physical groups. The array of the first group is followed by those of further groups.
+std::vector<vtkDataArray *> arrays_of(vtkUnstructuredGrid *grid, const std::string &name) {
+  std::vector<vtkDataArray *> arrays;
+  vtkDataArray *next = numbers_of_cells(grid, name);
+  if (!next)
+    refuse_argument("where: the mesh has no cell array ", name, " of single numbers",
+                    list_of_arrays(grid->GetCellData()));
+  for (int k = 2; next; ++k) {
+    arrays.push_back(next);
+    next = name == physical_array ? numbers_of_cells(grid, joined(name, "_", k)) : nullptr;
+  }
+  return arrays;
+}
+
+std::set<double> numbers_of(const Where &where, const std::vector<RegionName> &names) {
+  std::set<double> numbers;
+  for (const std::string &value : where.values) {
+    double number = 0;
+    const auto name = std::find_if(names.begin(), names.end(), [&](const RegionName &of) {
+      return where.name == physical_array && of.name == value;
+    });
+    if (name != names.end())
+      number = name->number;
+    else if (!read_number(value, number))
+      refuse_argument("where: ", value, " is not a number", names.empty() ? "" : ", nor the name of a physical group");
+    numbers.insert(number);
+  }
+  return numbers;
+}
+
+// Returns the values of volume cells as text, at most a few.
+std::string values_text(vtkUnstructuredGrid *grid, const std::vector<vtkDataArray *> &arrays) {
+  constexpr std::size_t most_listed = 10;
+  std::set<double> values;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells() && values.size() <= most_listed; ++cell)
+    if (is_volume(grid, cell))
+      for (vtkDataArray *const array : arrays)
+        if (const double value = array->GetTuple1(cell); array == arrays[0] || value != 0) values.insert(value);
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + joined(value);
+  return values.size() > most_listed ? text + ", ..." : text;
+}
+
+void choose_cells(riis_vtk_mesh &mesh, const Where &where, std::int64_t *n_chosen) {
+  vtkUnstructuredGrid *const grid = mesh.grid;
+  if (n_chosen) *n_chosen = 0;
+  if (n_chosen && grid->GetNumberOfCells() == 0) return;  // an empty piece may lack the array
+  const std::vector<vtkDataArray *> arrays = arrays_of(grid, where.name);
+  const std::set<double> wanted = numbers_of(where, mesh.region_names);
+  const bool needs_volumes = has_volumes(grid);
+  std::vector<vtkIdType> cells;
+  std::int64_t n = 0;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    if (std::none_of(arrays.begin(), arrays.end(),
+                     [&](vtkDataArray *array) { return wanted.count(array->GetTuple1(cell)) != 0; }))
+      continue;
+    cells.push_back(cell);
+    n += !needs_volumes || is_volume(grid, cell);
+  }
+  if (n_chosen)
+    *n_chosen = n;
+  else if (n == 0)
+    refuse_argument("where: no ", needs_volumes ? "volume cell" : "cell", " has such a value of ", where.name,
+                    needs_volumes ? "; they have " + values_text(grid, arrays) : "");
+  keep_cells(mesh, cells);
+}
+
+// ---- Regions ----
+
+// Arrays with such words in their names tell something else of a cell than its domain.
+bool may_tell_domains(const std::string &array_name) {
+  std::string name = array_name;
+  for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  static const char *const others[] = {"riis_",    "vtk",    "ghost", "rank",   "proc",  "part", "thread",
+                                       "color",    "colour", "level", "qual",   "type",  "flag", "_marked",
+                                       "_leaflet", "_side",  "_rim",  "_patch", "leaf_", "error"};
+  return std::none_of(std::begin(others), std::end(others),
+                      [&](const char *word) { return name.find(word) != std::string::npos; });
+}
+
+// Returns the values of volume cells, if they are few whole numbers, and two of them are of cells of one type with a common node.
+// Otherwise returns none. A domain of several types of cells often has a block for each of them, as Exodus needs.
+std::vector<double> touching_values(vtkUnstructuredGrid *grid, vtkDataArray *array) {
+  constexpr std::size_t most_regions = 16;
+  std::set<double> values;
+  // The value and the type of the first cell at each node.
+  std::vector<double> of_node(static_cast<std::size_t>(grid->GetNumberOfPoints()), NAN);
+  std::vector<int> type_at(of_node.size());
+  bool do_touch = false;
+  vtkNew<vtkIdList> nodes;
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    if (!is_volume(grid, cell)) continue;
+    const double value = array->GetTuple1(cell);
+    values.insert(value);
+    if (value != std::floor(value) || values.size() > most_regions) return {};
+    grid->GetCellPoints(cell, nodes);
+    const int type = grid->GetCellType(cell);
+    for (const vtkIdType node : *nodes) {
+      double &of = view(of_node)[node];
+      if (std::isnan(of)) {
+        of = value;
+        view(type_at)[node] = type;
+      }
+      do_touch = do_touch || (of != value && view(type_at)[node] == type);
+    }
+  }
+  if (!do_touch) return {};
+  return {values.begin(), values.end()};
+}
+
+void find_regions(riis_vtk_mesh &mesh) {
+  mesh.regions = {};
+  vtkCellData *const data = mesh.grid->GetCellData();
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
+    vtkDataArray *const array = data->GetArray(i);
+    if (!array || !array->GetName() || array->GetNumberOfComponents() != 1 || !may_tell_domains(array->GetName()))
+      continue;
+    mesh.regions.values = touching_values(mesh.grid, array);
+    mesh.regions.array = array->GetName();
+    if (!mesh.regions.values.empty()) return;
+  }
+  mesh.regions = {};
+}
+
+}  // namespace
+}  // namespace riis::vtk
+
+using namespace riis::vtk;
+
+extern "C" {
+
+RIIS_API riis_status riis_vtk_mesh_choose_cells(riis_vtk_mesh *mesh, const char *where, int64_t *n_chosen) {
+  return guarded([&](const CaughtOutput &) {
+    require(mesh, "mesh");
+    if (mesh->centers) refuse_argument("mesh already has its nodes at the centres of cells");
+    choose_cells(*mesh, parsed(require(where, "where")), n_chosen);
+  });
+}
+
+RIIS_API riis_status riis_vtk_mesh_find_regions(riis_vtk_mesh *mesh, const char **array, int64_t *n_values,
+                                                const double **values) {
+  return guarded([&](const CaughtOutput &) {
+    find_regions(*require(mesh, "mesh"));
+    *require(array, "array") = mesh->regions.array.c_str();
+    *require(n_values, "n_values") = static_cast<int64_t>(mesh->regions.values.size());
+    if (values) *values = mesh->regions.values.data();
+  });
+}
+
+}  // extern "C"
