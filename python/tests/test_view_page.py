@@ -5,7 +5,6 @@ import asyncio
 import importlib.util
 import json
 import os
-import pathlib
 import re
 import shutil
 import signal
@@ -261,17 +260,6 @@ def test_a_widget_for_notebooks():
             riis.plot(surface, interactive=True)
     else:
         assert "vtk" in riis.plot(surface, interactive=True).value
-
-
-@pytest.mark.skipif(importlib.util.find_spec("trame_pyvista") is None, reason="pyvista[jupyter] is missing")
-def test_the_program_of_the_document_runs(tmp_path, monkeypatch):
-    text = (pathlib.Path(__file__).resolve().parents[2] / "docs/view.md").read_text(encoding="utf-8")
-    (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    box(20).save(tmp_path / "mesh.vtu")
-    monkeypatch.chdir(tmp_path)
-    names = {}
-    exec(program, names)
-    assert len(names["model"].update().marked) > 0
 
 
 def test_pictures_of_a_scene():
