@@ -6,6 +6,7 @@ import importlib.util
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -316,8 +317,19 @@ def test_files_that_are_no_meshes(tmp_path):
             reading.read_mesh(str(tmp_path / name), {})
         assert str(tmp_path / name) in str(refused.value)
     (tmp_path / "mesh.stl").write_text("")
-    with pytest.raises(reading.Refusal, match="riis mark mesh.stl --output mesh.vtu"):
+    with pytest.raises(reading.Refusal, match=r"mesh.stl: riis view reads [a-z., ]*$"):  # the program does not read it either
         reading.read_mesh(str(tmp_path / "mesh.stl"), {})
+    # The command that the message advises writes a mesh that the view reads.
+    path = tmp_path / "two words.vtm"
+    pyvista.MultiBlock([box(12)]).save(path)
+    with pytest.raises(reading.Refusal, match="The program writes what the view reads: riis mark ") as refused:
+        reading.read_mesh(str(path), {})
+    program = os.environ.get("RIIS_PROGRAM", "")
+    if os.path.exists(program):
+        words = shlex.split(str(refused.value).split("reads: ")[-1])
+        assert words[0] == "riis"
+        subprocess.run([program, *words[1:]], cwd=tmp_path, check=True)
+        assert reading.read_mesh(str(tmp_path / "mesh.vtu"), {}).n_points == box(12).n_points
     with pytest.raises(reading.Refusal, match="a surface is a file .vtp, .stl or .pvd"):
         reading.read_surface(str(tmp_path / "text.vtu"))
     with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):
