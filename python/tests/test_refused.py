@@ -696,3 +696,31 @@ def test_objects_answer_questions_for_their_attributes(o):
             one.close()
             assert one.closed and len(inspect.getmembers(one)) <= n_members
     assert not hasattr(mesh, "xyz") and not hasattr(valve, "parameters") and not hasattr(marks, "ids")
+
+
+FIELDS_AND_K = ("point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id", "distance_gradient", "K",
+                "K_u_surface", "K_gradient")
+
+
+@pytest.mark.parametrize("name", FIELDS_AND_K)
+def test_the_advice_for_a_field_works(o, name):
+    """A marking with the arguments that the message names has the field."""
+    near, valve = riis.Valve("mitral", opening=0.31), riis.Valve("mitral", opening=0.3)
+    surface = riis.Surface(valve, half_thickness=0.15)
+    surface.update_moving(valve, near, 0.1)
+    surface.add_direction(near, valve, 0.01)
+    mesh = riis.Mesh(numpy.array(surface.vertices[:50]))
+    with pytest.raises(Missing, match=f"^{name}: the marking did not (request|make) it; mark with ") as refused:
+        getattr(riis.mark(surface, mesh), name)
+    advised = dict(re.findall(r"(R|fields)=(?:'(\w+)')?", str(refused.value).split("; mark with ")[1]))
+    arguments = {key: value or 1e4 for key, value in advised.items()}
+    assert arguments and len(getattr(riis.mark(surface, mesh, **arguments), name)) == 50
+
+
+@pytest.mark.parametrize("wrong", [numpy.zeros(60, "f4"), numpy.zeros(120)[::2], [0.0] * 60])
+def test_the_advice_for_written_arrays_works(o, wrong):
+    with pytest.raises((TypeError, Argument), match="^K: .*; the call writes it, so make it by numpy.zeros") as refused:
+        o.marks.add_resistance(wrong, R=1e4)
+    call = re.search(r"make it by (numpy\.zeros.*)$", str(refused.value))[1].replace("...", "o.n")
+    K = eval(call if call.endswith(")") else call + "(o.n)", {"numpy": numpy, "o": o})
+    o.marks.add_resistance(K, R=1e4)
