@@ -9,8 +9,10 @@ import collections
 import pathlib
 import re
 import sys
+import tempfile
 
-PARTS = {"program": ["src/program"], "library": ["src/riis", "src/riis_vtk", "src/common"], "Python": ["python/riis", "python/src", "src/paraview"]}
+PARTS = {"program": ["src/program"], "library": ["src/riis", "src/riis_vtk", "src/common"],
+         "Python": ["python/riis", "python/src", "src/paraview"]}
 NO_MESSAGES = {"src/program/cli/help.cpp", "src/program/cli/command_options.cpp", "src/program/base/refusal.hpp",
                "python/riis/_errors.py"}  # the last two replace names in messages
 COMMAND = re.compile(
@@ -63,25 +65,47 @@ def commands(root):
     return found
 
 
-def main(root):
-    root = pathlib.Path(root)
-    listed = collections.Counter()
+def problems_of(root, text):
+    """Compares the sources with the lines of messages.txt. Returns what is wrong."""
+    listed, problems = collections.Counter(), []
     tests = {path.name for folder in ("tests", "python/tests") for path in (root / folder).rglob("*")}
-    for line in pathlib.Path(__file__).with_name("messages.txt").read_text(encoding="utf-8").splitlines():
+    for line in text.splitlines():
         if line and not line.startswith("#"):
             name, command, test = line.split(" | ")
             listed[name, command] += 1
             if not test.startswith("never: ") and test not in tests:
-                sys.exit(f"messages.txt: there is no test {test}")
-    made = commands(root)
-    present = collections.Counter((name, command) for _, name, command in made)
-    problems = [f"{name} prints the command '{command}', which messages.txt lacks: name the test that runs it"
-                for name, command in (present - listed).elements()]
-    problems += [f"messages.txt: {name} does not print '{command}'" for name, command in (listed - present).elements()]
+                problems.append(f"messages.txt: there is no test {test}")
+    present = collections.Counter((name, command) for _, name, command in commands(root))
+    problems += [f"{name} prints the command '{command}', which messages.txt lacks: name the test that runs it"
+                 for name, command in (present - listed).elements()]
+    return problems + [f"messages.txt: {name} does not print '{command}'" for name, command in (listed - present).elements()]
+
+
+def check_itself():
+    """Shows that each fault is found, in sources of two files."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in (("src/program/a.cpp", '// "riis mark" in a comment\nfail("it leaks: "\n     "write --" "scale 2");\n'),
+                           ("python/riis/a.py", '"""riis mark in a docstring"""\nraise Error(f"{x}: pip install {y}")\n'),
+                           ("tests/test_a.c", "")):
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        lines = "src/program/a.cpp | write --scale | test_a.c\npython/riis/a.py | pip install | never: the network\n"
+        assert not problems_of(root, lines), problems_of(root, lines)
+        assert len(problems_of(root, "# nothing\n")) == 2
+        for line in "python/riis/b.py | pip install | test_a.c\n", "src/program/a.cpp | riis mark | test_a.c\n":
+            assert problems_of(root, lines + line) == [f"messages.txt: {line.split()[0]} does not print '{line.split(' | ')[1]}'"]
+        assert problems_of(root, lines.replace("test_a", "test_b")) == ["messages.txt: there is no test test_b.c"]
+
+
+def main(root):
+    check_itself()
+    root = pathlib.Path(root)
+    problems = problems_of(root, pathlib.Path(__file__).with_name("messages.txt").read_text(encoding="utf-8"))
     if problems:
         sys.exit("\n".join(problems))
     for part in PARTS:
-        print(f"{part}: {sum(one == part for one, _, _ in made)} commands")
+        print(f"{part}: {sum(one == part for one, _, _ in commands(root))} commands")
 
 
 if __name__ == "__main__":
