@@ -13,6 +13,7 @@ import numpy
 from riis import FAR_DISTANCE
 
 BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
+SURFACES = (".stl", ".vtp", ".obj", ".ply", ".off")
 BY_PROGRAM = (".vtm", ".e", ".exo", ".ex2", ".exii", ".foam")  # and folders of OpenFOAM
 
 
@@ -30,6 +31,11 @@ def read_mesh(path: str, progress: dict[str, float]) -> Any:
     ending = os.path.splitext(path)[1].lower()
     if not os.path.exists(path):
         raise Refusal(f"{path}: there is no such file")
+    if ending in SURFACES:
+        raise Refusal(
+            f"{path}: is a surface, and riis view shows a mesh of volume cells. gmsh or your mesher fills a closed surface with "
+            "cells; docs/patient.md has the commands"
+        )
     if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
         text = f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}"
         if os.path.isdir(path) or ending in BY_PROGRAM:
