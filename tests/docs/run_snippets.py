@@ -130,7 +130,7 @@ def main(scratch, programs):
             if done.returncode != 0:
                 problems.append(f"{document}, line {one.line}: ended with {done.returncode}\n{one.text}{done.stdout}")
     print(f"{n_run} snippets of commands run, {n_listed} are listed in snippets.txt")
-    return "\n".join(problems)
+    return "\n".join(problems) or 0
 
 
 if __name__ == "__main__":
