@@ -3,11 +3,13 @@
 
     import numpy, riis
 
+    xyz = numpy.random.default_rng(1).uniform(-2.0, 2.0, (60_000, 3))  # your nodes, (n, 3) float64
     valve = riis.Valve("mitral", opening=0.3)
     surface = riis.Surface(valve, half_thickness=0.1)
-    mesh = riis.Mesh(xyz)                               # (n, 3) float64, borrowed
+    mesh = riis.Mesh(xyz)                               # borrowed, not copied
     marks = riis.mark(surface, mesh)
     marks.ids, marks.distance                           # views without a copy
+    K = numpy.zeros(len(mesh))
     marks.add_resistance(K, R=1e4)
 
 Lengths have one unit of the caller's choice, and angles are in degrees. Ids count from 0. A refused call raises TypeError or a
@@ -26,6 +28,7 @@ from riis._errors import (
     InvalidParameterError,
     InvalidSurfaceError,
     LimitExceededError,
+    MissingAttributeError,
     OutOfMemoryError,
     UnavailableError,
     UnknownParameterError,
@@ -131,6 +134,7 @@ __all__ = [
     "Marks",
     "MarkStats",
     "Mesh",
+    "MissingAttributeError",
     "OpeningAngle",
     "OpeningAngleState",
     "OpeningSwitch",

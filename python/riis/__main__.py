@@ -23,10 +23,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
+# The packages of pyproject.toml's extra `view`.
+_NEEDED = ("pyvista", "vtk", "trame", "trame-vuetify", "meshio", "imageio", "imageio-ffmpeg")
+
+
 def _say_missing(error: ImportError) -> int:
     """Says which package is missing, or why an installed package cannot be loaded."""
     is_missing = isinstance(error, ModuleNotFoundError) and error.name
-    text = f"{error.name} is missing: pip install 'riis[view]'" if is_missing else str(error)
+    text = f"{error.name} is missing: pip install {' '.join(_NEEDED)}" if is_missing else str(error)
     print(f"riis view: {text}", file=sys.stderr)
     return 1
 

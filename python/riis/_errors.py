@@ -30,6 +30,10 @@ class InvalidParameterError(Error, ValueError):
     status_name = "RIIS_INVALID_PARAMETER"
 
 
+class MissingAttributeError(InvalidArgumentError, AttributeError):
+    """The attribute is not there: the marking did not make it, or the object is closed. ``hasattr`` then returns False."""
+
+
 class UnknownParameterError(InvalidParameterError, KeyError):
     """The valve has no parameter of this name."""
 
@@ -92,7 +96,7 @@ _classes = {
         InternalError,
     )
 }
-for _class in (Error, UnknownParameterError, *_classes.values()):
+for _class in (Error, MissingAttributeError, UnknownParameterError, *_classes.values()):
     _class.__module__ = "riis"
 
 

@@ -73,25 +73,26 @@ class FitResult:
     percentile95: float  #: 95 % of all points have at most this distance
     distances: Reals = field(repr=False)  #: (n_points,), of all points, to the surface midway between both faces
     weights: Reals = field(repr=False)  #: (n_points,), the caller's weights times a factor from 0 to 1, small for outliers
+    unit: str | None = None  #: "mm", "cm" or "m", of the points. The parameters are then in centimetres
 
     def report(self) -> str:
         """Returns a table of the parameters with their standard errors, followed by the measures of the fit."""
         table = self.valve.parameters
+        of_points = "" if self.unit is None else f" {self.unit}"
         lines = [f"{'parameter':32} {'value':>10} {'std. error':>10}  unit"]
         for name, value in self.parameters.items():
             notes = ["undetermined"] * (name in self.undetermined) + ["has no influence"] * (name in self.without_influence)
             notes += ["at a bound"] * (name in self.at_bounds)
-            lines.append(
-                f"{name:32} {value:10.4f} {self.standard_errors[name]:10.4f}  {table[name].unit:7} {', '.join(notes)}".rstrip()
-            )
+            unit = "cm" if self.unit is not None and table[name].unit == "length" else table[name].unit
+            lines.append(f"{name:32} {value:10.4f} {self.standard_errors[name]:10.4f}  {unit:7} {', '.join(notes)}".rstrip())
         for name, value in self.placement.items():
             numbers = " ".join(f"{number:.4f}" for number in numpy.atleast_1d(value))
-            lines.append(f"{name:32} {numbers}")
+            lines.append(f"{name:32} {numbers}{of_points if name == 'translation' else ''}")
         moves = [name for name in self.undetermined if name in _MOVES]
         if moves:
             lines.append(f"undetermined in the placement: {', '.join(moves)}")
-        share = f"95 % of {len(self.distances)} points within {self.percentile95:.4f}"
-        lines.append(f"rms {self.rms:.4f}, {share}, outliers {self.outliers:.1%}, misfit {self.misfit:.2g}")
+        share = f"95 % of {len(self.distances)} points within {self.percentile95:.4f}{of_points}"
+        lines.append(f"rms {self.rms:.4f}{of_points}, {share}, outliers {self.outliers:.1%}, misfit {self.misfit:.2g}")
         lines.append(f"{self.n_agreeing} of {self.n_starts} starts reached this fit; points cover {self.covered:.0%} of it")
         for rival in self.rivals:
             values = ", ".join(f"{name} {value:.4f}" for name, value in rival.parameters.items())
@@ -400,7 +401,7 @@ def fit(
     if n_done < n_most and any(doubt.startswith(_OF_ENDS) for doubt in found.doubts):  # the starts may agree on a wrong fit
         ends, n_done = search(rough, pose, x, middle, any_rotation, n_most, n_most, random)
         found = _finish(problem, ends, n_done, stated, len(used), random)
-    return found
+    return replace(found, unit=unit)
 
 
 def _extent(points: Reals, weights: Reals) -> float:

@@ -26,7 +26,7 @@ def _pyvista() -> Any:
     try:
         import pyvista
     except ImportError as missing:
-        raise ImportError("pictures need PyVista: pip install pyvista, or install riis[plot]") from missing
+        raise ImportError("pictures need PyVista: pip install pyvista") from missing
     return pyvista
 
 
@@ -274,7 +274,7 @@ def animate(
     unit        of the mesh, such as "mm", for the scale bar. None stands for "mesh units"
 
     Without plotter, the camera looks at the first frame obliquely from above. If a frame raises an exception, no file is left. A
-    movie needs imageio in addition to PyVista, and .mp4 also needs imageio-ffmpeg: pip install riis[plot].
+    movie needs imageio besides PyVista, .mp4 also imageio-ffmpeg.
     """
     pyvista = _pyvista()
     name = os.fspath(path)
@@ -319,4 +319,4 @@ def _open_movie(plotter: Any, name: str, kind: str, frame_rate: float) -> None:
         else:
             plotter.open_movie(name, framerate=frame_rate)
     except ImportError as missing:
-        raise ImportError("movies need imageio, .mp4 also imageio-ffmpeg: install riis[plot]") from missing
+        raise ImportError("movies need imageio, .mp4 also imageio-ffmpeg: pip install imageio imageio-ffmpeg") from missing

@@ -86,6 +86,20 @@ bool is_convertible(nb::handle object) {
          nb::hasattr(object, "__array__");
 }
 
+// Returns the Python expression of the object that numpy can convert: the argument itself, or the points of a mesh of PyVista,
+// meshio, trimesh or dolfinx. Returns an empty string for other objects.
+std::string convertible_part(nb::handle object, const std::string &name, const std::string &wanted) {
+  static const char *const places[][2] = {{"points", nullptr}, {"vertices", nullptr}, {"geometry", "x"}};
+  for (const auto &[attribute, inner] : places) {
+    if (wanted != "float64" || nb::hasattr(object, "dtype") || !nb::hasattr(object, attribute)) continue;
+    const nb::object outer = object.attr(attribute);
+    if (inner && !nb::hasattr(outer, inner)) continue;
+    if (is_convertible(inner ? nb::object(outer.attr(inner)) : outer))
+      return text_of(name, ".", attribute, inner ? "." : "", inner ? inner : "");
+  }
+  return is_convertible(object) ? name : "";
+}
+
 }  // namespace
 
 template <class... Parts>
@@ -93,8 +107,8 @@ void Array::refuse_entries(nb::handle object, const char *wanted, const Parts &.
   std::string text = text_of(parts...);
   if (access_ == Access::write)
     text += text_of("; the call writes it, so make it by numpy.zeros(..., dtype=", dtype_for(wanted), ")");
-  else if (is_convertible(object))
-    text += text_of("; pass numpy.ascontiguousarray(", name_, ", dtype=", dtype_for(wanted), ")");
+  else if (const std::string part = convertible_part(object, name_, wanted); !part.empty())
+    text += text_of("; pass numpy.ascontiguousarray(", part, ", dtype=", dtype_for(wanted), ")");
   refuse_type(name_, text);
 }
 

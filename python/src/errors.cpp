@@ -11,6 +11,13 @@ void raise_status(riis_status status, const std::string &message) {
   throw nb::python_error();
 }
 
+void raise_as_attribute_error(const nb::python_error &error) {
+  const nb::object errors = nb::module_::import_("riis._errors");
+  if (!error.matches(errors.attr("InvalidArgumentError"))) throw error;
+  PyErr_SetObject(nb::object(errors.attr("MissingAttributeError")).ptr(), nb::str(error.value()).ptr());
+  throw nb::python_error();
+}
+
 std::string in_python(const char *text) {
   // The library may have truncated a long name within a character.
   const nb::object letters =

@@ -38,6 +38,22 @@ template <class... Parts>
   throw nb::type_error(text_of(name, ": ", parts...).c_str());
 }
 
+// Throws the exception of a property's getter again. If it refuses the object, it also becomes an AttributeError.
+[[noreturn]] void raise_as_attribute_error(const nb::python_error &error);
+
+// Returns the getter of a property. Marks without the property's field, or a closed object, then answer hasattr and
+// inspect.getmembers, which expect an AttributeError.
+template <class Result, class Self>
+auto attribute(Result (*get)(Self)) {
+  return [get](Self self) -> Result {
+    try {
+      return get(self);
+    } catch (const nb::python_error &error) {
+      raise_as_attribute_error(error);
+    }
+  };
+}
+
 // Returns the name of an object's type, such as "list".
 std::string name_of_type(nb::handle object);
 

@@ -186,22 +186,22 @@ nb::object field_view(nb::handle self) {
 
 template <class Type, int... numbers>
 void add_fields(nb::class_<Type> &type, std::integer_sequence<int, numbers...>) {
-  (type.def_prop_ro(fields[numbers].name, &field_view<numbers>, nb::sig(fields[numbers].signature),
+  (type.def_prop_ro(fields[numbers].name, attribute(&field_view<numbers>), nb::sig(fields[numbers].signature),
                     fields[numbers].text),
    ...);
 }
 
 template <class Type>
 void add_lists(nb::class_<Type> &type) {
-  type.def_prop_ro("ids", &list_view<&riis_mark_list::node_id>,
+  type.def_prop_ro("ids", attribute(&list_view<&riis_mark_list::node_id>),
                    nb::sig("def ids(self) -> numpy.typing.NDArray[numpy.int64]"), "(n,): the nodes, ascending. A view.")
-      .def_prop_ro("distance", &list_view<&riis_mark_list::distance>, nb::sig(RIIS_REALS("distance")),
+      .def_prop_ro("distance", attribute(&list_view<&riis_mark_list::distance>), nb::sig(RIIS_REALS("distance")),
                    "(n,): the nodes' distances to the surface, mesh units. A view.")
-      .def_prop_ro("triangle_id", &list_view<&riis_mark_list::triangle_id>,
+      .def_prop_ro("triangle_id", attribute(&list_view<&riis_mark_list::triangle_id>),
                    nb::sig("def triangle_id(self) -> numpy.typing.NDArray[numpy.int64]"),
                    "(n,): the nodes' closest triangles. A view.")
-      .def_prop_ro("leaflet_id", &list_view<&riis_mark_list::leaflet_id>, nb::sig(RIIS_INTEGERS("leaflet_id")),
-                   "(n,): the leaflets of these triangles. A view.")
+      .def_prop_ro("leaflet_id", attribute(&list_view<&riis_mark_list::leaflet_id>),
+                   nb::sig(RIIS_INTEGERS("leaflet_id")), "(n,): the leaflets of these triangles. A view.")
       .def(
           "__len__", [](nb::handle self) { return ListReader(self).list().n_nodes; },
           nb::sig("def __len__(self) -> int"));
@@ -281,11 +281,11 @@ so they do not change.)");
                                  "The nodes of a Marks within the distance limit of the marking, marked or not.");
   add_lists(within);
   result
-      .def_prop_ro(
-          "within_limit", [](nb::handle self) { return WithinLimit{nb::borrow(self)}; },
-          nb::sig("def within_limit(self) -> WithinLimit"), "The same arrays for all nodes within the distance limit.")
+      .def_prop_ro("within_limit", attribute(+[](nb::handle self) { return WithinLimit{nb::borrow(self)}; }),
+                   nb::sig("def within_limit(self) -> WithinLimit"),
+                   "The same arrays for all nodes within the distance limit.")
       .def_prop_ro("_places", [](const Marks &self) { return self.places; })
-      .def_prop_ro("stats", &stats, nb::sig("def stats(self) -> riis._records.MarkStats"),
+      .def_prop_ro("stats", attribute(&stats), nb::sig("def stats(self) -> riis._records.MarkStats"),
                    "The statistics of the last marking.")
       .def("dense", &dense, nb::kw_only(), nb::arg("mark").none() = true, nb::arg("distance").none() = true,
            nb::arg("triangle_id").none() = false, nb::arg("leaflet_id").none() = false,

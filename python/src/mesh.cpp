@@ -240,9 +240,9 @@ owner, neighbor  (n_faces,) int32 or int64, both of one type: the cells that a f
                   nb::kw_only(), nb::arg("n_threads").none() = 0,
                   nb::sig("def from_grid(ni: int, nj: int, nk: int, *, n_threads: int = 0) -> Adjacency"),
                   "Makes the adjacency of a structured grid. Node (i, j, k) has the number i + ni (j + nj k).")
-      .def_prop_ro("offsets", &offsets, nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
+      .def_prop_ro("offsets", attribute(&offsets), nb::sig("def offsets(self) -> numpy.typing.NDArray[numpy.int64]"),
                    "(n_rows + 1,): where each row begins in columns, and where the last row ends. A view.")
-      .def_prop_ro("columns", &columns, nb::sig("def columns(self) -> " RIIS_IDS),
+      .def_prop_ro("columns", attribute(&columns), nb::sig("def columns(self) -> " RIIS_IDS),
                    "The neighbours, one row after the other: int32 for fewer than 2**31 nodes, else int64. A view.")
       .def("__len__", [](Adjacency &self) { return static_cast<std::size_t>(rows_of(self).n_rows); })
       .def("__repr__", [](Adjacency &self) {
@@ -298,15 +298,13 @@ adjacency         an Adjacency, or scipy's sparse rows (indptr, indices)
 offsets, columns  (n_nodes + 1,) and (n,), int32 or int64: the same rows as arrays, which must not change while in use
 n_all             n_nodes plus the number of ghost nodes, which columns may name. 0: n_nodes
 index_base        the first number in offsets and columns, 0 or 1)")
-      .def_prop_ro("xyz", &coordinates, nb::sig("def xyz(self) -> " RIIS_COORDINATES),
+      .def_prop_ro("xyz", attribute(&coordinates), nb::sig("def xyz(self) -> " RIIS_COORDINATES),
                    "(n, 3): the coordinates. This is the caller's array, or a new array if the caller gave three.")
-      .def_prop_ro(
-          "n_nodes",
-          [](Mesh &self) {
-            self.usage.check("mesh");
-            return self.points.n;
-          },
-          nb::sig("def n_nodes(self) -> int"), "The number of nodes.")
+      .def_prop_ro("n_nodes", attribute(+[](Mesh &self) {
+                     self.usage.check("mesh");
+                     return self.points.n;
+                   }),
+                   nb::sig("def n_nodes(self) -> int"), "The number of nodes.")
       .def_prop_ro("_places", [](const Mesh &self) { return self.places; })
       .def("__len__",
            [](Mesh &self) {

@@ -344,27 +344,27 @@ direction_id  0 for the first add_direction after the last update, 1 for the sec
            nb::sig("def update_from_keyframes(self, keyframes: Keyframes, time: float, dt: float | None = None, "
                    "*, " RIIS_SURFACE_OPTIONS ") -> None"),
            "Replaces the content by the frames around a time, as from_keyframes does.")
-      .def_prop_ro("info", &info, nb::sig("def info(self) -> riis._records.SurfaceInfo"),
+      .def_prop_ro("info", attribute(&info), nb::sig("def info(self) -> riis._records.SurfaceInfo"),
                    "Counts, bounds, area, and the seconds of the last creation or update.")
-      .def_prop_ro(
-          "half_thickness", [](Surface &self) { return info_of(self).half_thickness; },
-          "The half thickness, mesh units.")
-      .def_prop_ro(
-          "vertices", [](Surface &self) { return vertex_array(self, &riis_triangles::xyz, 3, &Surface::vertices); },
-          nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "(n_vertices, 3): the vertices after placement.")
-      .def_prop_ro(
-          "uv", [](Surface &self) { return vertex_array(self, &riis_triangles::uv, 2, &Surface::uv); },
-          nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 2): each vertex's u and v on its patch, 0 to 1. None for a surface from arrays.")
-      .def_prop_ro(
-          "velocities",
-          [](Surface &self) { return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities); },
-          nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
-          "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
-      .def_prop_ro("attachment", &attachment, nb::sig("def attachment(self) -> riis._records.Attachment"),
+      .def_prop_ro("half_thickness", attribute(+[](Surface &self) { return info_of(self).half_thickness; }),
+                   "The half thickness, mesh units.")
+      .def_prop_ro("vertices", attribute(+[](Surface &self) {
+                     return vertex_array(self, &riis_triangles::xyz, 3, &Surface::vertices);
+                   }),
+                   nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
+                   "(n_vertices, 3): the vertices after placement.")
+      .def_prop_ro("uv",
+                   attribute(+[](Surface &self) { return vertex_array(self, &riis_triangles::uv, 2, &Surface::uv); }),
+                   nb::sig("def uv(self) -> numpy.typing.NDArray[numpy.float64] | None"),
+                   "(n_vertices, 2): each vertex's u and v on its patch, 0 to 1. None for a surface from arrays.")
+      .def_prop_ro("velocities", attribute(+[](Surface &self) {
+                     return vertex_array(self, &riis_triangles::velocity, 3, &Surface::velocities);
+                   }),
+                   nb::sig("def velocities(self) -> numpy.typing.NDArray[numpy.float64] | None"),
+                   "(n_vertices, 3): each vertex's velocity. None if the last update gave no velocities.")
+      .def_prop_ro("attachment", attribute(&attachment), nb::sig("def attachment(self) -> riis._records.Attachment"),
                    "A copy of the edges at which tissue or a stent holds a valve's leaflets. Refused for arrays.")
-      .def_prop_ro("triangles", &triangles, nb::sig("def triangles(self) -> riis._records.Triangles"),
+      .def_prop_ro("triangles", attribute(&triangles), nb::sig("def triangles(self) -> riis._records.Triangles"),
                    "The triangles: vertex_id (n, 3), triangle_id, leaflet_id and patch_id (n,).")
       .def(
           "to_pyvista",

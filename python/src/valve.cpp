@@ -355,11 +355,11 @@ The valve's parameters are 'opening' and 'skirt_length'. Arrays are copied.)")
            R"(Gives the valve an open state: its own state is at opening 0, and that of the valve `open` at opening 1.
 
 open is copied. It must be of the same kind. A valve from patches must have the same curves, degrees and sides.)")
-      .def_prop_ro("parameters", &parameters, nb::sig("def parameters(self) -> dict[str, riis._records.Parameter]"),
+      .def_prop_ro("parameters", attribute(&parameters),
+                   nb::sig("def parameters(self) -> dict[str, riis._records.Parameter]"),
                    "Descriptions of the parameters by name: unit, text, default, minimum, maximum.")
-      .def_prop_ro(
-          "kind", [](const Valve &self) { return self.kind; },
-          "The kind, such as 'mitral'; 'patches' for from_patches.")
+      .def_prop_ro("kind", attribute(+[](const Valve &self) { return self.kind; }),
+                   "The kind, such as 'mitral'; 'patches' for from_patches.")
       .def("__repr__", &description);
   add_closing(valve);
   nb::module_::import_("collections.abc").attr("Mapping").attr("register")(valve);

@@ -194,7 +194,7 @@ interpolation  'linear' or 'cubic', for each coordinate)")
       .def("map", &map, nb::arg("points").none(),
            nb::sig("def map(self, points: numpy.typing.NDArray[numpy.float64]) -> numpy.typing.NDArray[numpy.float64]"),
            "Returns mapped points (n, 3), which are in the coordinates of the landmarks.")
-      .def_prop_ro("info", &info, nb::sig("def info(self) -> riis._records.WarpInfo"),
+      .def_prop_ro("info", attribute(&info), nb::sig("def info(self) -> riis._records.WarpInfo"),
                    "The quality of the warp: residuals, smoothing, and the least determinant.")
       .def("__getstate__", &state_of, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
       .def("__setstate__", &make_from_state, nb::arg("state"),

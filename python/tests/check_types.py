@@ -15,17 +15,6 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# The names that the document's programs expect from the reader's program.
-GIVEN = """import numpy
-from numpy.typing import NDArray
-
-import riis
-
-xyz: NDArray[numpy.float64] = numpy.zeros((9, 3))
-points: NDArray[numpy.float64] = numpy.zeros((9, 3))
-times: list[float] = [0.0]
-n_steps, dt = 6, 0.125
-"""
 
 
 def programs_of_the_document():
@@ -51,7 +40,7 @@ def main(folder):
     files = []
     for name, text in programs_of_the_document().items():
         files.append(folder / name)
-        files[-1].write_text(GIVEN + text, encoding="utf-8")
+        files[-1].write_text(text, encoding="utf-8")
     files.append(folder / "notebook.py")
     files[-1].write_text(program_of_the_notebook(), encoding="utf-8")
     files.append(ROOT / "examples/fenicsx/valve_in_duct.py")

@@ -503,6 +503,15 @@ def test_a_unit_scales_the_placement_and_not_the_sizes():
         for name, value in cm.parameters.items():
             assert abs(other.parameters[name] - value) < 0.02 * cm.standard_errors[name]
             assert abs(other.standard_errors[name] - cm.standard_errors[name]) < 0.05 * cm.standard_errors[name]
+    # A report says the unit of each length: the sizes are in centimetres, and all else in the points' unit.
+    for found, unit in ((cm, "cm"), (mm, "mm"), (m, "m"), (riis.fit(points, "trileaflet", **options), None)):
+        lines = found.report().splitlines()
+        of_points, of_sizes = ("", "length") if unit is None else (" " + unit, "cm")
+        assert found.unit == unit and all(line.split()[3] == of_sizes for line in lines if line.startswith(("root", "leaflet_h")))
+        (translation,) = (line for line in lines if line.startswith("translation"))
+        assert translation.split()[4:] == of_points.split()
+        (measures,) = (line for line in lines if line.startswith("rms"))
+        assert f"rms {found.rms:.4f}{of_points}, " in measures and f"within {found.percentile95:.4f}{of_points}, " in measures
 
 
 def test_a_larger_scatter_than_the_stated_noise_is_doubted():

@@ -155,7 +155,7 @@ def test_refused(tmp_path):
         ("a.json", '{"axes": "LPS", "unitt": "mm"}', '"unitt" is unknown, did you mean "unit"'),
         ("a.json", '{"unit": "mm", "landmarks": {"nadir": [1, 2, 3]}}', "axes: they are missing.*half a turn"),
         ("a.json", '{"markups": [{"coordinateSystem": "LPI", "coordinateUnits": "mm"}]}', 'coordinateSystem is "LPI"'),
-        ("a.json", '{"markups": [{"coordinateSystem": "LPS"}]}', 'has no text "coordinateUnits"'),
+        ("a.json", '{"markups": [{"coordinateSystem": "LPS", "coordinateUnits": 7}]}', "coordinateUnits is 7; it must be a text"),
     ):
         (tmp_path / name).write_text(text)
         refused(words, tmp_path / name, "trileaflet")

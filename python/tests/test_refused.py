@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input is refused with an exception. Its class tells the kind of fault, and its text names the argument."""
 
+import inspect
 import math
 import re
+import types
 
 import numpy
 import pytest
@@ -11,6 +13,7 @@ import riis
 
 Argument = riis.InvalidArgumentError
 Parameter = riis.InvalidParameterError
+Missing = riis.MissingAttributeError
 
 
 class Objects:
@@ -158,7 +161,7 @@ REFUSED = {
                              lambda o: riis.Surface(o.valve).direction(0.0)),
     "no direction": (Argument, "with 'distance_gradient', but the surface has no direction: call Surface.add_direction",
                      lambda o: riis.mark(o.surface, o.mesh, fields="distance_gradient")),
-    "no K_gradient": (Argument, "K_gradient: the marking did not make it; mark with R= and fields='distance_gradient'",
+    "no K_gradient": (Missing, "K_gradient: the marking did not make it; mark with R= and fields='distance_gradient'",
                       lambda o: riis.mark(o.surface, riis.Mesh(o.surface.vertices)).K_gradient),
     "faces": (TypeError, "faces: its dtype is float64; it must be int32 or int64",
               lambda o: riis.Surface.from_arrays(o.triangle, o.triangle)),
@@ -248,7 +251,7 @@ REFUSED = {
     "no adjacency": (Argument, "(?i)adjacency", lambda o: riis.mark(o.surface, o.mesh, search="neighbor")),
     "n_threads of a marking": (Argument, "n_threads.*2000", lambda o: riis.mark(o.surface, o.mesh, n_threads=2000)),
     "positional": (TypeError, "mark", lambda o: riis.mark(o.surface, o.mesh, o.marks)),
-    "no such field": (Argument, "normal: the marking did not request it; mark with fields='normal'", lambda o: riis.mark(
+    "no such field": (Missing, "normal: the marking did not request it; mark with fields='normal'", lambda o: riis.mark(
         o.surface, riis.Mesh(o.surface.vertices)).normal),
     "velocity of several fields": (Argument, "^fields is 'normal, side, velocity', with 'velocity', .*Surface.update_moving, or",
                                    lambda o: riis.mark(o.surface, o.mesh, fields="velocity side normal")),
@@ -346,7 +349,7 @@ REFUSED = {
     "warp of a bileaflet valve": (Parameter, "the bileaflet valve cannot be warped", lambda o: riis.Valve(
         "bileaflet").set_warp(riis.Warp(corners()))),
     "type of a warp": (TypeError, "closed: must be a riis.Warp", lambda o: riis.Valve().set_warp(corners())),
-    "attachment of arrays": (Argument, "made from arrays",
+    "attachment of arrays": (Missing, "made from arrays",
                              lambda o: riis.Surface.from_arrays(numpy.eye(3), numpy.array([[0, 1, 2]])).attachment),
     "band": (Argument, "(?i)side|rim", lambda o: o.marks.band_sums(o.reals, o.reals, 0.0, 0.1)),
     "far_distance": (Argument, "far_distance", lambda o: o.marks.dense(far_distance=0.01)),
@@ -645,3 +648,79 @@ def test_missing_instructions_are_unavailable(o):
             pytest.skip("this processor has all instructions")
     with pytest.raises(riis.UnavailableError, match="instructions"):
         riis.mark(o.surface, o.mesh, instructions="avx512")
+
+
+@pytest.mark.parametrize("make", [
+    lambda points: pytest.importorskip("pyvista").PolyData(points.astype("f4")).cast_to_unstructured_grid(),
+    lambda points: pytest.importorskip("pyvista").PolyData(points),
+    lambda points: pytest.importorskip("meshio").Mesh(points, []),
+    lambda points: types.SimpleNamespace(vertices=points),
+    lambda points: types.SimpleNamespace(geometry=types.SimpleNamespace(x=points)),
+    lambda points: points.tolist(),
+    lambda points: points.astype("f4"),
+])
+def test_the_advice_for_other_objects_works(make):
+    """The message names an expression, and a mesh of this expression has the points."""
+    points = numpy.random.default_rng(3).integers(-99, 99, (20, 3)) / 64.0  # exact in single precision
+    xyz = make(points)
+    with pytest.raises(TypeError, match="^xyz: ") as refused:
+        riis.Mesh(xyz)
+    advice = re.search(r"; pass (numpy\.ascontiguousarray\(.*\))$", str(refused.value))
+    assert advice, refused.value
+    mesh = riis.Mesh(eval(advice[1], {"numpy": numpy, "xyz": xyz}))
+    assert numpy.array_equal(mesh.xyz, points)
+
+
+def test_objects_answer_questions_for_their_attributes(o):
+    """hasattr and inspect.getmembers expect an AttributeError for an attribute that an object lacks."""
+    arrays = riis.Surface.from_arrays(o.triangle, o.faces, half_thickness=0.1)
+    adjacency = riis.Adjacency.from_cells(o.tetrahedron, 4)
+    warp = riis.Warp(corners())
+    marks, mesh, valve = riis.mark(o.surface, o.mesh, fields="normal"), riis.Mesh(o.xyz), riis.Valve("aortic")
+    for lacks, names in ((marks, ("K", "K_gradient", "velocity", "uv")), (marks.within_limit, ("K", "uv")),
+                         (arrays, ("attachment",))):
+        for name in names:
+            assert not hasattr(lacks, name) and getattr(lacks, name, 7) == 7
+            with pytest.raises(Missing) as missing:
+                getattr(lacks, name)
+            assert isinstance(missing.value, Argument) and isinstance(missing.value, AttributeError)
+    assert hasattr(marks, "normal") and hasattr(o.surface, "attachment")
+    with pytest.raises(Argument, match="^K: the marking did not make it; mark with R=$"):
+        marks.K
+    objects = [arrays, adjacency, warp, marks, mesh, valve, riis.Marks(), marks.within_limit,
+               riis.Surface(valve), riis.find_crossings(o.surface)]
+    for one in objects:
+        n_members = len(inspect.getmembers(one))
+        assert n_members > 20
+        if hasattr(one, "close"):
+            one.close()
+            assert one.closed and len(inspect.getmembers(one)) <= n_members
+    assert not hasattr(mesh, "xyz") and not hasattr(valve, "parameters") and not hasattr(marks, "ids")
+
+
+FIELDS_AND_K = ("point", "normal", "barycentric", "side", "rim", "uv", "velocity", "patch_id", "distance_gradient", "K",
+                "K_u_surface", "K_gradient")
+
+
+@pytest.mark.parametrize("name", FIELDS_AND_K)
+def test_the_advice_for_a_field_works(o, name):
+    """A marking with the arguments that the message names has the field."""
+    near, valve = riis.Valve("mitral", opening=0.31), riis.Valve("mitral", opening=0.3)
+    surface = riis.Surface(valve, half_thickness=0.15)
+    surface.update_moving(valve, near, 0.1)
+    surface.add_direction(near, valve, 0.01)
+    mesh = riis.Mesh(numpy.array(surface.vertices[:50]))
+    with pytest.raises(Missing, match=f"^{name}: the marking did not (request|make) it; mark with ") as refused:
+        getattr(riis.mark(surface, mesh), name)
+    advised = dict(re.findall(r"(R|fields)=(?:'(\w+)')?", str(refused.value).split("; mark with ")[1]))
+    arguments = {key: value or 1e4 for key, value in advised.items()}
+    assert arguments and len(getattr(riis.mark(surface, mesh, **arguments), name)) == 50
+
+
+@pytest.mark.parametrize("wrong", [numpy.zeros(60, "f4"), numpy.zeros(120)[::2], [0.0] * 60])
+def test_the_advice_for_written_arrays_works(o, wrong):
+    with pytest.raises((TypeError, Argument), match="^K: .*; the call writes it, so make it by numpy.zeros") as refused:
+        o.marks.add_resistance(wrong, R=1e4)
+    call = re.search(r"make it by (numpy\.zeros.*)$", str(refused.value))[1].replace("...", "o.n")
+    K = eval(call if call.endswith(")") else call + "(o.n)", {"numpy": numpy, "o": o})
+    o.marks.add_resistance(K, R=1e4)

@@ -5,8 +5,8 @@ import asyncio
 import importlib.util
 import json
 import os
-import pathlib
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -263,17 +263,6 @@ def test_a_widget_for_notebooks():
         assert "vtk" in riis.plot(surface, interactive=True).value
 
 
-@pytest.mark.skipif(importlib.util.find_spec("trame_pyvista") is None, reason="pyvista[jupyter] is missing")
-def test_the_program_of_the_document_runs(tmp_path, monkeypatch):
-    text = (pathlib.Path(__file__).resolve().parents[2] / "docs/view.md").read_text(encoding="utf-8")
-    (program,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
-    box(20).save(tmp_path / "mesh.vtu")
-    monkeypatch.chdir(tmp_path)
-    names = {}
-    exec(program, names)
-    assert len(names["model"].update().marked) > 0
-
-
 def test_pictures_of_a_scene():
     try:
         scene.check_of_graphics()
@@ -328,8 +317,22 @@ def test_files_that_are_no_meshes(tmp_path):
             reading.read_mesh(str(tmp_path / name), {})
         assert str(tmp_path / name) in str(refused.value)
     (tmp_path / "mesh.stl").write_text("")
-    with pytest.raises(reading.Refusal, match="riis mark mesh.stl --output mesh.vtu"):
+    with pytest.raises(reading.Refusal, match="is a surface, and riis view shows a mesh of volume cells"):
         reading.read_mesh(str(tmp_path / "mesh.stl"), {})
+    (tmp_path / "mesh.cgns").write_text("")
+    with pytest.raises(reading.Refusal, match=r"mesh.cgns: riis view reads [a-z., ]*$"):  # the program does not read it either
+        reading.read_mesh(str(tmp_path / "mesh.cgns"), {})
+    # The command that the message advises writes a mesh that the view reads.
+    path = tmp_path / "two words.vtm"
+    pyvista.MultiBlock([box(12)]).save(path)
+    with pytest.raises(reading.Refusal, match="The program writes what the view reads: riis mark ") as refused:
+        reading.read_mesh(str(path), {})
+    program = os.environ.get("RIIS_PROGRAM", "")
+    if os.path.exists(program):
+        words = shlex.split(str(refused.value).split("reads: ")[-1])
+        assert words[0] == "riis"
+        subprocess.run([program, *words[1:]], cwd=tmp_path, check=True)
+        assert reading.read_mesh(str(tmp_path / "mesh.vtu"), {}).n_points == box(12).n_points
     with pytest.raises(reading.Refusal, match="a surface is a file .vtp, .stl or .pvd"):
         reading.read_surface(str(tmp_path / "text.vtu"))
     with pytest.raises(reading.Refusal, match="scale: 'wide' is not a number"):

@@ -13,7 +13,8 @@ import shutil
 import subprocess
 import sys
 
-BLOCK = re.compile(r"^```(sh)\n(.*?)^```\n(?:\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
+from snippets import BLOCK, run_commands
+
 NUMBER = r"\d[\d,.]*(?:e[+-]?\d+)?"
 
 
@@ -40,24 +41,24 @@ def main(mode, tutorial, scratch, programs, riis):
     version = subprocess.run(["gmsh", "--version"], capture_output=True, text=True, check=True)
     same_gmsh = f"gmsh {(version.stdout + version.stderr).strip()} " in text.replace("\n", " ")
     problems, written, end = [], [], 0
-    for block in BLOCK.finditer(text):
-        commands, expected = block[2], block[3]
-        done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=scratch, env=environment, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    blocks = [block for block in BLOCK.finditer(text) if block[2] == "sh"]
+    for block in blocks:
+        commands, expected = block[3], block[4]
+        done = run_commands(commands, scratch, environment)
         if done.returncode != 0:
             sys.exit(f"{commands}ended with {done.returncode}:\n{done.stdout}")
         if mode == "check" and comparable(done.stdout, same_gmsh) != comparable(expected or "", same_gmsh):
             problems.append(f"{commands}printed\n{done.stdout}and not\n{expected or ''}")
         if expected is not None:
-            written.append(text[end:block.start(3)] + done.stdout)
-            end = block.end(3)
+            written.append(text[end:block.start(4)] + done.stdout)
+            end = block.end(4)
     if not written:
         sys.exit(f"{tutorial} has no block of commands with their output")
     if mode == "write":
         tutorial.write_text("".join(written) + text[end:], encoding="utf-8")
     if problems:
         sys.exit("\n".join(problems))
-    print(f"{len(BLOCK.findall(text))} blocks of commands; {'all' if same_gmsh else 'no'} numbers compared")
+    print(f"{len(blocks)} blocks of commands; {'all' if same_gmsh else 'no'} numbers compared")
     return 0
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 from typing import Any
 
 import numpy
@@ -12,6 +13,8 @@ import numpy
 from riis import FAR_DISTANCE
 
 BY_VTK, BY_MESHIO = (".vtu", ".pvtu", ".vtk"), (".msh", ".xdmf", ".xmf")
+SURFACES = (".stl", ".vtp", ".obj", ".ply", ".off")
+BY_PROGRAM = (".vtm", ".e", ".exo", ".ex2", ".exii", ".foam")  # and folders of OpenFOAM
 
 
 class Refusal(Exception):
@@ -28,11 +31,16 @@ def read_mesh(path: str, progress: dict[str, float]) -> Any:
     ending = os.path.splitext(path)[1].lower()
     if not os.path.exists(path):
         raise Refusal(f"{path}: there is no such file")
-    if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
+    if ending in SURFACES:
         raise Refusal(
-            f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}. The program reads more formats, and writes what the view "
-            f"reads: riis mark {os.path.basename(path)} --output mesh.vtu"
+            f"{path}: is a surface, and riis view shows a mesh of volume cells. gmsh or your mesher fills a closed surface with "
+            "cells; docs/patient.md has the commands"
         )
+    if os.path.isdir(path) or ending not in BY_VTK + BY_MESHIO:
+        text = f"{path}: riis view reads {', '.join(BY_VTK + BY_MESHIO)}"
+        if os.path.isdir(path) or ending in BY_PROGRAM:
+            text += f". The program writes what the view reads: riis mark {shlex.quote(path)} --output mesh.vtu --allow-none"
+        raise Refusal(text)
     if ending in BY_MESHIO:
         grid = _by_meshio(path)
     else:
