@@ -373,6 +373,11 @@ std::string place_report(const Placed &placed, Reader reader) {
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
     text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +
             option_text(reader, "warp", "smoothed") + " as near as their noise.\n";
+  if (at.n_as_annulus > 0)
+    text += std::string(at.n_as_annulus == 1 ? "The trigone lies" : "The trigones lie") +
+            " behind the anterior horn, where the valve has none: " +
+            (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
+            " of the annulus, and IT_distance is not theirs.\n";
   text += undetermined.empty() ? "\nThe landmarks determine every size that they bear on.\n"
                                : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") + ".\n";
   return text;

@@ -220,6 +220,7 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
   if (of_kind.check) of_kind.check(model, fitted, landmarks);
 
   PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
+  placed.n_as_annulus = of_kind.n_as_annulus;
   // First all lengths grow with the valve. Then the fitted sizes take their values. Last come the parameters that depend on
   // several sizes.
   double size_now = value_of(valve, of_kind.size_name);
