@@ -33,7 +33,7 @@ class Subject(NamedTuple):
 
 OF_CUSPS = (
     "from the aorta", "from the side and slightly above, the aorta up", looking((-0.5, 0.87, -0.3), (0, 0, 1)),
-    ("right cusp", "left cusp", "non-coronary cusp"), "the disc of <code>root_radius</code>",
+    ("right cusp", "left cusp", "non-coronary cusp"), "the inside of the attachment",
 )  # fmt: skip
 SUBJECTS = {
     "aortic": Subject(
@@ -132,13 +132,14 @@ def edge_of_disc(kind, valves, state):
     """Returns the edge of the disc that contains the orifice."""
     if kind == "mitral":
         return samples(state.mitral()["annulus"])
-    values = {each["name"]: each["values"] for each in valves[kind]["parameters"]}
-    if kind == "bileaflet":
-        radius, centre = values["radius"][0], (0, 0, 0)
-    else:
-        radius, centre = values["root_radius"][0], values["right.translation" if kind == "aortic" else "translation"]
+    if kind != "bileaflet":
+        points = np.concatenate([samples(line) for cusp in state.cusps() for line in cusp["sinus"]])
+        beside = points - np.mean(points, axis=0)
+        ring = points[np.argsort(np.arctan2(beside[:, 1], beside[:, 0]))]
+        return np.vstack([ring, ring[:1]])
+    radius = {each["name"]: each["values"] for each in valves[kind]["parameters"]}["radius"][0]
     turn = np.linspace(0, 2 * math.pi, 181)
-    return centre + radius * np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    return radius * np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
 
 
 def outlines(kind, state):

@@ -545,14 +545,17 @@ module riis_c
     real(c_double) :: area            !< the area of its triangles
     real(c_double) :: free_edge       !< the length of its free edge: the sides v = 1 that only one of its patches has.
                                       !! For a surface from arrays: the edges that only one of its triangles has,
-                                      !! without the outline of riis_orifice. 0 for a skirt
+                                      !! without the longest closed line of edges that only one triangle has. 0 for a
+                                      !! skirt
     integer(c_int32_t) :: leaflet_id  !< as in riis_triangles
     integer(c_int32_t) :: reserved    !< 0
   end type riis_leaflet
 
-  !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a
-  !! valve is its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the
-  !! outline, towards the side to which normals point. Lengths are in mesh units (docs/theory/measures.md).
+  !> The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is
+  !! the vector area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the
+  !! normals of arrays and keyframes point. A bileaflet valve has its z axis. A valve's skirt does not count. If
+  !! leaflets of arrays do not touch at the commissures, straight lines join their ends. Lengths are in mesh units
+  !! (docs/theory/measures.md, "Outline").
   type, bind(c) :: riis_orifice
     real(c_double) :: area           !< the area of the orifice. Without an outline only axis and rim_reach differ from
                                      !! 0
@@ -566,10 +569,8 @@ module riis_c
     real(c_double) :: rim_reach      !< the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open
                                      !! valves gave 0.70 to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md
     real(c_double) :: half_thickness !< eps of the resistance
-    real(c_double) :: radius         !< the radius of the disc, or of a circle as large as a warped disc; 0 for other
-                                     !! outlines
-    real(c_double) :: axis(3)        !< unit vector; for a warped disc its normal; 0 for arrays and keyframes without an
-                                     !! outline
+    real(c_double) :: radius         !< the radius of the disc; 0 for other outlines
+    real(c_double) :: axis(3)        !< unit vector; 0 for arrays and keyframes without an outline
     integer(c_int32_t) :: outline    !< RIIS_OUTLINE_*
     integer(c_int32_t) :: reserved   !< 0
   end type riis_orifice
@@ -664,7 +665,8 @@ module riis_c
   !> A warp's quality, in the units of its landmarks.
   type, bind(c) :: riis_warp_info
     integer(c_int64_t) :: n_landmarks         !< the number of landmarks
-    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets
+    real(c_double) :: rms_residual            !< root mean square of the distances between mapped sources and targets. A
+                                              !! target's distance from a warped valve is that of riis_closest_point
     real(c_double) :: largest_residual        !< the largest distance between a mapped source and its target
     integer(c_int64_t) :: largest_landmark_id !< its landmark
     real(c_double) :: smoothing               !< lambda of the smoothing, 0 without noise; infinite if the map is affine

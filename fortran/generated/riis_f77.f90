@@ -3806,8 +3806,8 @@ subroutine riisf_surface_leaflet(surface, leaflet_num, leaflet_id, area, free_ed
   real(c_double), intent(inout) :: area                   !< The area of its triangles.
   real(c_double), intent(inout) :: free_edge              !< The length of its free edge: the sides v = 1 that only one of its
                                                           !! patches has. For a surface from arrays: the edges that only one of
-                                                          !! its triangles has, without the outline of riis_orifice. 0 for a
-                                                          !! skirt.
+                                                          !! its triangles has, without the longest closed line of edges that
+                                                          !! only one triangle has. 0 for a skirt.
   integer(riis_status), intent(out) :: status             !< RIIS_OK or the error.
   type(riis_leaflet) :: sizes
   status = riis_surface_get_leaflet(c_handle_of(surface), int(leaflet_num, int64) - 1, sizes, c_sizeof(sizes))

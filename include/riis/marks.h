@@ -145,7 +145,7 @@ typedef struct riis_mark_list {
                                  distance has a kink. If several places are equally near, the distance also has a
                                  kink */
   const double *K_gradient;   /* (n_directions, n_nodes): the derivative of K for constant R and half thickness. It is 0
-                                 where K is 0; NULL without a resistance */
+                                 beyond the half thickness and beyond a cut rim; NULL without a resistance */
 } riis_mark_list;
 /* Gives a list of the last marking, until the next riis_mark_nodes with these marks or their destruction.
  *   which  RIIS_LIST_* */

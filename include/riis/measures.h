@@ -19,8 +19,8 @@ typedef struct riis_leaflet {
   int64_t n_triangles; /* the number of its triangles that answer queries */
   double area;         /* the area of its triangles */
   double free_edge;    /* the length of its free edge: the sides v = 1 that only one of its patches has. For a surface
-                          from arrays: the edges that only one of its triangles has, without the outline of
-                          riis_orifice. 0 for a skirt */
+                          from arrays: the edges that only one of its triangles has, without the longest closed line of
+                          edges that only one triangle has. 0 for a skirt */
   int32_t leaflet_id;  /* as in riis_triangles */
   int32_t reserved;    /* 0 */
 } riis_leaflet;
@@ -31,18 +31,18 @@ RIIS_API riis_status riis_surface_get_n_leaflets(const riis_surface *surface, in
 RIIS_API riis_status riis_surface_get_leaflet(const riis_surface *surface, int64_t leaflet, riis_leaflet *sizes,
                                               int64_t struct_size);
 
-/* The outline of an orifice. */
+/* The outline of an orifice. A valve and a surface from arrays or keyframes with its triangles have the same outline. */
 enum {
-  RIIS_OUTLINE_NONE = 0,      /* there is no disc, and the outline encloses no area. The outline of a valve is the sides
-                                 v = 0 of only one patch. The outline of arrays or keyframes is their open edges */
-  RIIS_OUTLINE_DISC = 1,      /* the disc of root_radius (three cusps) or radius (bileaflet) about the axis */
-  RIIS_OUTLINE_ATTACHMENT = 2, /* the sides v = 0 that only one patch has: the annulus of the mitral valve */
-  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the longest closed line of edges that only one
-                                 triangle has */
+  RIIS_OUTLINE_NONE = 0,      /* the boundary of the leaflets does not surround a centre, or encloses no area */
+  RIIS_OUTLINE_DISC = 1,      /* bileaflet: the disc of radius about the z axis */
+  RIIS_OUTLINE_ATTACHMENT = 2, /* other valves: the farthest edges of the leaflets in all directions from the centre. These
+                                 are the attachment, except where a free edge reaches farther */
+  RIIS_OUTLINE_BOUNDARY = 3   /* a surface from arrays or keyframes: the farthest edges that only one triangle has */
 };
-/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis of a valve
- * is its z axis, placed. Its skirt does not count. The axis of arrays and keyframes is the vector area of the outline, towards
- * the side to which normals point. Lengths are in mesh units (docs/theory/measures.md). */
+/* The orifice of a surface: the part of an outline that the triangles do not cover, seen along an axis. The axis is the vector
+ * area of the outline's edges in space. It is on the side of a valve's z axis, or on the side to which the normals of arrays and
+ * keyframes point. A bileaflet valve has its z axis. A valve's skirt does not count. If leaflets of arrays do not touch at the
+ * commissures, straight lines join their ends. Lengths are in mesh units (docs/theory/measures.md, "Outline"). */
 typedef struct riis_orifice {
   double area;           /* the area of the orifice. Without an outline only axis and rim_reach differ from 0 */
   double outline_area;   /* the area inside the outline */
@@ -55,8 +55,8 @@ typedef struct riis_orifice {
   double rim_reach;      /* the factor c: 0.84 for a round rim, 0.70 for a cut rim. Flows through open valves gave 0.70
                             to 0.98 (round) and 0.46 to 0.95 (cut); see docs/validation.md */
   double half_thickness; /* eps of the resistance */
-  double radius;         /* the radius of the disc, or of a circle as large as a warped disc; 0 for other outlines */
-  double axis[3];        /* unit vector; for a warped disc its normal; 0 for arrays and keyframes without an outline */
+  double radius;         /* the radius of the disc; 0 for other outlines */
+  double axis[3];        /* unit vector; 0 for arrays and keyframes without an outline */
   int32_t outline;       /* RIIS_OUTLINE_* */
   int32_t reserved;      /* 0 */
 } riis_orifice;

@@ -88,8 +88,7 @@ typedef struct riis_placement_arrays {
   int32_t *size_state;       /* (number of parameters): RIIS_SIZE_* */
   double *place;             /* (3, n_landmarks): the landmarks' places on the closed valve, mesh units: the sources of a
                                 warp whose targets are the landmarks. A commissure's place is the mean of its cusps' ends.
-                                A point of the attachment has the place that this warp maps nearest to it, smoothed by
-                                the noise */
+                                Points of the attachment have the places with which this warp bends least */
 } riis_placement_arrays;
 RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, int64_t struct_size); /* NULL arrays */
 /* Sets a valve's sizes, in centimetres, to a patient's sizes, and finds its placement.
@@ -150,7 +149,8 @@ RIIS_API riis_status riis_warp_set_targets_at(riis_warp *warp, const riis_keyfra
 /* A warp's quality, in the units of its landmarks. */
 typedef struct riis_warp_info {
   int64_t n_landmarks;         /* the number of landmarks */
-  double rms_residual;         /* root mean square of the distances between mapped sources and targets */
+  double rms_residual;         /* root mean square of the distances between mapped sources and targets. A target's
+                                  distance from a warped valve is that of riis_closest_point */
   double largest_residual;     /* the largest distance between a mapped source and its target */
   int64_t largest_landmark_id; /* its landmark */
   double smoothing;            /* lambda of the smoothing, 0 without noise; infinite if the map is affine */
@@ -173,7 +173,8 @@ RIIS_API riis_status riis_warp_map(const riis_warp *warp, const riis_points *poi
  *   open    the map at opening 1; NULL: `closed` serves for all openings
  * Between the openings the map is (1 - opening) times `closed` plus opening times `open`. The valve's patches stay patches
  * between the mapped curves. Error bounds, fixed triangulations and velocities therefore hold as for any valve, and with
- * RIIS_TRIANGULATION_FIXED the warp may move. A disc that is the outline of the orifice is also warped.
+ * RIIS_TRIANGULATION_FIXED the warp may move. Curves are cut where landmarks of `closed` lie on the closed valve, and landmarks
+ * of `open` on the open valve. So the warped valve passes through the mapped landmarks on its curves.
  * An annulus that moves needs two valves in turn. In each step call riis_warp_set_targets and this function for one of them,
  * and pass both to riis_surface_update_moving. Both must be warped, or neither. A call that makes or updates a surface
  * refuses a warp that folds at the valve or turns a part of it over. It returns RIIS_INVALID_PARAMETER, and names the

@@ -131,7 +131,7 @@ RIIS_API riis_status riis_valve_get_parameter(const riis_valve *valve, int64_t p
 
 /* The curves and patches of a valve at its opening, after a warp and before placement. If n_pieces equals n_curves,
  * riis_patches has the same arrays, and they make the same shape. Trileaflet and aortic valves and valves from patches
- * have as many pieces as curves. */
+ * have as many pieces as curves, unless a warp has landmarks on their curves (riis_valve_set_warp). */
 typedef struct riis_valve_patches {
   int64_t n_curves;           /* curves; each is a side of a patch */
   int64_t n_pieces;           /* Bezier pieces of all curves. Sides of mitral and bileaflet patches may have several */

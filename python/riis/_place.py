@@ -46,7 +46,7 @@ class PlaceResult:
     places: Reals = field(repr=False)  #: (n_landmarks, 3), the landmarks' places on the closed valve before a warp
     warp: Warp | None = field(default=None, repr=False)  #: the valve's warp, which takes the places to the points
     warp_noise: float = 0.0  #: by which the warp is smoothed
-    warped_residuals: Reals | None = None  #: (n_landmarks,), the distances from the landmarks to their warped places
+    warped_residuals: Reals | None = None  #: (n_landmarks,), distances from the warped closed valve
     _report: str = field(default="", repr=False)
     _file: str = field(default="", repr=False)
 

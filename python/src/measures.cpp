@@ -159,7 +159,7 @@ void add_measures(nb::module_ &module) {
              nb::sig("def orifice(self, *, " RIIS_RIM_MODEL ") -> riis._records.Orifice"),
              R"(Measures the orifice of a surface, the area that its triangles leave uncovered, seen along its axis.
 
-The outline of a surface from arrays or keyframes is its longest open boundary.
+The outline of a surface from arrays or keyframes is that of its open edges.
 
 half_thickness  eps of the resistance; None: the surface's half thickness
 rim             'round' or 'cut', as in add_resistance)");

@@ -179,7 +179,7 @@ nb::dict place_landmarks(const std::string &subject, nb::handle content, nb::han
   });
   nb::dict fields = fields_of(*placed);
   fields["valve"] = made;
-  if (placed->warp) {
+  if (placed->is_warped) {
     fields["warp"] = object_of(std::move(warp), fields, smoothing, valve);
     fields["warp_noise"] = smoothing;
     fields["warped_residuals"] = copy_of(placed->still_off.data(), {placed->still_off.size()});

@@ -122,7 +122,8 @@ def test_outlines_and_contacts_of_arrays():
     faces = numpy.array([[0, 1, 2, 3], [4, 5, 6, 7]])
     surface = riis.Surface.from_arrays(xyz, faces, leaflet_id=numpy.array([0, 1], dtype=numpy.int32))
     orifice = surface.orifice()
-    assert orifice.outline == "boundary" and abs(orifice.outline_area - 1) < 1e-3
+    # Each square grows about its centre by 2 %, so that both meet.
+    assert orifice.outline == "boundary" and abs(orifice.outline_area - 2.04 * 1.02) < 1e-3
     assert numpy.allclose(orifice.axis, [0, 0, 1])
     contact = surface.coaptation(reach=0.1)
     assert abs(contact.area - 2 * 0.08) < 1e-4 and contact.reach == 0.1
@@ -135,8 +136,8 @@ def test_what_a_valve_means_for_the_flow():
     valve = riis.Valve("trileaflet", opening=1.0)
     surface = riis.Surface(valve)
     orifice = surface.orifice()
-    assert orifice.outline == "disc" and numpy.isclose(orifice.outline_area, numpy.pi * 1.25**2, rtol=1e-4)
-    assert 3.8 < orifice.area < 3.95 and 0 < orifice.effective_area < orifice.area
+    assert orifice.outline == "attachment" and numpy.pi * 1.25**2 < orifice.outline_area < numpy.pi * 1.35**2
+    assert 3.8 < orifice.area < 4.0 and 0 < orifice.effective_area < orifice.area
     placed = riis.Surface(valve, scale=2.0, rotation_axis=(1.0, 2.0, 3.0), rotation_angle=40.0).orifice()
     assert numpy.isclose(placed.area, 4 * orifice.area, rtol=1e-5)
     assert numpy.isclose(placed.perimeter, 2 * orifice.perimeter, rtol=1e-2)

@@ -166,14 +166,17 @@ def test_warps(kind, tmp_path):
     _, _, points = patient(7, noise=0.8)
     named = dict(zip(NAMES, points, strict=True))
     exact = riis.place(named, kind, unit="mm", warp="exact")
-    assert exact.rms > 0.2 and exact.warped_residuals.max() < 1e-9
+    assert exact.rms > 0.2 and exact.warped_residuals.max() < 2e-3
     surface = riis.Surface(exact.valve, **exact.placement)
     nearest = numpy.linalg.norm(surface.vertices[:, None] - points, axis=2).min(0)
     assert nearest.max() < 1e-9
     # The places are on the valve before the warp, as far from the landmarks as the residuals say.
     numpy.testing.assert_allclose(numpy.linalg.norm(exact.places - points, axis=1), exact.residuals, atol=1e-9)
     smoothed = riis.place(named, kind, unit="mm", warp="smoothed", noise=0.3)
-    assert 0.05 < numpy.sqrt((smoothed.warped_residuals**2).mean()) < 0.6 and smoothed.warp_noise == 0.3
+    assert 0.02 < numpy.sqrt((smoothed.warped_residuals**2).mean()) < 0.6 and smoothed.warp_noise == 0.3
+    surface = riis.Surface(smoothed.valve, tolerance=0.005, **smoothed.placement)
+    numpy.testing.assert_allclose(surface.closest_points(points).distance, smoothed.warped_residuals, atol=0.006)
+    surface = riis.Surface(exact.valve, **exact.placement)
     smoothed.save(tmp_path / "placed.json")
     saved = json.loads((tmp_path / "placed.json").read_text())["warp"]
     assert saved["noise"] == 0.3 and saved["targets"] == points.tolist() and saved["sources"] == smoothed.places.tolist()
@@ -182,7 +185,7 @@ def test_warps(kind, tmp_path):
     apart = numpy.linalg.norm(edges[:, None] - points, axis=2).min(1)
     further = {**named, "attachment": [edges[apart.argmax()] + (0.3, 0.2, -0.1)]}
     more = riis.place(further, kind, unit="mm", warp="exact")
-    assert more.warped_residuals.max() < 1e-9
+    assert more.warped_residuals.max() < 2e-3
     for key, value in exact.placement.items():
         numpy.testing.assert_allclose(more.placement[key], value, rtol=1e-7, atol=1e-7)
     attachment = riis.Surface(more.valve, tolerance=0.005, **more.placement).attachment.edges.reshape(-1, 3)
@@ -267,9 +270,9 @@ def test_warps_that_fold_are_refused():
     # Two points of one cusp's attachment are far apart, across the attachment. No smooth map without folds moves the valve to
     # them.
     torn = named | {"attachment_right_1": (21, 2, 1), "attachment_right_2": (1, -2, 1)}
-    with pytest.raises(riis.InvalidParameterError, match='the warp folds near "commissure_.*its determinant is -'):
+    with pytest.raises(riis.InvalidParameterError, match='the warp folds near ".*its determinant is -'):
         riis.place(torn, "coapting", unit="mm", warp="exact")
-    assert riis.place(named, "coapting", unit="mm", warp="exact").warped_residuals.max() < 1e-9
+    assert riis.place(named, "coapting", unit="mm", warp="exact").warped_residuals.max() < 2e-3
 
 
 def test_landmarks_must_be_at_the_nodes(tmp_path):

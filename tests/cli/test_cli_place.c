@@ -153,6 +153,38 @@ TEST(closed_curve_is_an_annulus) {
   assert_string_equal(program_out, by_name);
 }
 
+/* A name of one landmark may have a list of one point, and of no more. */
+TEST(lists_of_one_point_are_points) {
+  const char *one = json_of("a.json", "mm", 10, "LPS", 1, "\"valve\": \"trileaflet\", ");
+  static char expected[longest_output], text[4096];
+  for (int with_middle = 0; with_middle < 2; ++with_middle) {
+    for (int as_list = 0; as_list < 2; ++as_list) {
+      int n = snprintf(text, sizeof text,
+                       "{\"valve\": \"trileaflet\", \"unit\": \"mm\", \"axes\": \"LPS\", "
+                       "\"landmarks\": {");
+      for (int i = 0; i < 6 + with_middle; ++i) {
+        double p[3] = {10, 2, -2};
+        if (i < 6) landmark(i, 10, p);
+        n += snprintf(text + n, sizeof text - (size_t)n, "%s\"%s\": %s[%.17g, %.17g, %.17g]%s", i ? ", " : "",
+                      i < 6 ? names[i] : "coaptation", as_list ? "[" : "", p[0], p[1], p[2], as_list ? "]" : "");
+      }
+      snprintf(text + n, sizeof text - (size_t)n, "}}");
+      scratch_write_text("a.json", text);
+      RUN_FINE("place", one, "--output", "-");
+      if (!as_list) strcpy(expected, program_out);
+    }
+    assert_string_equal(program_out, expected);
+  }
+  for (const char *const *name = (const char *const[]){"coaptation", "nadir_left", "annulus_3", "flow_to", NULL}; *name;
+       ++name) {
+    snprintf(text, sizeof text,
+             "{\"unit\": \"mm\", \"axes\": \"LPS\", \"landmarks\": {\"%s\": [[0, 0, 1], [0, 0, 2]]}}", *name);
+    scratch_write_text("a.json", text);
+    snprintf(text, sizeof text, "\"%s\" is given twice", *name);
+    RUN_REFUSED(1, text, "place", one, "--valve", "trileaflet");
+  }
+}
+
 TEST(report_has_sizes_and_residuals) {
   RUN_FINE("place", json_of("a.json", "mm", 10, "LPS", 1, "\"parameters\": {\"leaflet_height\": 1.5}, "), "--valve",
            "trileaflet", "--noise", "0.5");
@@ -189,20 +221,19 @@ static const char *patient_json(const char *name) {
 static double farthest_landmark(const char *vtp) {
   riis_vtk_surface *file = NULL;
   riis_surface_arrays arrays;
-  if (riis_vtk_surface_read(vtp, NULL, &file) || riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays))
+  riis_surface *surface = NULL;
+  if (riis_vtk_surface_read(vtp, NULL, &file) || riis_vtk_surface_get_arrays(file, &arrays, sizeof arrays) ||
+      riis_surface_create_from_arrays(&arrays, NULL, &surface))
     fail_msg("%s", riis_last_error());
   double farthest = 0;
   for (int i = 0; i < 6; ++i) {
-    double p[3], nearest = INFINITY;
+    double p[3];
+    riis_closest closest;
     patient_landmark(i, p);
-    for (int64_t k = 0; k < arrays.n_vertices; ++k) {
-      const double x = ((const double *)arrays.x)[k * arrays.stride] - p[0],
-                   y = ((const double *)arrays.y)[k * arrays.stride] - p[1],
-                   z = ((const double *)arrays.z)[k * arrays.stride] - p[2];
-      nearest = fmin(nearest, sqrt(x * x + y * y + z * z));
-    }
-    farthest = fmax(farthest, nearest);
+    if (riis_closest_point(surface, p, &closest, sizeof closest)) fail_msg("%s", riis_last_error());
+    farthest = fmax(farthest, closest.distance);
   }
+  riis_surface_destroy(&surface);
   riis_vtk_surface_destroy(&file);
   return farthest;
 }
@@ -228,10 +259,11 @@ TEST(warps_meet_the_landmarks) {
     RUN_FINE("place", patient_json("w.json"), "--valve", kinds[kind], "--warp", "smoothed", "--noise", "0.3",
              "--output", "-");
     const double rms = json_number(program_out, "warped_rms"), worst = json_number(program_out, "warped_worst");
-    if (!(rms > 0.1 && rms < 0.6)) fail_msg("rms %g at a noise of 0.3", rms);
+    if (!(rms > 0.02 && rms < 0.6)) fail_msg("rms %g at a noise of 0.3", rms);
     scratch_write_text("smoothed.json", program_out);
     RUN_FINE("surface", "--valve", scratch_path("smoothed.json"), "--quiet", "--output", surface);
-    if (farthest_landmark(surface) > worst + 1e-9) fail_msg("off by %g, stated %g", farthest_landmark(surface), worst);
+    if (fabs(farthest_landmark(surface) - worst) > 0.05)
+      fail_msg("off by %g, stated %g", farthest_landmark(surface), worst);
   }
   /* OpenFOAM's dictionary has the landmarks in metres: places on the valve, then the patient's. */
   RUN_FINE("place", patient_json("w.json"), "--valve", "coapting", "--warp", "smoothed", "--noise", "0.3", "--quiet",
@@ -501,8 +533,8 @@ TEST(folds_are_refused) {
     const double out = i ? -10 : 10, aside = i ? -2 : 2;
     points[6 + i][0] = 1 + 2, points[6 + i][1] = aside + 1, points[6 + i][2] = -(10 * R + out) - 3;
   }
-  RUN_REFUSED(1, "points.json: the warp folds near \"commissure_", "place", json_of_points(8, labels, points),
-              "--valve", "coapting", "--warp", "exact", "--quiet");
+  RUN_REFUSED(1, "points.json: the warp folds near \"", "place", json_of_points(8, labels, points), "--valve",
+              "coapting", "--warp", "exact", "--quiet");
   assert_non_null(strstr(program_err, "its determinant is -"));
   for (int i = 0; i < 2; ++i) {
     const double angle = (i ? 24 : 20) * acos(-1.0) / 180, radius = 10 * R - (i ? 6 : 0);

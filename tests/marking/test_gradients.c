@@ -554,6 +554,34 @@ TEST(rims_and_the_surface_itself) {
   }
 }
 
+/* K is flat at both ends of the band. Its derivative there falls in proportion to the distance from that end, and keeps its
+ * digits. The square shifts by (1, 2, 3), so the distance of a node above it falls by 3. */
+TEST(K_is_derived_from_the_distance_up_to_both_ends) {
+  enum { n_powers = 15, n = 2 * n_powers };
+  const double R = random_power_of_ten(&rng, -20, 20), eps = 0.1;
+  const shape square = unit_square();
+  riis_valve *valve = valve_from(&square);
+  riis_surface_options after = surface_options(), before = after;
+  riis_surface *surface = new_surface(valve, NULL);
+  for (int x = 0; x < 3; ++x) after.translation[x] = 0.01 * (x + 1), before.translation[x] = -after.translation[x];
+  CHECK_OK(riis_surface_add_direction(surface, valve, valve, 0.02, &after, &before));
+  double xyz[3 * n];
+  for (int i = 0; i < n; ++i) {
+    const double near = eps * pow(10, -i / 2 - 1); /* the distance from one end of the band */
+    xyz[3 * i] = between(0.3, 0.4), xyz[3 * i + 1] = between(0.6, 0.7), xyz[3 * i + 2] = i % 2 ? eps - near : near;
+  }
+  riis_resistance resistance;
+  CHECK_OK(riis_resistance_init(&resistance, sizeof resistance));
+  resistance.R = R;
+  const riis_mark_list list = gradients_of(surface, n, xyz, &resistance);
+  for (int i = 0; i < n; ++i) {
+    const double d = list.distance[i], sine = sin(acos(-1) * ((d < eps / 2 ? d : eps - d) / eps));
+    const double expected = -R * acos(-1) / (2 * eps * eps * eps) * sine * list.distance_gradient[i];
+    if (d > 1e-12) CHECK_NEAR(list.distance_gradient[i], -3, 1e-3);
+    CHECK_NEAR(list.K_gradient[i], expected, 1e-12 * fabs(expected));
+  }
+}
+
 /* Two squares, at z = 0 and z = 1. Only the upper one moves. At equal distances, the triangle in triangle_id, the lower one,
  * gives the derivative. The distance has a kink there: its derivatives on both sides are 0 and -1. */
 TEST(ties_take_the_first_triangle) {

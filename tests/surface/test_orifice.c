@@ -6,6 +6,7 @@
 
 #include "test_support.h"
 
+#include "farthest_outline.h"
 #include "handles.h"
 
 #include "shapes.h"
@@ -67,40 +68,51 @@ static double squared_distance_to(const double *p, const double corner[3][2]) {
   return n_left == 3 || n_right == 3 ? 0 : nearest;
 }
 
-/* The area of the orifice in a disc is compared with the share of points that no triangle covers. The effective area is compared
- * with the share of points that are also not near a triangle. */
+/* The area of the orifice is compared with the share of points that no triangle covers. The effective area is compared with the
+ * share of points that are also not near a triangle. */
 TEST(areas_are_counts_of_points) {
   enum { n_side = 121 };
   for (int trial = 0; trial < n_trials(); ++trial) {
     const int kind = trial % n_kinds;
-    if (kind == 1) continue; /* the outline is no disc */
     riis_surface_options options = surface_options();
     options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
-    const riis_surface *surface = new_surface(valve_at(kind, between(0.3, 1)), &options);
+    riis_valve *valve = valve_at(kind, between(0.3, 1));
+    /* Rays in gaps between cusps would see nothing. */
+    if (kind == 0) CHECK_OK(riis_valve_unset(valve, "leaflet_angle"));
+    const riis_surface *surface = new_surface(valve, &options);
     const riis_resistance how = resistance(between(0.03, 0.2), trial % 2 ? RIIS_RIM_CUT : RIIS_RIM_ROUND);
     const riis_orifice found = orifice_of(surface, &how);
     const riis_triangles all = triangles_of(surface);
-    assert_int_equal(found.outline, RIIS_OUTLINE_DISC);
+    const frame seen = frame_of(found.axis);
+    outline around = outline_of(all.xyz, all.n_triangles, all.vertex_id, &seen);
+    if (kind == 3) {
+      around.middle[0] = around.middle[1] = 0, around.reach = found.radius;
+      for (int i = 0; i < n_directions; ++i) around.distance[i] = found.radius;
+    }
+    assert_int_equal(found.outline, kind == 3 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT);
     const double reach = found.rim_reach * found.half_thickness;
-    int n_uncovered = 0, n_far = 0;
+    int n_uncovered = 0, n_far = 0, n_inside = 0;
     for (int i = 0; i < n_side * n_side; ++i) {
       const double x = (2 * (i % n_side) + 1.0) / n_side - 1, y = (2 * (i / n_side) + 1.0) / n_side - 1;
       /* The points are turned, so that no straight edge is parallel to their rows. */
-      const double p[2] = {found.radius * (0.8 * x - 0.6 * y), found.radius * (0.6 * x + 0.8 * y)};
-      if (hypot(x, y) > 1) continue;
+      const double p[2] = {sqrt(2) * around.reach * (0.8 * x - 0.6 * y), sqrt(2) * around.reach * (0.6 * x + 0.8 * y)};
+      if (!is_inside(&around, p[0], p[1])) continue;
       double nearest = INFINITY;
       for (int64_t t = 0; t < all.n_triangles && nearest > 0; ++t) {
         double corner[3][2];
-        for (int k = 0; k < 3; ++k) memcpy(corner[k], all.xyz + 3 * all.vertex_id[3 * t + k], sizeof corner[k]);
+        for (int k = 0; k < 3; ++k) {
+          seen_from(&seen, all.xyz + 3 * all.vertex_id[3 * t + k], corner[k]);
+          for (int d = 0; d < 2; ++d) corner[k][d] -= around.middle[d];
+        }
         const double squared = squared_distance_to(p, corner);
         if (squared < nearest) nearest = squared;
       }
-      n_uncovered += nearest > 0, n_far += nearest > reach * reach;
+      n_uncovered += nearest > 0, n_far += nearest > reach * reach, ++n_inside;
     }
-    const double cell = pow(2 * found.radius / n_side, 2), disc = acos(-1) * found.radius * found.radius;
-    CHECK_NEAR(found.outline_area, disc, 1e-5 * disc);
-    CHECK_NEAR(found.area, cell * n_uncovered, 0.01 * disc);
-    CHECK_NEAR(found.effective_area, cell * n_far, 0.01 * disc);
+    const double cell = 2 * pow(2 * around.reach / n_side, 2), whole = cell * n_inside;
+    if (kind == 3) CHECK_NEAR(found.outline_area, acos(-1) * found.radius * found.radius, 1e-5 * whole);
+    CHECK_NEAR(found.area, cell * n_uncovered, 0.01 * whole);
+    CHECK_NEAR(found.effective_area, cell * n_far, 0.015 * whole);
     CHECK_AT_MOST(found.effective_area, found.area);
   }
 }
@@ -121,17 +133,20 @@ static double meets(double ax, double ay, double bx, double by) {
 
 /* Returns the area of the orifice by lines at an angle to the axes. The lengths count that lie inside the outline and under no
  * triangle. A radius of 0 stands for the attachment as the outline. */
-static double area_by_turned_lines(const riis_surface *surface, double radius) {
+static double area_by_turned_lines(const riis_surface *surface, double radius, const double *axis) {
   enum { n_lines = 1500 };
   const double c = cos(0.37), s = sin(0.37), reach = radius > 0 ? radius : 3, spacing = 2 * reach / n_lines;
+  const frame seen = frame_of(axis);
   const riis_triangles all = triangles_of(surface);
   riis_attachment held;
   CHECK_OK(riis_surface_get_attachment(surface, &held, sizeof held));
   double *turned = malloc((size_t)all.n_vertices * 2 * sizeof *turned);
   span *spans = malloc((size_t)(all.n_triangles + held.n_edges) * sizeof *spans);
   for (int64_t i = 0; i < all.n_vertices; ++i) {
-    turned[2 * i] = c * all.xyz[3 * i] + s * all.xyz[3 * i + 1];
-    turned[2 * i + 1] = c * all.xyz[3 * i + 1] - s * all.xyz[3 * i];
+    double p[2];
+    seen_from(&seen, all.xyz + 3 * i, p);
+    turned[2 * i] = c * p[0] + s * p[1];
+    turned[2 * i + 1] = c * p[1] - s * p[0];
   }
   double area = 0;
   for (int line = 0; line < n_lines; ++line) {
@@ -157,9 +172,11 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
       inside[n_inside++] = (span){-half, half};
     } else {
       for (int64_t i = 0; i < held.n_edges; ++i) {
-        const double *e = held.edges + 6 * i;
+        double a[2], b[2];
+        seen_from(&seen, held.edges + 6 * i, a);
+        seen_from(&seen, held.edges + 6 * i + 3, b);
         const double x =
-            meets(c * e[0] + s * e[1], c * e[1] - s * e[0] - y, c * e[3] + s * e[4], c * e[4] - s * e[3] - y);
+            meets(c * a[0] + s * a[1], c * a[1] - s * a[0] - y, c * b[0] + s * b[1], c * b[1] - s * b[0] - y);
         if (!isnan(x)) inside[n_inside++] = (span){x, 0};
       }
       qsort(inside, (size_t)n_inside, sizeof *inside, by_start);
@@ -180,15 +197,16 @@ static double area_by_turned_lines(const riis_surface *surface, double radius) {
   return area;
 }
 
-/* Orifices are compared with the results of turned lines. They must also stay within 0.1 % of the numbers that the program
- * measured before the library did. */
+/* Orifices are compared with the results of turned lines, inside the disc or the attachment. The attachment of the aortic valve
+ * is no closed line. The free edges of the coapting valve reach out of the attachment. The orifices must also be those that polygons
+ * gave. These were made by other programs, for valves whose axis of view is known by symmetry. */
 TEST(orifices_are_those_of_turned_lines) {
   static const double openings[] = {0, 0.25, 0.5, 0.75, 1};
-  static const double before[n_kinds][5] = {{0.885854, 1.550407, 2.278302, 3.061292, 3.887267},
-                                            {0, 1.166893, 2.597702, 4.292761, 6.251734},
-                                            {0.0237878, 0.928913, 1.880568, 2.865707, 3.867355},
-                                            {0.00146508, 0.632731, 1.445828, 2.393365, 3.420030},
-                                            {0.0452510, 1.028312, 2.081049, 3.182333, 4.292677}};
+  static const double by_polygons[n_kinds][5] = {{-1, -1, -1, -1, -1},
+                                                 {0, -1, -1, -1, 6.2517},
+                                                 {0, 0.918, 1.882, 2.890, 3.943},
+                                                 {0.00146508, 0.632731, 1.445828, 2.393365, 3.420030},
+                                                 {0.038, 1.029, 2.084, 3.199, 4.375}};
   riis_surface_options fine = surface_options();
   fine.tolerance = 0.01;
   for (int kind = 0; kind < n_kinds; ++kind) {
@@ -196,11 +214,11 @@ TEST(orifices_are_those_of_turned_lines) {
     for (int i = 0; i < 5; ++i) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", openings[i]));
       const riis_orifice found = orifice_of(new_surface(valve, &fine), NULL);
-      CHECK_NEAR(found.area, before[kind][i], 1e-3 * before[kind][i] + 1e-12);
-      if (i % 2 == 0) continue;
+      if (by_polygons[kind][i] >= 0) CHECK_NEAR(found.area, by_polygons[kind][i], 1e-3 * found.area + 5e-4);
+      if (i % 2 == 0 || kind == 0 || kind == 4) continue;
       const riis_surface *surface = new_surface(valve, NULL);
       const riis_orifice coarse = orifice_of(surface, NULL);
-      CHECK_NEAR(coarse.area, area_by_turned_lines(surface, coarse.radius), 1e-3 * coarse.area);
+      CHECK_NEAR(coarse.area, area_by_turned_lines(surface, coarse.radius, coarse.axis), 1e-3 * coarse.area);
     }
   }
 }
@@ -244,7 +262,7 @@ TEST(placements_keep_orifices) {
     options.flip_normals = trial % 2;
     const riis_surface *surface = new_surface(valve, &options);
     const riis_orifice found = orifice_of(surface, NULL);
-    assert_int_equal(found.outline, trial % n_kinds == 1 ? RIIS_OUTLINE_ATTACHMENT : RIIS_OUTLINE_DISC);
+    assert_int_equal(found.outline, trial % n_kinds == 3 ? RIIS_OUTLINE_DISC : RIIS_OUTLINE_ATTACHMENT);
     CHECK_NEAR(found.area, s * s * own_frame.area, 1e-6 * s * s * own_frame.outline_area);
     CHECK_NEAR(found.outline_area, s * s * own_frame.outline_area, 1e-9 * s * s * own_frame.outline_area);
     CHECK_NEAR(found.effective_area, s * s * own_frame.effective_area, 1e-6 * s * s * own_frame.outline_area);
@@ -252,12 +270,15 @@ TEST(placements_keep_orifices) {
     CHECK_NEAR(found.radius, s * own_frame.radius, 1e-14 * s);
     CHECK_NEAR(found.half_thickness, 0.1 * s, 1e-14 * s);
     CHECK_NEAR(hypot(hypot(found.axis[0], found.axis[1]), found.axis[2]), 1, 1e-14);
-    /* Rodrigues' formula for (0, 0, 1) */
-    const double *k = options.rotation_axis, size = hypot(hypot(k[0], k[1]), k[2]);
-    const double angle = options.rotation_angle * acos(-1) / 180, z = k[2] / size;
-    CHECK_NEAR(found.axis[0], sin(angle) * k[1] / size + (1 - cos(angle)) * z * k[0] / size, 1e-13);
-    CHECK_NEAR(found.axis[1], -sin(angle) * k[0] / size + (1 - cos(angle)) * z * k[1] / size, 1e-13);
-    CHECK_NEAR(found.axis[2], cos(angle) + (1 - cos(angle)) * z * z, 1e-13);
+    /* Rodrigues' formula */
+    const double *k = options.rotation_axis, size = hypot(hypot(k[0], k[1]), k[2]), *v = own_frame.axis;
+    const double angle = options.rotation_angle * acos(-1) / 180;
+    const double along = (k[0] * v[0] + k[1] * v[1] + k[2] * v[2]) / (size * size);
+    for (int c = 0; c < 3; ++c) {
+      const int d = (c + 1) % 3, e = (c + 2) % 3;
+      const double turned = (k[d] * v[e] - k[e] * v[d]) / size;
+      CHECK_NEAR(found.axis[c], cos(angle) * v[c] + sin(angle) * turned + (1 - cos(angle)) * along * k[c], 1e-9);
+    }
   }
 }
 
@@ -367,15 +388,18 @@ TEST(wrong_calls_are_refused) {
   CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
   assert_int_equal(orifice.outline, RIIS_OUTLINE_BOUNDARY);
 
+  /* A single patch covers the inside of its own outline. */
   const shape square = unit_square();
-  const riis_orifice none = orifice_of(surface_of(&square, NULL), NULL);
-  assert_int_equal(none.outline, RIIS_OUTLINE_NONE);
-  CHECK_NEAR(none.area + none.outline_area + none.perimeter + none.effective_area + none.radius, 0, 0);
-  CHECK_NEAR(none.axis[2], 1, 0);
+  const riis_orifice whole = orifice_of(surface_of(&square, NULL), NULL);
+  assert_int_equal(whole.outline, RIIS_OUTLINE_ATTACHMENT);
+  CHECK_NEAR(whole.outline_area, 1, 1e-12);
+  CHECK_NEAR(whole.area + whole.perimeter + whole.effective_area + whole.radius, 0, 1e-12);
+  CHECK_NEAR(fabs(whole.axis[2]), 1, 1e-14);
 }
 
-/* Two patches hang on arches in a plane through the axis, so their outline is seen edge on. Placements round its coordinates. */
-TEST(outlines_seen_edge_on_are_none) {
+/* Two patches hang on arches in a plane through the z axis. Seen along z the arches enclose nothing, so the axis turns until the
+ * farthest edges surround an area. */
+TEST(outlines_need_not_be_seen_along_z) {
   shape wings = {0};
   for (int side = -1; side <= 1; side += 2) {
     const double arch[3][3] = {{-1, 0, 0}, {0, 0, side}, {1, 0, 0}};
@@ -386,18 +410,19 @@ TEST(outlines_seen_edge_on_are_none) {
     add_line(&wings, 1, 0, 0, 1, side, 0);
     add_patch(&wings, first, first + 1, first + 2, first + 3);
   }
+  const riis_orifice own_frame = orifice_of(surface_of(&wings, NULL), NULL);
+  assert_int_equal(own_frame.outline, RIIS_OUTLINE_ATTACHMENT);
   for (int trial = 0; trial < trials_of(40); ++trial) {
     riis_surface_options options = surface_options();
-    options.scale = pow(10, between(-3, 3));
+    const double s = options.scale = pow(10, between(-3, 3));
     options.rotation_angle = between(-180, 180);
-    options.triangulation = trial % 2 ? RIIS_TRIANGULATION_FIXED : RIIS_TRIANGULATION_ADAPTED;
     for (int c = 0; c < 3; ++c) {
       options.rotation_axis[c] = between(-1, 1);
-      options.translation[c] = options.scale * between(-1, 1) * (trial % 4 == 3 ? 1e9 : 10);
+      options.translation[c] = options.scale * between(-10, 10);
     }
-    const riis_orifice none = orifice_of(surface_of(&wings, &options), NULL);
-    assert_int_equal(none.outline, RIIS_OUTLINE_NONE);
-    CHECK_NEAR(none.area + none.outline_area, 0, 0);
+    const riis_orifice found = orifice_of(surface_of(&wings, &options), NULL);
+    CHECK_NEAR(found.outline_area, s * s * own_frame.outline_area, 1e-6 * s * s * own_frame.outline_area);
+    CHECK_NEAR(found.area, s * s * own_frame.area, 1e-3 * s * s * own_frame.outline_area);
   }
 }
 

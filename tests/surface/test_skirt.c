@@ -80,8 +80,8 @@ typedef struct axis_line {
 } axis_line;
 
 static axis_line axis_of(const riis_surface *surface, int kind, const riis_surface_options *options) {
-  riis_orifice orifice;
-  CHECK_OK(riis_surface_get_orifice(surface, NULL, &orifice, sizeof orifice));
+  riis_orifice orifice; /* the orifice of a bileaflet valve is seen along the z axis of its frame */
+  CHECK_OK(riis_surface_get_orifice(surface_of_kind("bileaflet", options), NULL, &orifice, sizeof orifice));
   const riis_attachment held = attachment_of(surface);
   axis_line axis = {{0, 0, 0}, {orifice.axis[0], orifice.axis[1], orifice.axis[2]}};
   double whole = 0;

@@ -115,6 +115,14 @@ static int64_t landmarks_on(const riis_surface *surface, int64_t n_wanted, doubl
   return n;
 }
 
+/* Landmarks beside the attachment. No curve is cut there, so a warped curve has the pieces that it had. */
+static int64_t landmarks_beside(const riis_surface *surface, int64_t n_wanted, double *xyz) {
+  const int64_t n = landmarks_on(surface, n_wanted, xyz);
+  for (int64_t i = 0; i < n; ++i)
+    for (int c = 0; c < 2; ++c) xyz[3 * i + c] *= 1.3;
+  return n;
+}
+
 /* A smooth deformation of a root: it widens, tilts, and gets oval. */
 static void deform(const double *x, double size, double *y) {
   const double made[3] = {x[0] * (1 + size) + size * x[1] * x[2], x[1] * (1 - 0.7 * size) + 0.5 * size * x[0] * x[0],
@@ -297,12 +305,14 @@ TEST(an_identity_changes_nothing) {
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 3 ? 0 : trial < 6 ? 1 : between(0, 1)));
     riis_surface *plain = new_surface(valve, &options), *surface;
     double from[3 * max_landmarks];
-    const int64_t n = landmarks_on(plain, 30, from);
+    /* A curve that is cut may get other vertices, and the surface is the same within its error. */
+    const int is_cut = trial % 4 == 2, is_fixed = trial % 4 == 3;
+    const int64_t n = is_cut ? landmarks_on(plain, 30, from) : landmarks_beside(plain, 30, from);
     riis_warp *warp = new_warp(n, from, 0, &options);
     CHECK_OK(riis_valve_set_warp(valve, warp, NULL));
     surface = new_surface(valve, &options);
     const riis_triangles a = triangles_of(plain), b = triangles_of(surface);
-    if (trial % 4 == 3) { /* the fixed triangulation of a warped valve is finer, so that the warp may move */
+    if (is_cut || is_fixed) { /* the fixed triangulation of a warped valve is finer, so that the warp may move */
       const double allowed = info_of(plain).error_bound + info_of(surface).error_bound + 1e-9;
       for (int64_t i = 0; i < a.n_vertices; i += 3) CHECK_AT_MOST(distance_to(surface, a.xyz + 3 * i), allowed);
       for (int64_t i = 0; i < b.n_vertices; i += 3) CHECK_AT_MOST(distance_to(plain, b.xyz + 3 * i), allowed);
@@ -353,11 +363,10 @@ TEST(a_rigid_warp_equals_a_placement) {
     CHECK_OK(riis_surface_get_orifice(expected, NULL, orifice, sizeof *orifice));
     CHECK_OK(riis_surface_get_orifice(got, NULL, orifice + 1, sizeof *orifice));
     assert_int_equal(orifice[0].outline, orifice[1].outline);
-    if (strcmp(kind, "mitral") != 0) {
-      CHECK_NEAR(orifice[0].outline_area, orifice[1].outline_area, 1e-3 * orifice[0].outline_area);
-      CHECK_NEAR(orifice[0].area, orifice[1].area, 0.02 * orifice[0].outline_area);
-      for (int c = 0; c < 3; ++c) CHECK_NEAR(orifice[0].axis[c], orifice[1].axis[c], 1e-9);
-    }
+    /* The axis follows from the triangles, which differ. */
+    CHECK_NEAR(orifice[0].outline_area, orifice[1].outline_area, 2e-3 * orifice[0].outline_area);
+    CHECK_NEAR(orifice[0].area, orifice[1].area, 0.02 * orifice[0].outline_area);
+    for (int c = 0; c < 3; ++c) CHECK_NEAR(orifice[0].axis[c], orifice[1].axis[c], 2e-3);
     free_owned_after(owned_before);
   }
 }
@@ -386,7 +395,7 @@ TEST(warped_curves_are_near_mapped_curves) {
     riis_valve *valve = new_valve(kinds[trial % 3]), *warped = NULL;
     CHECK_OK(riis_valve_set_scalar(valve, "opening", trial < 3 ? 0 : between(0, 1)));
     double from[3 * max_landmarks], to[3 * max_landmarks];
-    const int64_t n = landmarks_on(new_surface(valve, NULL), 30, from);
+    const int64_t n = landmarks_beside(new_surface(valve, NULL), 30, from);
     const double size = between(-0.15, 0.15);
     for (int64_t i = 0; i < n; ++i) deform(from + 3 * i, size, to + 3 * i);
     riis_warp *warp = new_warp(n, from, 0, NULL);
@@ -449,7 +458,7 @@ TEST(patches_make_the_same_valve) {
     riis_surface *plain = new_surface(valve, NULL);
     if (is_warped) {
       double from[3 * max_landmarks], to[3 * max_landmarks];
-      const int64_t n = landmarks_on(plain, 30, from);
+      const int64_t n = landmarks_beside(plain, 30, from);
       for (int64_t i = 0; i < n; ++i) deform(from + 3 * i, 0.1, to + 3 * i);
       riis_warp *warp = new_warp(n, from, 0, NULL);
       CHECK_OK(set_targets(warp, n, to));
@@ -508,7 +517,7 @@ TEST(closed_and_open_landmarks_are_met) {
     for (int s = 0; s < 2; ++s) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", s));
       riis_surface *surface = new_surface(valve, NULL);
-      for (int64_t i = 0; i < n[s]; ++i) CHECK_AT_MOST(distance_to(surface, to[s] + 3 * i), 0.04);
+      for (int64_t i = 0; i < n[s]; ++i) CHECK_AT_MOST(distance_to(surface, to[s] + 3 * i), 0.006);
     }
     free_owned_after(owned_before);
   }

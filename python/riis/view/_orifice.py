@@ -16,6 +16,43 @@ Bools = NDArray[numpy.bool_]
 
 N_GRID = 256  # cells across the outline
 _SPECK = 12  # cells of the smallest orifice that is drawn
+_N_DIRECTIONS = 720  # directions in which the outline is known, if it is no disc
+
+
+def _outline(points: Reals, faces: NDArray[numpy.int64]) -> Reals:
+    """Returns the outline of triangles in the plane as edges (n, 2, 2): the boundary's farthest point in each direction.
+
+    The directions are seen from the middle of the boundary. Edges of only one triangle are the boundary.
+    """
+    _, place = numpy.unique(points, axis=0, return_inverse=True)
+    sides = numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    _, first, count = numpy.unique(
+        numpy.sort(place.reshape(-1)[sides], axis=1), axis=0, return_index=True, return_counts=True
+    )
+    edges = points[sides[first[count == 1]]][:, :, :2]
+    centre = edges.mean(axis=(0, 1))
+    a, b = edges[:, 0] - centre, edges[:, 1] - centre
+    turns_back = a[:, 0] * b[:, 1] < a[:, 1] * b[:, 0]
+    a[turns_back], b[turns_back] = b[turns_back], a[turns_back]
+    step = 2.0 * numpy.pi / _N_DIRECTIONS
+    low = numpy.arctan2(a[:, 1], a[:, 0])
+    turn = numpy.arctan2(b[:, 1], b[:, 0]) - low
+    high = low + numpy.where(turn < 0.0, turn + 2.0 * numpy.pi, turn)
+    start = numpy.ceil(low / step).astype(numpy.int64)
+    n = (numpy.floor(high / step).astype(numpy.int64) - start + 1).clip(0)
+    edge = numpy.repeat(numpy.arange(len(a)), n)
+    direction = start[edge] + numpy.arange(int(n.sum())) - numpy.repeat(numpy.cumsum(n) - n, n)
+    ray = numpy.column_stack([numpy.cos(direction * step), numpy.sin(direction * step)])
+    along = (b - a)[edge]
+    across = ray[:, 0] * along[:, 1] - ray[:, 1] * along[:, 0]
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        distance = (a[edge, 0] * along[:, 1] - a[edge, 1] * along[:, 0]) / across
+    far = numpy.zeros(_N_DIRECTIONS)
+    seen = numpy.isfinite(distance)
+    numpy.maximum.at(far, direction[seen] % _N_DIRECTIONS, distance[seen])
+    angle = numpy.flatnonzero(far > 0.0)
+    corners = centre + far[angle, None] * numpy.column_stack([numpy.cos(angle * step), numpy.sin(angle * step)])
+    return numpy.stack([corners, numpy.roll(corners, -1, axis=0)], axis=1)
 
 
 def _filled(loops: Reals, x: Reals, y: Reals) -> Bools:
@@ -97,12 +134,8 @@ def outline_of(surface: Surface, centre: Reals) -> list[Reals]:
         turn = numpy.linspace(0.0, 2.0 * numpy.pi, 361)
         circle = measured.radius * numpy.column_stack([numpy.cos(turn), numpy.sin(turn)])
         edges = numpy.stack([circle[:-1], circle[1:]], axis=1)
-    elif measured.outline == "attachment":
-        edges = ((surface.attachment.edges - centre) @ frame)[:, :, :2]
     else:
-        sides = numpy.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-        _, place, count = numpy.unique(numpy.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
-        edges = seen[sides[place[count == 1]]][:, :, :2]
+        edges = _outline(seen, faces)
     low, high = edges.min(axis=(0, 1)), edges.max(axis=(0, 1))
     step = float((high - low).max()) / N_GRID
     x = (low[0] + high[0]) / 2 + step * (numpy.arange(N_GRID) - (N_GRID - 1) / 2)

@@ -269,11 +269,12 @@ contacts of leaflets do not count, nor those of a housing with its hinges.
 riis states measures the valve in its own frame at 101 openings, or at the number of --count. It needs no MESH. The table has
 a line for each opening. A line has the length of each free edge, the area of each leaflet, both also as a share of their
 closed values, and the area of the orifice. The summary on stdout names the free edges whose length differs by more than 10 %
-from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of a disc
-that the leaflets leave uncovered, seen along the axis z. effective_area is the part that the band around the leaflets leaves
-to the flow, by the half thickness and a round rim. The disc has the closed valve's root_radius or the housing's
-radius. If a valve has neither, the outline is the free sides v = 0, such as the annulus. The table has no columns for
-measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one line, at opening 0.
+from the closed length. Free edges are the sides v = 1 of the patches on a leaflet's rim. The orifice is the part of an outline
+that the leaflets leave uncovered, seen along the outline's axis. effective_area is the part that the band around the leaflets
+leaves to the flow, by the half thickness and a round rim. The outline is the leaflets' farthest edges in all directions, such
+as the annulus. Straight lines join leaflets that do not touch. A bileaflet valve has the disc of the housing's radius. The
+table has no columns for measures that a valve lacks. The default tolerance is 0.01. A valve without an open state has one
+line, at opening 0.
 )"},
     {"export", "what riis export writes",
      R"(

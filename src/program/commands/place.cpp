@@ -72,7 +72,7 @@ std::string foam_of(const Placed &placed) {
   text += "}\nplacement\n{\n    scale           0.01;\n    rotationAxis    (" + numbers_text(at.rotation_axis, 3, " ") +
           ");\n    rotationAngle   " + shortest(at.rotation_angle) + ";\n    translation     (" +
           numbers_text(translation, 3, " ") + ");\n}\n";
-  if (!placed.warp) return text;
+  if (!placed.is_warped) return text;
   const auto points = [&](const std::vector<double> &xyz) {
     std::string list;
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
@@ -103,7 +103,7 @@ std::string c_of(const Placed &placed) {
   text += "options.rotation_angle = " + shortest(at.rotation_angle) + ";\n";
   for (int k = 0; k < 3; ++k)
     text += "options.translation[" + std::to_string(k) + "] = " + shortest(at.translation[k]) + ";\n";
-  if (placed.warp) {
+  if (placed.is_warped) {
     const std::string n = std::to_string(placed.places.size() / 3);
     const auto array = [&](const char *name, const std::vector<double> &xyz) {
       std::string made = std::string("const double ") + name + "[][3] = {";
@@ -150,7 +150,7 @@ std::string fortran_of(const Placed &placed) {
                             numbers_text(at.rotation_axis, 3, ", ", in_fortran) +
                             "], &\n  rotation_angle=" + in_fortran(at.rotation_angle) + ", &\n  translation=[" +
                             numbers_text(at.translation, 3, ", ", in_fortran) + "])\n";
-  if (placed.warp) {
+  if (placed.is_warped) {
     const auto array = [](const std::vector<double> &xyz) {
       std::string made = "reshape([ &\n";
       for (std::size_t i = 0; i < xyz.size(); i += 3)

@@ -101,15 +101,6 @@ class Measured {
     return can_open ? openings_from_0_to_1(options_.n_states) : std::vector<double>{0};
   }
 
-  // Returns the name of the parameter that is the disc's radius, or "".
-  std::string radius_parameter() const {
-    for (const riis_parameter &parameter : all_parameters(valve_)) {
-      const std::string name = parameter.name;
-      if (name == "root_radius" || name == "radius") return name;
-    }
-    return "";
-  }
-
   std::vector<riis_leaflet> leaflets() const {
     int64_t n = 0;
     check(riis_surface_get_n_leaflets(surface_, &n));
@@ -177,11 +168,9 @@ States frame_of(const StatesOptions &options, Measured &valve) {
   }
   // A rigid leaflet only turns, so its lengths do not change.
   if (valve.is_valve() && options.valve == "bileaflet") states.why_no_edges = "the leaflets are rigid";
-  if (orifice.outline == RIIS_OUTLINE_DISC)
-    states.disc = "the disc of " + valve.radius_parameter() + " " + shown(orifice.radius);
+  if (orifice.outline == RIIS_OUTLINE_DISC) states.disc = "the disc of radius " + shown(orifice.radius);
   if (orifice.outline == RIIS_OUTLINE_ATTACHMENT) states.disc = "the outline of the attachment";
-  if (orifice.outline == RIIS_OUTLINE_BOUNDARY)
-    states.disc = "the longest open boundary, which is taken as the outline,";
+  if (orifice.outline == RIIS_OUTLINE_BOUNDARY) states.disc = "the outline of the open edges";
   states.reach = shown(orifice.rim_reach) + " half thicknesses of " + shown(orifice.half_thickness);
   return states;
 }
@@ -284,9 +273,7 @@ std::string text_of_area(const States &states, double riis_orifice::*area) {
 }
 
 std::string text_of_orifice(const States &states) {
-  if (states.disc.empty() && states.is_of_file) return "not measured: no closed line of open edges encloses an area";
-  if (states.disc.empty())
-    return "not measured: the valve has no root_radius or radius, and its free sides v = 0 enclose no area along z";
+  if (states.disc.empty()) return "not measured: no open edges surround an area";
   return text_of_area(states, &riis_orifice::area) + "; " + states.disc + " has " + rounded(states.disc_area);
 }
 

@@ -202,9 +202,11 @@ void read_json(const Json &root, LandmarkFile &file) {
       to.add(name, point_of(file.path, quoted(name), value));
       continue;
     }
+    // Only a name that several landmarks may have takes numbers. Another name may have a list of one point.
+    const std::optional<Place> place = place_of_name(name);
     for (std::size_t i = 0; i < value.size(); ++i) {
-      const std::string numbered = name + "_" + std::to_string(i + 1);
-      to.add(numbered, point_of(file.path, quoted(numbered), value[i]));
+      const std::string own = place && place->may_repeat ? name + "_" + std::to_string(i + 1) : name;
+      to.add(own, point_of(file.path, quoted(own), value[i]));
     }
   }
   to.finish();

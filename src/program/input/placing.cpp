@@ -81,6 +81,23 @@ void check_landmarks(riis_status status, const LandmarkFile &landmarks, Reader r
   throw Refusal{exit_bad_data, landmarks.path + ": " + text, status};
 }
 
+// The error of measured distances from a valve, in centimetres.
+constexpr double distance_error = 1e-4;
+
+// Returns the distances of points from the closed valve without its skirt.
+std::vector<double> distances_from(riis_valve *valve, riis_surface_options where, const std::vector<double> &xyz) {
+  check(riis_valve_set_scalar(valve, "opening", 0));
+  check(riis_valve_set_scalar(valve, "skirt_length", 0));
+  where.tolerance = distance_error * where.scale / where.half_thickness;
+  const auto surface = create<Surface>(riis_surface_create, valve, &where);
+  const riis_points points = points_of(xyz);
+  std::vector<double> made(xyz.size() / 3);
+  auto arrays = defaults<riis_closest_arrays>();
+  arrays.distance = made.data();
+  check(riis_closest_points(surface, &points, nullptr, &arrays));
+  return made;
+}
+
 }  // namespace
 
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
@@ -160,18 +177,14 @@ Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader r
   check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
   check_landmarks(riis_warp_set_targets(warp, &to), landmarks, reader);
   check(riis_valve_set_warp(valve, warp, nullptr), option_name(reader, "warp"));
-  placed.warp = get<riis_warp_info>(riis_warp_get_info, warp);
-  std::vector<double> mapped(placed.places.size());
-  check(riis_warp_map(warp, &from, mapped.data()));
-  for (std::size_t i = 0; i < mapped.size(); i += 3)
-    placed.still_off.push_back(
-        std::hypot(mapped[i] - targets[i], mapped[i + 1] - targets[i + 1], mapped[i + 2] - targets[i + 2]));
+  placed.is_warped = true;
   const auto trial = create<Valve>(riis_valve_copy, valve);
   for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     check(riis_valve_set_scalar(trial, "opening", opening));
     Surface surface;
     check_landmarks(riis_surface_create(trial, &placed.where, surface.out()), landmarks, reader);
   }
+  placed.still_off = distances_from(trial, placed.where, targets);
   return warp;
 }
 
@@ -254,9 +267,15 @@ std::string filled(const std::string &text, std::size_t width) {
   return text + std::string(std::max(width, text.size()) - text.size(), ' ');
 }
 
-// A length, or 0 if it is rounding.
-std::string length_text(double length, double centimetre) {
-  return length > 1e-9 * centimetre ? digits(length, 3) : "0";
+// A distance from the valve, or 0 if it is within the error of such distances.
+std::string distance_text(double distance, double centimetre) {
+  return distance > distance_error * centimetre ? digits(distance, 3) : "0";
+}
+
+double root_mean_square(const std::vector<double> &values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 }  // namespace
@@ -280,7 +299,7 @@ std::string placed_file_of(const Placed &placed, const riis_valve *valve) {
     }
     return made;
   };
-  if (placed.warp) {
+  if (placed.is_warped) {
     Json warp = Json::object();
     warp["sources"] = json_of_points(placed.places);
     warp["targets"] = json_of_points(placed.landmarks.xyz);
@@ -304,9 +323,9 @@ std::string placed_file_of(const Placed &placed, const riis_valve *valve) {
   fit["undetermined"] = undetermined;
   fit["in_proportion"] = tied;
   fit["residuals"] = by_name(placed.residuals);
-  if (placed.warp) {
-    fit["warped_rms"] = placed.warp->rms_residual;
-    fit["warped_worst"] = placed.warp->largest_residual;
+  if (placed.is_warped) {
+    fit["warped_rms"] = root_mean_square(placed.still_off);
+    fit["warped_worst"] = *std::max_element(placed.still_off.begin(), placed.still_off.end());
     fit["warped_residuals"] = by_name(placed.still_off);
   }
   root["fit"] = fit;
@@ -355,19 +374,20 @@ std::string place_report(const Placed &placed, Reader reader) {
   std::size_t name_width = 16;
   for (const std::string &name : landmarks.names) name_width = std::max(name_width, name.size() + 2);
   const std::string column = "residual " + unit;
-  text += "\n" + filled("landmark", name_width) + (placed.warp ? filled(column, 16) + "warped " + unit : column) + "\n";
+  text += "\n" + filled("landmark", name_width) + (placed.is_warped ? filled(column, 16) + "warped " + unit : column) +
+          "\n";
   for (std::size_t i = 0; i < landmarks.names.size(); ++i) {
     const std::string residual = digits(placed.residuals[i], 3);
     text += filled(landmarks.names[i], name_width) +
-            (placed.warp ? filled(residual, 16) + length_text(placed.still_off[i], at.scale) : residual) + "\n";
+            (placed.is_warped ? filled(residual, 16) + distance_text(placed.still_off[i], at.scale) : residual) + "\n";
   }
-  const auto name_of_landmark = [&](int64_t i) { return landmarks.names[static_cast<std::size_t>(i)]; };
   text += "rms " + digits(at.rms, 3) + ", worst " + digits(at.worst, 3) + " at " +
-          name_of_landmark(at.worst_landmark_id) + "\n";
-  if (placed.warp)
-    text += "warped, rms " + length_text(placed.warp->rms_residual, at.scale) + ", worst " +
-            length_text(placed.warp->largest_residual, at.scale) + " at " +
-            name_of_landmark(placed.warp->largest_landmark_id) +
+          landmarks.names[static_cast<std::size_t>(at.worst_landmark_id)] + "\n";
+  const auto farthest = std::max_element(placed.still_off.begin(), placed.still_off.end());
+  if (placed.is_warped)
+    text += "warped, rms " + distance_text(root_mean_square(placed.still_off), at.scale) + ", worst " +
+            distance_text(*farthest, at.scale) + " at " +
+            landmarks.names[static_cast<std::size_t>(farthest - placed.still_off.begin())] +
             (placed.warp_noise > 0 ? "; smoothed by the noise of " + digits(placed.warp_noise, 3) + " " + unit : "") +
             "\n";
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))

@@ -81,9 +81,9 @@ struct Placed {
   double noise = 0;                                               // stated, mesh units
   std::vector<double> places;                                     // (3, n), of the landmarks on the valve
   riis_surface_options where = defaults<riis_surface_options>();  // the placement
-  std::optional<riis_warp_info> warp;                             // without a warp there is none
+  bool is_warped = false;
   double warp_noise = 0;          // by which the warp is smoothed; 0: it meets the landmarks
-  std::vector<double> still_off;  // distances of the landmarks from their places on the warped valve
+  std::vector<double> still_off;  // distances of the landmarks from the warped closed valve, right to a micrometre
 };
 
 // Sizes the valve by the landmarks and finds its placement. The parameters of `held` keep their values, and so do those that

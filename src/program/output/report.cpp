@@ -141,7 +141,7 @@ void add_flow(const ValveReport &valve, std::ostringstream &out) {
     out << line("orifice", state.str()) << flow.orifice->area << " open, " << flow.orifice->effective_area
         << " effective: the band takes " << flow.orifice->rim_reach << " half thicknesses along a perimeter of "
         << flow.orifice->perimeter
-        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is the longest open boundary" : "") << "\n";
+        << (flow.orifice->outline == RIIS_OUTLINE_BOUNDARY ? "; the outline is that of the open edges" : "") << "\n";
   }
   if (flow.first) {
     out << line("opens", valve.name);

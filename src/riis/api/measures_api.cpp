@@ -42,11 +42,7 @@ riis_orifice orifice_of(const riis::Surface &surface, const riis_resistance &res
   const double eps = resistance.half_thickness;
   const riis::SourceValve *source = surface.source() ? &*surface.source() : nullptr;
   const riis::Orifice found = riis::measure_orifice(surface.triangles(), source, {c * eps, 0.1 * eps});
-  double radius = 0;
-  if (found.outline == RIIS_OUTLINE_DISC) {
-    const bool is_warped = !source->disc.rim.empty();
-    radius = is_warped ? std::sqrt(found.outline_area / riis::pi) : source->placement.scale * source->disc.radius;
-  }
+  const double radius = found.outline == RIIS_OUTLINE_DISC ? source->placement.scale * source->disc.radius : 0;
   return {found.area,
           found.outline_area,
           found.perimeter,

@@ -27,6 +27,12 @@ struct Bezier {
                        : cubic(control[3], control[2], control[1], control[0]);
   }
 
+  // Returns whether the curve stays in one point.
+  bool is_point() const {
+    for (int i = 1; i <= degree; ++i)
+      if (!(view(control)[i] == control[0])) return false;
+    return true;
+  }
   Vec3 first() const { return control[0]; }
   Vec3 last() const { return view(control)[degree]; }
 };

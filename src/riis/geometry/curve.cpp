@@ -35,9 +35,9 @@ class Flattening {
   // Adds a part of one span. The part goes from share t0 to t1 of the whole curve.
   void add(const Bezier &part, double part_length, double t0, double t1, int depth) {
     const double distance_to_chord = flatness(part) * (part.degree == 2 ? 0.5 : 0.75);
-    const bool is_bent = bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
-    if (!is_bent && accept(
-                        part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
+    if (!is_bent(t0, t1) &&
+        accept(
+            part.last(), distance_to_chord, part_length, [&] { return largest_curvature(part); }, t1))
       return;
     check(depth);
     const auto [left, right] = split(part, parameter_at_length(part, part_length, 0.5 * part_length));
@@ -58,7 +58,7 @@ class Flattening {
       for (const Bezier &span : spans) largest = std::max(largest, largest_curvature(span));
       return largest;
     };
-    if (accept(part.last(), distance_to_chord(part), part.length(), curvature, t1)) return;
+    if (!is_bent(t0, t1) && accept(part.last(), distance_to_chord(part), part.length(), curvature, t1)) return;
     check(depth);
     const double middle = 0.5 * (t0 + t1);
     add(part.between(0, 0.5), t0, middle, depth + 1);
@@ -68,6 +68,10 @@ class Flattening {
   Flattened take() { return std::move(flattened_); }
 
  private:
+  bool is_bent(double t0, double t1) const {
+    return bend_ && t1 - t0 > narrowest_for_velocity && bend_->off_linear(t0, t1) > max_bend_;
+  }
+
   // Compares points of the part and of its chord at equal shares of their own lengths. Their distance is at most length^2 / 8
   // times the largest curvature, as for the linear interpolation of a function with that second derivative. Joints do not
   // matter, because the direction is continuous there. If the curve may turn on the spot, the distance is at most the length.
@@ -198,36 +202,39 @@ bool are_equal(const Curve &a, const Curve &b) {
       });
 }
 
-VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity) {
+VelocityBend::VelocityBend(const Curve &curve, const Vector<Bezier> &velocity) {
   struct Sample {
     Vec3 first, second, third, tangent, rate_first, rate_second;
     double speed;
     double behind, rate_behind;  // the length from the curve's start to this point, and its rate
   };
-  std::array<Sample, n_cells + 1> samples;
-  for (std::size_t k = 0; k <= n_cells; ++k) {
-    const double t = static_cast<double>(k) / n_cells;
-    const auto [d1, d2, d3] = derivatives(curve, t);
-    const auto [r1, r2, r3] = derivatives(velocity, t);
-    const double speed = riis::length(d1);
-    view(samples)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, 0, 0};
+  Vector<std::array<Sample, n_cells + 1>> spans;
+  double total = 0, rate_total = 0;
+  for (std::size_t span = 0; span < velocity.size(); ++span) {
+    spans.emplace_back();
+    auto &samples = spans.back();
+    for (std::size_t k = 0; k <= n_cells; ++k) {
+      const double t = static_cast<double>(k) / n_cells;
+      const auto [d1, d2, d3] = derivatives(curve.spans()[span], t);
+      const auto [r1, r2, r3] = derivatives(velocity[span], t);
+      const double speed = riis::length(d1);
+      view(samples)[k] = {d1, d2, d3, speed > 0 ? (1 / speed) * d1 : Vec3{0, 0, 0}, r1, r2, speed, total, rate_total};
+    }
+    constexpr double half_step = 0.5 / n_cells;
+    for (std::size_t k = 1; k <= n_cells; ++k) {
+      const Sample &from = view(samples)[k - 1];
+      Sample &to = view(samples)[k];
+      to.behind = from.behind + half_step * (from.speed + to.speed);
+      to.rate_behind =
+          from.rate_behind + half_step * (dot(from.tangent, from.rate_first) + dot(to.tangent, to.rate_first));
+    }
+    total = samples.back().behind, rate_total = samples.back().rate_behind;
   }
-  constexpr double half_step = 0.5 / n_cells;
-  for (std::size_t k = 1; k <= n_cells; ++k) {
-    const Sample &from = view(samples)[k - 1];
-    Sample &to = view(samples)[k];
-    to.behind = from.behind + half_step * (from.speed + to.speed);
-    to.rate_behind =
-        from.rate_behind + half_step * (dot(from.tangent, from.rate_first) + dot(to.tangent, to.rate_first));
-  }
-  const double total = samples.back().behind, rate_total = samples.back().rate_behind;
-  for (std::size_t k = 0; k <= n_cells; ++k) {
-    const Sample &at = view(samples)[k];
-    view(u_)[k] = k == n_cells ? 1 : at.behind / total;
-    view(bend_)[k] = 0;
-    if (!(at.speed > 0)) continue;
+  const double curve_length = curve.length();
+  const auto bend_at = [&](const Sample &at, double u) {
+    if (!(at.speed > 0)) return 0.0;
     // The rate of change of the parameter that belongs to a fixed share u of the length.
-    const double t_rate = -(at.rate_behind - view(u_)[k] * rate_total) / at.speed;
+    const double t_rate = -(at.rate_behind - u * rate_total) / at.speed;
     const Vec3 first_rate = at.rate_first + t_rate * at.second, second_rate = at.rate_second + t_rate * at.third;
     const double speed_rate = dot(at.tangent, first_rate), inverse = 1 / at.speed;
     const Vec3 tangent_rate = inverse * (first_rate - speed_rate * at.tangent);
@@ -239,23 +246,26 @@ VelocityBend::VelocityBend(const Bezier &curve, double curve_length, const Bezie
                                     (second_rate - along * tangent_rate -
                                      (dot(tangent_rate, at.second) + dot(at.tangent, second_rate)) * at.tangent) -
                                 2 * inverse * speed_rate * curvature;
-    view(bend_)[k] =
-        riis::length(2 * curve_length * rate_total * curvature + curve_length * curve_length * curvature_rate);
+    return riis::length(2 * curve_length * rate_total * curvature + curve_length * curve_length * curvature_rate);
+  };
+  for (std::size_t span = 0; span < spans.size(); ++span) {
+    const bool is_last = span + 1 == spans.size();
+    double u0 = 0, bend0 = 0;
+    for (std::size_t k = 0; k <= n_cells; ++k) {
+      const Sample &at = view(spans[span])[k];
+      const double u = is_last && k == n_cells ? 1 : at.behind / total, bend = bend_at(at, u);
+      if (k > 0) cells_.push_back({u0, u, bend0, bend});
+      u0 = u, bend0 = bend;
+    }
   }
 }
 
 double VelocityBend::off_linear(double u0, double u1) const {
   double largest = 0;
-  for (std::size_t k = 0; k < n_cells; ++k)
-    if (view(u_)[k] < u1 && view(u_)[k + 1] > u0)
-      largest = std::max({largest, at(std::max(u0, view(u_)[k]), k), at(std::min(u1, view(u_)[k + 1]), k)});
+  for (const Cell &cell : cells_)
+    if (cell.u0 < u1 && cell.u1 > u0)
+      largest = std::max({largest, cell.at(std::max(u0, cell.u0)), cell.at(std::min(u1, cell.u1))});
   return 0.125 * (u1 - u0) * (u1 - u0) * largest;
-}
-
-double VelocityBend::at(double u, std::size_t cell) const {
-  const double from = view(u_)[cell], to = view(u_)[cell + 1];
-  const double share = (u - from) / (to - from);
-  return (1 - share) * view(bend_)[cell] + share * view(bend_)[cell + 1];
 }
 
 Flattened flatten(const Curve &curve, double max_error, const VelocityBend *bend, double max_bend) {
@@ -378,9 +388,9 @@ Polyline polyline_of(Flattened flattened, const Curve &curve) {
 
 Polyline make_polyline(const Curve &curve, double max_error) { return polyline_of(flatten(curve, max_error), curve); }
 
-Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend) {
+Polyline make_polyline(const Curve &curve, double max_error, const Vector<Bezier> &velocity, double max_bend) {
   if (!(curve.length() > 0)) return make_polyline(curve, max_error);
-  const VelocityBend bend(curve.spans().front(), curve.length(), velocity);
+  const VelocityBend bend(curve, velocity);
   return polyline_of(flatten(curve, max_error, &bend, max_bend), curve);
 }
 

@@ -84,19 +84,25 @@ bool are_equal(const Curve &a, const Curve &b);
 // its share of the length while the curve moves.
 class VelocityBend {
  public:
-  // The control points of `velocity` are the velocities of the control points of `curve`.
-  VelocityBend(const Bezier &curve, double curve_length, const Bezier &velocity);
+  // The control points of `velocity` are the velocities of the control points of the curve's spans.
+  VelocityBend(const Curve &curve, const Vector<Bezier> &velocity);
 
   // Estimates the largest distance of the velocity from its linear interpolation between shares u0 and u1.
   double off_linear(double u0, double u1) const;
 
  private:
-  // Returns the bend at share u. The caller passes the cell that contains u.
-  double at(double u, std::size_t cell) const;
+  // A part of a span. The bend, which is the velocity's second derivative by the share, counts as linear there.
+  struct Cell {
+    double u0, u1, bend0, bend1;
 
-  static constexpr std::size_t n_cells = 8;
-  std::array<double, n_cells + 1> u_;     // shares of the length at the ends of the cells
-  std::array<double, n_cells + 1> bend_;  // the velocity's second derivative by the share
+    double at(double u) const {
+      const double share = (u - u0) / (u1 - u0);
+      return (1 - share) * bend0 + share * bend1;
+    }
+  };
+  static constexpr std::size_t n_cells = 8;  // of each span
+
+  Vector<Cell> cells_;
 };
 
 // A polyline whose chords replace a curve.
@@ -167,8 +173,8 @@ Polyline make_polyline(const Vector<Vec3> &points);
 // tolerance.
 Polyline make_polyline(const Curve &curve, double max_error);
 // Makes the polyline of a curve that moves. It also keeps the estimated distance of the velocity from linear within max_bend on
-// each segment.
-Polyline make_polyline(const Curve &curve, double max_error, const Bezier &velocity, double max_bend);
+// each segment. `velocity` has the velocities of the spans' control points.
+Polyline make_polyline(const Curve &curve, double max_error, const Vector<Bezier> &velocity, double max_bend);
 
 // Returns the same polyline in the opposite direction.
 Polyline reversed(const Polyline &polyline);

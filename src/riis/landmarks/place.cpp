@@ -119,10 +119,15 @@ Vector<AttachmentPart> attachment_of(Valve valve) {
   return parts;
 }
 
+// A point of the attachment, and the unit tangent there.
+struct OnAttachment {
+  Vec3 point, tangent;
+};
+
 // Returns the point of the attachment that the map takes nearest to `wanted`. Only a named cusp counts. Returns nothing if the
 // cusp has no attachment, or if no distance is finite.
-std::optional<Vec3> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
-                               std::int32_t leaflet_id) {
+std::optional<OnAttachment> nearest_on(const Vector<AttachmentPart> &parts, const WarpMap &map, Vec3 wanted,
+                                       std::int32_t leaflet_id) {
   double least = std::numeric_limits<double>::infinity(), at = 0;
   const AttachmentPart *nearest = nullptr;
   for (const AttachmentPart &part : parts) {
@@ -142,40 +147,159 @@ std::optional<Vec3> nearest_on(const Vector<AttachmentPart> &parts, const WarpMa
     }
   }
   if (!nearest) return std::nullopt;
-  return place(nearest->image, nearest->curve.at(at));
+  const PatchImage &image = nearest->image, turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+  const Curve::PointAndTangent found = nearest->curve.with_tangent(at);
+  return OnAttachment{place(image, found.point), place(turn, found.tangent)};
 }
 
-// Finds the places of the landmarks along the attachment. The warp of all landmarks takes each place as near to its landmark as
-// any point of the attachment. `places` has the places of the other landmarks. `local` has the landmarks in the valve's frame.
+// Two landmarks are in one place if they are at most this share of the valve's radius apart.
+constexpr double one_place_share = 0.02;
+
+// Landmarks that are in places of their own, as a warp takes them.
+struct WarpPairs {
+  WarpPairs(const Landmarks &landmarks, const std::vector<Vec3> &local, double radius, bool with_attachment,
+            const std::vector<Vec3> &places) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (landmarks.list[i].role == RIIS_LANDMARK_ATTACHMENT && !with_attachment) continue;
+      const auto is_near = [&](Vec3 other) { return distance(other, places[i]) <= one_place_share * radius; };
+      if (std::any_of(sources.begin(), sources.end(), is_near)) continue;
+      sources.push_back(places[i]), targets.push_back(local[i]), landmark.push_back(i);
+    }
+  }
+
+  double distance_to_nearest(std::size_t i) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < sources.size(); ++k)
+      if (k != i) least = std::min(least, distance(sources[i], sources[k]));
+    return least;
+  }
+
+  Vector<Vec3> sources, targets;
+  Vector<std::size_t> landmark;  // the numbers of the landmarks
+};
+
+// Solves a x = b for a symmetric, positive definite matrix by Cholesky's method. Overwrites both. Returns false if a pivot is not
+// positive.
+bool solve_positive(Vector<double> &a, Vector<double> &b) {
+  const std::size_t n = b.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j; i < n; ++i) {
+      double sum = a[i * n + j];
+      for (std::size_t k = 0; k < j; ++k) sum -= a[i * n + k] * a[j * n + k];
+      if (i > j) {
+        a[i * n + j] = sum / a[j * n + j];
+      } else {
+        if (!(sum > 0)) return false;
+        a[j * n + j] = std::sqrt(sum);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
+    b[i] /= a[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
+    b[i] /= a[i * n + i];
+  }
+  return true;
+}
+
+// Slides the places along the attachment, so that the warp that meets all landmarks bends least (F. L. Bookstein 1997). Then
+// neighbours neither crowd nor thin out, and the warp does not fold between them.
+void slide_along_attachment(const Vector<AttachmentPart> &parts, const Landmarks &landmarks,
+                            const std::vector<Vec3> &local, double radius, std::vector<Vec3> &places) {
+  constexpr int most_slides = 8;
+  constexpr double most_of_gap = 0.3;  // a place moves at most so far towards its neighbour at once
+  for (int round = 0; round < most_slides; ++round) {
+    const WarpPairs pairs(landmarks, local, radius, true, places);
+    WarpLandmarks warp(pairs.sources, 0, "landmarks");
+    if (warp.is_planar()) return;
+    WarpMap map;
+    WarpQuality quality{};
+    warp.fit(pairs.targets, map, quality);
+    const Vector<double> bending = warp.bending_matrix();
+    struct Sliding {
+      std::size_t pair;
+      Vec3 tangent, mapped;  // of the attachment, and where the map takes it
+    };
+    Vector<Sliding> sliding;
+    for (std::size_t i = 0; i < pairs.sources.size(); ++i) {
+      const Landmark &landmark = landmarks.list[pairs.landmark[i]];
+      if (landmark.role != RIIS_LANDMARK_ATTACHMENT) continue;
+      const auto here = nearest_on(parts, {}, pairs.sources[i], landmark.leaflet_ids[0]);
+      if (here) sliding.push_back({i, here->tangent, map.at(pairs.sources[i]).along(here->tangent)});
+    }
+    // A place that moves changes the displacement of its landmark. The bending is least where no such change lowers it further.
+    const std::size_t n = sliding.size();
+    Vector<double> matrix(n * n), steps(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t at = sliding[i].pair;
+      steps[i] = map.size * dot(sliding[i].mapped, Vec3{map.weight_x[at], map.weight_y[at], map.weight_z[at]});
+      for (std::size_t k = 0; k < n; ++k)
+        matrix[i * n + k] =
+            bending[at * pairs.sources.size() + sliding[k].pair] * dot(sliding[i].mapped, sliding[k].mapped);
+    }
+    if (!solve_positive(matrix, steps)) return;
+    double moved = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t at = sliding[i].pair, landmark = pairs.landmark[at];
+      const double most = most_of_gap * pairs.distance_to_nearest(at);
+      const Vec3 wanted = pairs.sources[at] + std::clamp(steps[i], -most, most) * sliding[i].tangent;
+      const auto found = nearest_on(parts, {}, wanted, landmarks.list[landmark].leaflet_ids[0]);
+      if (!found) continue;
+      moved = std::max(moved, distance(found->point, places[landmark]));
+      places[landmark] = found->point;
+    }
+    if (moved <= 1e-6 * radius) return;
+  }
+}
+
+// Moves places apart that are one place although their landmarks are not, such as beside a commissure that is off the valve's.
+void separate_places(const Vector<AttachmentPart> &parts, const Landmarks &landmarks, const std::vector<Vec3> &local,
+                     double radius, std::vector<Vec3> &places) {
+  const double one_place = one_place_share * radius;
+  for (const std::size_t i : landmarks.with_role(RIIS_LANDMARK_ATTACHMENT))
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double apart = distance(local[i], local[k]);
+      if (k == i || distance(places[i], places[k]) > one_place || apart <= one_place) continue;
+      const std::int32_t leaflet_id = landmarks.list[i].leaflet_ids[0];
+      const auto here = nearest_on(parts, {}, places[k], leaflet_id);
+      if (!here) continue;
+      const double side = dot(local[i] - local[k], here->tangent) < 0 ? -1 : 1;
+      const auto moved =
+          nearest_on(parts, {}, places[k] + side * std::min(apart, 2 * one_place) * here->tangent, leaflet_id);
+      if (moved) places[i] = moved->point;
+    }
+}
+
+// Finds the places of the landmarks along the attachment. At first the smoothed warp of all landmarks takes each place as near to
+// its landmark as any point of the attachment. Then the places slide. `places` has the places of the other landmarks. `local` has
+// the landmarks in the valve's frame.
 void place_on_attachment(const Valve &valve, const Landmarks &landmarks, const std::vector<Vec3> &local, double radius,
                          std::vector<Vec3> &places) {
   const std::vector<std::size_t> along = landmarks.with_role(RIIS_LANDMARK_ATTACHMENT);
   if (along.empty()) return;
   const Vector<AttachmentPart> parts = attachment_of(valve);
-  const double one_place = 0.02 * radius;
   constexpr int most_rounds = 10;
   for (int round = 0; round < most_rounds; ++round) {
-    Vector<Vec3> sources, targets;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (landmarks.list[i].role == RIIS_LANDMARK_ATTACHMENT && round == 0) continue;
-      const auto is_near = [&](Vec3 other) { return distance(other, places[i]) <= one_place; };
-      if (std::any_of(sources.begin(), sources.end(), is_near)) continue;
-      sources.push_back(places[i]);
-      targets.push_back(local[i]);
-    }
+    const WarpPairs pairs(landmarks, local, radius, round > 0, places);
     WarpMap map;
     WarpQuality quality{};
-    WarpLandmarks(sources, landmarks.noise, "landmarks").fit(targets, map, quality);
+    WarpLandmarks(pairs.sources, landmarks.noise, "landmarks").fit(pairs.targets, map, quality);
     double moved = 0;
     for (const std::size_t i : along) {
-      const std::optional<Vec3> found = nearest_on(parts, map, local[i], landmarks.list[i].leaflet_ids[0]);
+      const auto found = nearest_on(parts, map, local[i], landmarks.list[i].leaflet_ids[0]);
       if (!found)
         fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, i), " has no nearest point on the valve's attachment");
-      moved = std::max(moved, distance(*found, places[i]));
-      places[i] = *found;
+      moved = std::max(moved, distance(found->point, places[i]));
+      places[i] = found->point;
     }
     if (moved <= 1e-6 * radius) break;
   }
+  separate_places(parts, landmarks, local, radius, places);
+  slide_along_attachment(parts, landmarks, local, radius, places);
+  const double one_place = one_place_share * radius;
   for (const std::size_t i : along)
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double apart = distance(places[i], places[k]);

@@ -20,17 +20,23 @@ double coefficient_at(const Resistance &resistance, double distance) {
   return resistance.factor * (1 + std::cos(pi * (distance / eps))) / (2 * eps);
 }
 
-// Returns the derivative of K with respect to the distance, from K alone: sin is the root of (1 + cos) (1 - cos). Two roots do
-// not overflow.
-double slope_at(const Resistance &resistance, double k) {
-  const double most = resistance.factor / resistance.half_thickness;
-  return -(pi / resistance.half_thickness) * (std::sqrt(k) * std::sqrt(std::max(0.0, most - k)));
+// Returns the derivative of K with respect to the distance at a distance d. The sine is taken from the nearer end of the band. So
+// the derivative has few roundings up to both ends, where K is flat.
+double slope_at(const Resistance &resistance, double distance) {
+  const double eps = resistance.half_thickness;
+  if (!(distance < eps)) return 0;
+  const double sine = std::sin(pi * (std::min(distance, eps - distance) / eps));
+  return -(resistance.factor / (2 * eps)) * (pi / eps) * sine;
 }
 
-// Returns K at entry i of a list. A cut rim ends the band: K is 0 at nodes whose closest point is on the rim.
+// A cut rim ends the band: nodes whose closest point is on the rim lie beyond it. Without a cut rim no node does.
+bool is_beyond_rim(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
+  return resistance.cuts_rim && view(list.fields.rim)[i];
+}
+
+// Returns K at entry i of a list.
 double coefficient_at(const Resistance &resistance, const ListedNodes &list, std::int64_t i) {
-  if (resistance.cuts_rim && view(list.fields.rim)[i]) return 0;
-  return coefficient_at(resistance, view(list.nodes.distance)[i]);
+  return is_beyond_rim(resistance, list, i) ? 0 : coefficient_at(resistance, view(list.nodes.distance)[i]);
 }
 
 // Calls visit(i, K) for each entry i of the range whose K is above 0, in ascending order.
@@ -172,7 +178,8 @@ void list_resistance(const Resistance *resistance, const WantedData &data, const
         for (std::int64_t at = 3 * i; at < 3 * i + 3; ++at)
           view(list.k_u_surface)[at] = k * view(list.fields.velocity)[at];
       if (data.n_directions == 0) continue;
-      const double slope = slope_at(*resistance, k);
+      const double slope =
+          is_beyond_rim(*resistance, list, i) ? 0 : slope_at(*resistance, view(list.nodes.distance)[i]);
       for (std::int64_t at = data.n_directions * i; at < data.n_directions * (i + 1); ++at)
         view(list.k_gradient)[at] = slope * view(list.fields.distance_gradient)[at];
     }

@@ -310,6 +310,19 @@ std::vector<SideLine> attached_sides(const TriangleSet &set) {
   });
 }
 
+std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt) {
+  std::vector<SideLine> lines;
+  for (const int wanted : {rim_v0, rim_v1, rim_u0, rim_u1})
+    for (SideLine &line : sides(set, [&](const VerticesOfPatch &patch, int rim) {
+           if (patch.leaflet_id == skirt) return 0;
+           const int attached = patch.attached == AttachedSide::v0 ? rim_v0 : rim_u1;
+           const int bounding = rim | (rim & held ? attached : 0) | (rim & free_v1 ? rim_v1 : 0);
+           return bounding & wanted;
+         }))
+      lines.push_back(std::move(line));
+  return lines;
+}
+
 Attachment attachment_of(const TriangleSet &set) {
   Attachment made;
   for (const SideLine &side : attached_sides(set))

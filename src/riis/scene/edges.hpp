@@ -43,6 +43,9 @@ std::vector<SideLine> free_edges(const TriangleSet &set);
 // The attachment consists of the sides that Patch::attached names (valve/patches.hpp). A side that two patches share does not
 // belong to it.
 std::vector<SideLine> attached_sides(const TriangleSet &set);
+// The boundary of the leaflets consists of free edges, attached sides, and all other sides that no other patch shares. The
+// leaflet `skirt` does not count.
+std::vector<SideLine> boundary_sides(const TriangleSet &set, std::int32_t skirt);
 
 // The edges of all attached sides. They are in the order of the patches. The edges of one side follow each other along the side.
 // Edges of length 0 are left out.

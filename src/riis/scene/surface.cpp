@@ -46,14 +46,6 @@ void collect_leaflets(const TriangleSet &set, std::vector<std::int32_t> &ids) {
 
 }  // namespace
 
-Vec3 SourceValve::axis() const {
-  if (disc.rim.empty()) return placement.rotation * Vec3{0, 0, 1};
-  Vec3 area{0, 0, 0};
-  for (std::size_t i = 0; i < disc.rim.size(); ++i)
-    area = area + cross(disc.rim[i] - disc.rim[0], disc.rim[(i + 1) % disc.rim.size()] - disc.rim[0]);
-  return placement.rotation * ((1 / length(area)) * area);
-}
-
 void Surface::make(TriangleSet triangles, double half_thickness, int n_threads) {
   triangles_ = std::move(triangles);
   half_thickness_ = half_thickness;

@@ -30,9 +30,6 @@ struct SourceValve {
   std::int32_t skirt;    // the leaflet_id of the skirt, or -1 if the valve has no skirt
   const ValveKind *kind;
   bool is_warped;
-
-  // Returns the unit vector along which the orifice is seen: the z axis, or the normal of a warped disc.
-  Vec3 axis() const;
 };
 
 class Surface {

@@ -14,12 +14,13 @@
 namespace riis {
 namespace {
 
-// Returns the largest speed per unit of opening at five points of each curve. Five points are enough to notice any motion,
+// Returns the largest speed per unit of opening at five points of each span. Five points are enough to notice any motion,
 // because a cubic that is 0 at all of them is 0 everywhere.
 double largest_rate(const PatchSet &set) {
   double largest = 0;
-  for (const Bezier &rate : set.rates)
-    for (int i = 0; i <= 4; ++i) largest = std::max(largest, length(evaluate(rate, 0.25 * i)));
+  for (const Vector<Bezier> &rates : set.rates)
+    for (const Bezier &rate : rates)
+      for (int i = 0; i <= 4; ++i) largest = std::max(largest, length(evaluate(rate, 0.25 * i)));
   return largest;
 }
 

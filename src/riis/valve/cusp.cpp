@@ -129,7 +129,7 @@ void check_reach(const HalfCusp &half, const CuspShape &shape, const char *state
 
 void add_cusps(PatchSet &set, const HalfCusp &half, const HalfCusp &rate, const Vector<CuspPlace> &places) {
   const auto add = [&](const Bezier &curve, const Bezier &its_rate) {
-    set.rates.push_back(its_rate);
+    set.rates.push_back({its_rate});
     return set.add(curve);
   };
   const auto add_one = [&](Bezier HalfCusp::*curve) { return add(half.*curve, rate.*curve); };

@@ -131,9 +131,11 @@ struct AttachedEnd {
   bool is_last;
 };
 // Two such ends of different leaflets that are neighbours but are not joined. Round the axis of the attachment, one side ends
-// and the next one begins.
+// and the next one begins. Some valves have skirts that are turned at such ends only after a warp. They have the turns, in
+// radians, by which their skirts would be turned at both ends before the warp.
 struct NeighbourEnds {
   AttachedEnd before, after;
+  std::optional<std::array<double, 2>> turns_at_rest = {};
 };
 
 // The names of two states in a message: a state, and the state that it is compared with.
@@ -147,9 +149,9 @@ struct PatchSet {
   Vector<Seam> seams = {};  // at most one for each image
   // Bounds the Hausdorff distance of the patches from the valve's shape. It is not 0 if curves approximate arcs of circles.
   double deviation = 0;
-  // The derivatives of control points with respect to the opening, or nothing if the valve does not blend control points. The
-  // list serves the first curves, which have one span each. The curves of a skirt come after these and have no entry.
-  Vector<Bezier> rates = {};
+  // The derivatives of the spans' control points with respect to the opening, or nothing if the valve does not blend control
+  // points. The list serves the first curves. The curves of a skirt come after these and have no entry.
+  Vector<Vector<Bezier>> rates = {};
   // Only warped patches have this list. Each curve has an entry, except the lines between the sides of a skirt. On these lines
   // equal shares stand for the same points without it.
   Vector<std::optional<MaterialPoints>> material = {};

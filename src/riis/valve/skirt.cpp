@@ -10,7 +10,6 @@
 
 #include "base/errors.hpp"
 #include "common/array_view.hpp"
-#include "valve/warp.hpp"
 
 namespace riis {
 namespace {
@@ -28,6 +27,10 @@ constexpr double least_sine_to_axis = 0.2;
 // A side leans as its tangent does, if the sine of its rise is at least this. A flatter side leans less, and a side perpendicular
 // to the axis does not lean.
 constexpr double least_rise = 0.5;
+// A skirt that is turned at rest keeps its place there, as long as the warp turns it by less than this. In between it goes over.
+constexpr double most_turn_as_at_rest = pi / 4;
+// A disc about the axis has this many corners when it is warped.
+constexpr int n_corners = 24;
 // The derivative of a direction that was turned is a difference over two such shares of the length.
 constexpr double direction_step = 1e-4;
 
@@ -55,18 +58,54 @@ Vector<Step> steps_of(const Curve &curve) {
   return steps;
 }
 
+PatchImage turn_of(const PatchImage &image) { return {image.mirror, image.rotation, {0, 0, 0}, 0, 0}; }
+
 Vector<Step> steps_of_attachment(const PatchSet &set, const Vector<HeldSide> &sides) {
   Vector<Step> steps;
   for (const HeldSide &held : sides) {
     const Vector<Step> of_side = steps_of(along(set, held.side));
     for (const PatchImage &image : set.patches[held.patch].images) {
-      const PatchImage turn{image.mirror, image.rotation, {0, 0, 0}, 0, 0};
+      const PatchImage turn = turn_of(image);
       // Triangles are turned over in a mirror image, and in a patch that a warp made of one. There the sides run the other way.
       const double sign = points_upstream(image) ? -1 : 1;
       for (const Step &step : of_side) steps.push_back({place(image, step.at), sign * place(turn, step.by)});
     }
   }
   return steps;
+}
+
+// Returns the axis of a patch as an image has it.
+AxisLine placed(const AxisLine &axis, const PatchImage &image) {
+  return {place(image, axis.centre), place(turn_of(image), axis.direction)};
+}
+
+bool are_equal(const AxisLine &a, const AxisLine &b) { return a.centre == b.centre && a.direction == b.direction; }
+
+// Returns the line that the map makes of an axis. The attachment's steps lie about the axis. A disc about the axis, at their mean
+// height and as wide as they are on average, becomes a warped disc. Its middle and its vector area give the line.
+AxisLine warped_axis(const AxisLine &axis, const Vector<Step> &steps, const BlendedWarp &warp) {
+  double whole = 0, height = 0, radius = 0;
+  for (const Step &step : steps) {
+    const double weight = length(step.by), along = dot(step.at - axis.centre, axis.direction);
+    whole += weight, height += weight * along;
+    radius += weight * distance(step.at, axis.centre + along * axis.direction);
+  }
+  if (!(whole > 0 && radius > 0)) return axis;
+  const Vec3 middle = axis.centre + (height / whole) * axis.direction, &a = axis.direction;
+  const Vec3 aside = std::abs(a.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, across = cross(a, aside);
+  const Vec3 v = (1 / length(across)) * across, u = cross(v, a);
+  Vector<Vec3> corners;
+  Vec3 sum{0, 0, 0}, area{0, 0, 0};
+  for (int i = 0; i < n_corners; ++i) {
+    const double angle = 2 * pi * i / n_corners;
+    corners.push_back(warp.value(middle + (radius / whole) * (std::cos(angle) * u + std::sin(angle) * v)));
+    sum = sum + corners.back();
+  }
+  const Vec3 centre = (1.0 / n_corners) * sum;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    area = area + cross(corners[i] - centre, corners[(i + 1) % corners.size()] - centre);
+  const double size = length(area);
+  return {centre, size > 0 ? (1 / size) * area : Vec3{0, 0, 0}};
 }
 
 // Returns the line through the centroid of the attachment. The line of a vertical axis is vertical, and each other line leads
@@ -227,7 +266,30 @@ struct PlacedEnd {
   Vec3 point;
   std::int32_t leaflet_id;
   bool is_before;
+  AxisLine axis;
+  Vec3 tangent;
 };
+
+// Returns the line between two axes.
+AxisLine between(const AxisLine &a, const AxisLine &b) {
+  if (are_equal(a, b)) return a;
+  const Vec3 direction = a.direction + b.direction;
+  return {0.5 * (a.centre + b.centre), (1 / length(direction)) * direction};
+}
+
+// Returns the angle about the axis from one vector to another, in radians.
+double angle_about(const AxisLine &axis, Vec3 from, Vec3 to) {
+  return std::atan2(dot(cross(from, to), axis.direction), dot(from, to));
+}
+
+// Returns the angles by which the skirts at two neighbouring ends turn from the outward directions of their own axes, if both
+// lead along direction_between.
+std::array<double, 2> turns_between(const AxisLine &axis_before, const SideEnd &before, const AxisLine &axis_after,
+                                    const SideEnd &after) {
+  const Vec3 direction = direction_between(between(axis_before, axis_after), before, after);
+  return {angle_about(axis_before, outwards(axis_before, before.point), direction),
+          angle_about(axis_after, outwards(axis_after, after.point), direction)};
+}
 
 Vector<PlacedEnd> placed_ends(const PatchSet &set, const Vector<HeldSide> &sides) {
   Vector<std::size_t> first_number;
@@ -236,14 +298,19 @@ Vector<PlacedEnd> placed_ends(const PatchSet &set, const Vector<HeldSide> &sides
   Vector<PlacedEnd> places;
   for (const HeldSide &held : sides) {
     const Curve &curve = set.curve_of(held.side);
-    const Vector<PatchImage> &images = set.patches[held.patch].images;
-    for (std::size_t i = 0; i < images.size(); ++i)
-      for (const bool is_last : {false, true})
+    const Patch &patch = set.patches[held.patch];
+    for (std::size_t i = 0; i < patch.images.size(); ++i)
+      for (const bool is_last : {false, true}) {
+        const PatchImage &image = patch.images[i];
+        const bool is_last_of_curve = is_last != held.side.reversed;
         // As seen along the axis, the side of a patch that points upstream runs the other way round.
         places.push_back({{first_number[held.patch] + i, is_last},
-                          place(images[i], is_last != held.side.reversed ? curve.last() : curve.first()),
-                          images[i].leaflet_id,
-                          is_last != points_upstream(images[i])});
+                          place(image, is_last_of_curve ? curve.last() : curve.first()),
+                          image.leaflet_id,
+                          is_last != points_upstream(image),
+                          placed(patch.axis, image),
+                          place(turn_of(image), curve.with_tangent(is_last_of_curve ? 1 : 0).tangent)});
+      }
   }
   return places;
 }
@@ -256,7 +323,7 @@ Vec3 outwards(const AxisLine &axis, Vec3 point) {
   return size > 0 ? Vec3{q.x / size, q.y / size, q.z / size} : Vec3{0, 0, 0};
 }
 
-Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
+Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns) {
   const Vector<HeldSide> sides = held_sides(set);
   const Vector<PlacedEnd> places = placed_ends(set, sides);
   double size = 0;
@@ -279,8 +346,11 @@ Vector<NeighbourEnds> neighbour_ends(const PatchSet &set) {
   for (const PlacedEnd *at : free) {
     if (!at->is_before) continue;
     const PlacedEnd *other = nearest_to(*at);
-    if (other && nearest_to(*other) == at && distance(other->point, at->point) <= most_between_ends * size)
-      made.push_back({at->end, other->end});
+    if (!other || nearest_to(*other) != at || distance(other->point, at->point) > most_between_ends * size) continue;
+    made.push_back({at->end, other->end});
+    if (wants_turns)
+      made.back().turns_at_rest =
+          turns_between(at->axis, {at->point, at->tangent}, other->axis, {other->point, other->tangent});
   }
   return made;
 }
@@ -309,7 +379,7 @@ Vec3 direction_between(const AxisLine &axis, const SideEnd &before, const SideEn
 SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &sides) {
   for (const HeldSide &held : sides) {
     axes_.push_back(set.patches[held.patch].axis);
-    ends_.push_back({End{false, {}}, End{false, {}}});
+    ends_.push_back({End{false, {}, {}}, End{false, {}, {}}});
   }
   const auto side_of = [&](const AttachedEnd &end) {
     const auto found =
@@ -325,10 +395,20 @@ SkirtDirections::SkirtDirections(const PatchSet &set, const Vector<HeldSide> &si
       return SideEnd{is_last_of_curve ? curve.last() : curve.first(),
                      curve.with_tangent(is_last_of_curve ? 1 : 0).tangent};
     };
-    const Vec3 direction =
-        direction_between(axes_[before], end(before, ends.before.is_last), end(after, ends.after.is_last));
-    view(ends_[before])[ends.before.is_last ? 1 : 0] =
-        view(ends_[after])[ends.after.is_last ? 1 : 0] = {true, direction};
+    const SideEnd at_before = end(before, ends.before.is_last), at_after = end(after, ends.after.is_last);
+    End &turned_before = view(ends_[before])[ends.before.is_last ? 1 : 0],
+        &turned_after = view(ends_[after])[ends.after.is_last ? 1 : 0];
+    if (ends.turns_at_rest) {
+      // Without a warp, the skirt is not turned.
+      const std::array<double, 2> now = turns_between(axes_[before], at_before, axes_[after], at_after);
+      const auto added = [&](std::size_t i) {
+        const double rest = view(*ends.turns_at_rest)[i];
+        return view(now)[i] - rest * std::max(0.0, 1 - std::abs(view(now)[i] - rest) / most_turn_as_at_rest);
+      };
+      turned_before = {true, {}, added(0)}, turned_after = {true, {}, added(1)};
+    } else {
+      turned_before = turned_after = {true, direction_between(axes_[before], at_before, at_after), {}};
+    }
   }
 }
 
@@ -338,8 +418,13 @@ Vec3 SkirtDirections::at(std::size_t side, double share, Vec3 point) const {
     const End &turned = view(ends_[side])[end];
     if (!turned.is_turned) continue;
     const double s = end == 0 ? 1 - share : share, weight = s * s * (3 - 2 * s);
-    out = mix(out, turned.direction, weight);
-    out = (1 / length(out)) * out;
+    if (turned.angle) {
+      const double angle = weight * *turned.angle;
+      out = std::cos(angle) * out + std::sin(angle) * cross(axes_[side].direction, out);
+    } else {
+      out = mix(out, turned.direction, weight);
+      out = (1 / length(out)) * out;
+    }
   }
   return out;
 }
@@ -396,6 +481,39 @@ void aim_skirt(PatchSet &set, SkirtAxis axis) {
       if (other.mirror == Mirror::in_y) patch.axis.centre.y = patch.axis.direction.y = 0;
     }
   }
+}
+
+void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp) {
+  // Sides about one line keep one line, so that strips meet. Cusps with lines of their own get lines of their own.
+  struct Group {
+    AxisLine axis;
+    Vector<Step> steps;
+  };
+  Vector<Group> groups;
+  const auto group_of = [&](const AxisLine &axis) -> Group & {
+    for (Group &group : groups)
+      if (are_equal(group.axis, axis)) return group;
+    groups.push_back({axis, {}});
+    return groups.back();
+  };
+  for (const HeldSide &held : held_sides(at_rest)) {
+    const Patch &patch = at_rest.patches[held.patch];
+    const Vector<Step> of_side = steps_of(along(at_rest, held.side));
+    for (const PatchImage &image : patch.images) {
+      Group &group = group_of(placed(patch.axis, image));
+      for (const Step &step : of_side) group.steps.push_back({place(image, step.at), place(turn_of(image), step.by)});
+    }
+  }
+  Vector<AxisLine> lines;
+  for (const Group &group : groups) lines.push_back(warped_axis(group.axis, group.steps, warp));
+  std::size_t number = 0;
+  for (const Patch &patch : at_rest.patches)
+    for (const PatchImage &image : patch.images) {
+      AxisLine &axis = set.patches[number++].axis;
+      for (std::size_t i = 0; i < groups.size(); ++i)
+        if (patch.attached != AttachedSide::none && are_equal(groups[i].axis, placed(patch.axis, image)))
+          axis = lines[i];
+    }
 }
 
 std::int32_t skirt_leaflet(const PatchSet &set) {

@@ -6,9 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "base/recycled.hpp"
 #include "valve/patches.hpp"
+#include "valve/warp.hpp"
 
 namespace riis {
 
@@ -22,6 +24,9 @@ enum class SkirtAxis : std::uint8_t {
 
 // Gives every attached patch its axis.
 void aim_skirt(PatchSet &set, SkirtAxis axis);
+// Gives every attached patch of a warped valve the line that the map makes of its axis before the warp. `at_rest` has the patches
+// before the warp, with their axes. The identity keeps all axes, and a map without scale turns them as a placement does.
+void aim_warped_skirt(PatchSet &set, const PatchSet &at_rest, const BlendedWarp &warp);
 
 // A side at which a patch is attached. It is a side of no other patch.
 struct HeldSide {
@@ -37,8 +42,9 @@ using SkirtLengths = Vector<Vector<double>>;
 inline constexpr std::size_t n_skirt_parts = 32;  // parts of each side with such lengths
 
 // Returns the attached ends of different leaflets that are neighbours but not joined, such as two aortic cusps at a commissure.
-// Numbers the patches as they are after a warp, where each image is a patch of its own.
-Vector<NeighbourEnds> neighbour_ends(const PatchSet &set);
+// Numbers the patches as they are after a warp, where each image is a patch of its own. With `wants_turns`, the ends have their
+// turns before the warp. The patches must then have their axes.
+Vector<NeighbourEnds> neighbour_ends(const PatchSet &set, bool wants_turns);
 
 // An end of a side, with the unit tangent there. The sign of the tangent does not matter.
 struct SideEnd {
@@ -62,7 +68,8 @@ class SkirtDirections {
  private:
   struct End {
     bool is_turned;
-    Vec3 direction;
+    Vec3 direction;               // to which the skirt is turned
+    std::optional<double> angle;  // in place of the direction, the angle by which the skirt is turned about the axis
   };
   Vector<AxisLine> axes_;
   Vector<std::array<End, 2>> ends_;  // of each side: its first and its last end

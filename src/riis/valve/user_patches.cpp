@@ -116,7 +116,7 @@ PatchSet make_patches(const ValveState &closed, const ValveState &open, double o
   for (std::size_t i = 0; i < closed.patches.curves.size(); ++i) {
     const Bezier &from = closed.patches.curves[i].spans().front(), &to = open.patches.curves[i].spans().front();
     set.curves.push_back(blend(from, to, opening));
-    set.rates.push_back(rate(from, to));
+    set.rates.push_back({rate(from, to)});
   }
   return set;
 }

@@ -222,13 +222,17 @@ void Valve::set_warp(const WarpMap *closed, const WarpMap *open) {
   }
   // The copies are complete before they replace the old maps, because assignment member by member could fail half way. Their
   // memory comes from maps that were dropped before.
-  Warp made{*closed, {}};
+  Warp made{*closed, {}, warp_ ? warp_->known : nullptr};
   if (open) made.open = *open;
   warp_ = std::move(made);
 }
 
+BlendedWarp Valve::blended_warp() const {
+  return {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()};
+}
+
 Valve::Disc Valve::disc() const {
-  Disc disc{radius_ ? state_.values[*radius_][0] : 0, 0, 0};
+  Disc disc{kind_->is_rigid && radius_ ? state_.values[*radius_][0] : 0, 0, 0, {0, 0, 1}};
   double n_shifts = 0, z = 0;
   for (const std::size_t i : translations_) {
     const std::array<double, 3> &shift = state_.values[i];
@@ -237,13 +241,13 @@ Valve::Disc Valve::disc() const {
     disc.y += (shift[1] - disc.y) / n_shifts;
     z += (shift[2] - z) / n_shifts;
   }
-  if (!warp_ || disc.radius == 0) return disc;
-  const BlendedWarp warp(warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening());
-  constexpr int n_corners = 96;
-  constexpr double turn = 6.283185307179586 / n_corners;
-  const double reach = disc.radius * std::sqrt(turn / std::sin(turn));
-  for (int i = 0; i < n_corners; ++i)
-    disc.rim.push_back(warp.value({disc.x + reach * std::cos(i * turn), disc.y + reach * std::sin(i * turn), z}));
+  if (!warp_) return disc;
+  const BlendedWarp warp = blended_warp();
+  constexpr double step = 1e-3;
+  const Vec3 along_x = warp.value({disc.x + step, disc.y, z}) - warp.value({disc.x - step, disc.y, z});
+  const Vec3 along_y = warp.value({disc.x, disc.y + step, z}) - warp.value({disc.x, disc.y - step, z});
+  const Vec3 normal = cross(along_x, along_y);
+  if (length(normal) > 0) disc.axis = (1 / length(normal)) * normal;
   return disc;
 }
 
@@ -327,6 +331,7 @@ class Digest {
   }
   void add(const WarpMap &map) {
     add(static_cast<std::uint64_t>(map.source_x.size()));
+    for (const double x : {map.centre.x, map.centre.y, map.centre.z, map.size}) add(x);
     for (const Vector<double> *list : {&map.source_x, &map.source_y, &map.source_z})
       for (const double x : *list) add(x);
   }
@@ -362,16 +367,37 @@ PatchSet Valve::make_patches(FoldCheck check) const {
     if (open_) check_open_values();
   }
   PatchSet made = kind_->make_patches(state_, open_ ? *open_ : state_, opening());
-  // After a warp, the valve's own axis no longer fits. So a skirt then leads away from the axis of the attachment.
-  const SkirtAxis axis = warp_ && kind_->skirt_axis != SkirtAxis::none ? SkirtAxis::boundary : kind_->skirt_axis;
-  // Neighbours are found before the warp, so that a moving warp does not change them.
-  Vector<NeighbourEnds> neighbours;
-  if (axis == SkirtAxis::boundary) neighbours = neighbour_ends(made);
-  if (warp_) made = warped(made, {warp_->closed, warp_->open ? *warp_->open : warp_->closed, opening()}, check);
-  made.neighbour_ends = std::move(neighbours);
+  const SkirtAxis axis = kind_->skirt_axis;
   aim_skirt(made, axis);
+  // Neighbours are found before the warp, so that a moving warp does not change them.
+  if (axis == SkirtAxis::boundary) made.neighbour_ends = neighbour_ends(made, false);
+  if (warp_) {
+    const PatchSet at_rest = std::move(made);
+    const BlendedWarp warp = blended_warp();
+    made = warped(at_rest, warp, *landmark_cuts(at_rest), check);
+    made.neighbour_ends = axis == SkirtAxis::of_cusp ? neighbour_ends(at_rest, true) : at_rest.neighbour_ends;
+    if (axis == SkirtAxis::boundary) aim_skirt(made, axis);
+    if (axis == SkirtAxis::of_cusp || axis == SkirtAxis::vertical) aim_warped_skirt(made, at_rest, warp);
+  }
   if (has_skirt()) add_skirt(made, state_.values[kind_->skirt_length][0], skirt_lengths_);
   return made;
+}
+
+std::shared_ptr<const LandmarkCuts> Valve::landmark_cuts(const PatchSet &now) const {
+  const std::uint64_t digest = shape_digest();
+  std::shared_ptr<const KnownCuts> known = std::atomic_load(&warp_->known);
+  if (!known || known->shape_digest != digest) {
+    const auto add = [&](LandmarkCuts &cuts, double at, const WarpMap &map) {
+      if (at == opening()) return cuts.add(now, map);
+      cuts.add(kind_->make_patches(state_, open_ ? *open_ : state_, at), map);
+    };
+    KnownCuts made{digest, {}};
+    add(made.cuts, 0, warp_->closed);
+    if (warp_->open && can_open()) add(made.cuts, 1, *warp_->open);
+    known = std::make_shared<const KnownCuts>(std::move(made));
+    std::atomic_store(&warp_->known, known);
+  }
+  return {known, &known->cuts};
 }
 
 PatchSet Valve::make_patches_before(const Valve &before, const PatchSet *known) const {

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "base/recycled.hpp"
+#include "valve/landmark_cuts.hpp"
 #include "valve/patches.hpp"
 #include "valve/skirt.hpp"
 #include "valve/warp.hpp"
@@ -124,11 +126,10 @@ class Valve {
   bool can_open() const { return open_ || kind_->opens_by_itself; }
   double opening() const { return state_.values[kind_->opening][0]; }
 
-  // Returns the disc of the root or of the housing about the z axis, or a radius of 0 if the valve has no such parameter. Without
-  // a warp the disc does not depend on the opening.
+  // Returns the disc of a mechanical valve's housing about the z axis, or a radius of 0 for other valves.
   struct Disc {
-    double radius, x, y;    // the centre is the mean translation of the valve or of its leaflets
-    Vector<Vec3> rim = {};  // for a warped valve, the warped corners of a polygon with the disc's area
+    double radius, x, y;  // the centre is the mean translation of the valve or of its leaflets
+    Vec3 axis;            // the z axis; for a warped valve, the normal of the warped plane z = 0 at the centre
   };
   Disc disc() const;
 
@@ -168,12 +169,23 @@ class Valve {
   std::size_t position_of(std::string_view name) const;
   void derive();
   PatchSet make_patches(FoldCheck check) const;
+  BlendedWarp blended_warp() const;  // of a warped valve
+  // Returns where the warp's landmarks lie on the curves before the warp: landmarks of the closed map on the closed valve, and
+  // landmarks of the open map on the open valve. `now` has the patches at the current opening.
+  std::shared_ptr<const LandmarkCuts> landmark_cuts(const PatchSet &now) const;
   void check_open_values() const;
   static std::uint64_t next_revision();
 
+  // The cuts of a shape with its landmarks. They stay the same while the valve opens and the targets move, so they are kept.
+  struct KnownCuts {
+    std::uint64_t shape_digest;
+    LandmarkCuts cuts;
+  };
   struct Warp {
     WarpMap closed;
     std::optional<WarpMap> open;
+    mutable std::shared_ptr<const KnownCuts> known =
+        {};  // changes atomically, because several threads may read a valve
   };
 
   const ValveKind *kind_;

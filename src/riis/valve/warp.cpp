@@ -311,6 +311,27 @@ double WarpLandmarks::smoothing_for_noise() {
   return std::exp(0.5 * (low + high));
 }
 
+Vector<double> WarpLandmarks::bending_matrix() {
+  const std::size_t n = size();
+  Vector<double> made(n * n, 0.0);
+  pivot_.resize(n_free_);
+  // A solution has three components, so it serves three columns.
+  for (std::size_t first = 0; first < n; first += 3) {
+    const auto in_column = [&](std::size_t k, std::size_t j) { return j < n ? basis_[k * n + j] : 0; };
+    reduced_.clear();
+    for (std::size_t k = 0; k < n_free_; ++k)
+      reduced_.push_back({in_column(k, first), in_column(k, first + 1), in_column(k, first + 2)});
+    solve(0);
+    for (std::size_t k = 0; k < n_free_; ++k)
+      for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 part = basis_[k * n + i] * solution_[k];
+        const double parts[3] = {part.x, part.y, part.z};
+        for (std::size_t j = first; j < std::min(first + 3, n); ++j) made[i * n + j] += view(parts)[j - first];
+      }
+  }
+  return made;
+}
+
 void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &quality) {
   const std::size_t n = size();
   displacement_.resize(n), reduced_.assign(n_free_, Vec3{0, 0, 0}), solution_.resize(n_free_), pivot_.resize(n_free_);
@@ -344,7 +365,7 @@ void WarpLandmarks::fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &
   else
     solve(quality.smoothing);
 
-  map.centre = centre_, map.size = size_;
+  map.centre = centre_, map.size = size_, map.n_sources = n;
   for (Vector<double> *list :
        {&map.source_x, &map.source_y, &map.source_z, &map.weight_x, &map.weight_y, &map.weight_z})
     list->assign((n + 7) / 8 * 8, 0.0);

@@ -13,6 +13,8 @@
 
 namespace riis {
 
+class LandmarkCuts;
+
 // A map at a point: the value, and its derivatives along x, y and z.
 struct MapAt {
   Vec3 value, along_x, along_y, along_z;
@@ -35,6 +37,9 @@ class WarpMap {
   // The coordinates of sources and weights lie in arrays of their own, so that the processor handles eight at a time. Sources
   // with the weight 0 make their number a multiple of eight.
   Vector<double> source_x, source_y, source_z, weight_x, weight_y, weight_z;
+  std::size_t n_sources = 0;
+
+  Vec3 source(std::size_t i) const { return centre + size * Vec3{source_x[i], source_y[i], source_z[i]}; }
 
  private:
   CubeSources cubes() const;
@@ -81,6 +86,10 @@ class WarpLandmarks {
   // across the plane as the landmarks stretch the plane.
   bool is_planar() const { return is_planar_; }
 
+  // Returns the matrix, (n, n), by which displacements give the weights of a map that meets its targets. Displacements count in
+  // the unit of the map's `size`. Displacements times weights are the map's bending.
+  Vector<double> bending_matrix();
+
   // Writes the map to these targets, and its quality. The same targets give the same bits. Accepts a map of any quality.
   void fit(const Vector<Vec3> &targets, WarpMap &map, WarpQuality &quality);
 
@@ -121,12 +130,13 @@ class WarpLandmarks {
 // their curves. Patches that are their own images already keep the numbers of their curves.
 PatchSet without_images(const PatchSet &set);
 
-// Returns the same patches with warped curves. A warped curve has the warped ends and the directions of the warped end tangents.
-// The lengths of these tangents make it the nearest to the warped points of the curve, by least squares. Arcs are bent anew
-// between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp folds at a patch or turns a part of
-// it over. The message names the place and the value.
+// Returns the same patches with warped curves. Curves are cut at landmarks first. Each warped part has the warped ends and the
+// directions of the warped end tangents. The lengths of these tangents make it the nearest to the warped points of the part, by
+// least squares. Arcs are bent anew between warped curves. Unless `check` is no, fails with RIIS_INVALID_PARAMETER if the warp
+// folds at a patch or turns a part of it over. The message names the place and the value.
 enum class FoldCheck { no, yes };
-PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check = FoldCheck::yes);
+PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts,
+                FoldCheck check = FoldCheck::yes);
 
 // Writes the points of the warped curve and the shares of its length, where `points` says which points they are.
 void locate_on_curve(const Curve &curve, MaterialPoints &points);

@@ -11,11 +11,12 @@
 #include "common/array_view.hpp"
 #include "geometry/coons.hpp"
 #include "geometry/curve.hpp"
+#include "valve/landmark_cuts.hpp"
+#include "valve/unfolding.hpp"
 
 namespace riis {
 namespace {
 
-constexpr std::size_t no_copy = static_cast<std::size_t>(-1);
 // The warped points of a curve are taken at this many even steps of its parameter.
 constexpr int n_curve_steps = 6;
 // A tangent's length may change by this factor at most, in addition to the warp's own stretch there.
@@ -28,39 +29,11 @@ constexpr std::size_t n_fold_cells = 3;
 // at most 0.6 mm^2 turned over without a wider cell. One cell of the default valve has the sine 0.041 at the opening 0.9.
 constexpr double sliver_sine = 0.07;
 
-bool is_in_place(const PatchImage &image) {
-  return image.mirror == Mirror::none && image.rotation.row_x == no_rotation.row_x &&
-         image.rotation.row_y == no_rotation.row_y && image.rotation.row_z == no_rotation.row_z &&
-         image.translation == Vec3{0, 0, 0};
-}
-
-template <class Move>
-Bezier moved_by(const Bezier &span, const Move &move) {
-  Bezier made = span;
-  for (int i = 0; i <= span.degree; ++i) view(made.control)[i] = move(view(span.control)[i]);
-  return made;
-}
-
-bool is_point(const Bezier &span) {
-  for (int i = 1; i <= span.degree; ++i)
-    if (!(view(span.control)[i] == span.control[0])) return false;
-  return true;
-}
-
 Bezier raised_to_cubic(const Bezier &span) {
   if (span.degree == 3) return span;
   const auto &q = span.control;
   return Bezier::cubic(q[0], (1.0 / 3) * (q[0] + 2 * q[1]), (1.0 / 3) * (2 * q[1] + q[2]), q[2]);
 }
-
-// A curve as one image has it: placed spans, and the rate of its first span if the set has rates.
-struct CurveCopy {
-  std::size_t curve;
-  const PatchImage *image;
-  std::size_t next;  // another copy of the same curve, or no_copy
-  Vector<Bezier> spans;
-  Bezier rate;
-};
 
 const Vector<double> &material_shares() {
   static const Vector<double> &shares = *new Vector<double>([] {
@@ -70,106 +43,6 @@ const Vector<double> &material_shares() {
   }());
   return shares;
 }
-
-// Collects the copies of curves that the images of a set need.
-class Unfolding {
- public:
-  explicit Unfolding(const PatchSet &set) : set_(set), first_(set.curves.size(), no_copy) {
-    keeps_numbers_ = std::all_of(set.patches.begin(), set.patches.end(), [](const Patch &patch) {
-      return patch.images.size() == 1 && is_in_place(patch.images.front());
-    });
-    if (keeps_numbers_)
-      for (std::size_t i = 0; i < set.curves.size(); ++i) first_[i] = add(i, nullptr);
-    Vector<std::size_t> first_image;
-    for (std::size_t i = 0; i < set.patches.size(); ++i) {
-      first_image.push_back(patches_.size());
-      for (std::size_t k = 0; k < set.patches[i].images.size(); ++k) patches_.push_back(unfolded(i, k));
-    }
-    for (const Seam &seam : set.seams)
-      sew(patches_[first_image[seam.patch] + seam.image], patches_[first_image[seam.patch] + seam.twin], seam.place);
-  }
-
-  Vector<CurveCopy> &copies() { return copies_; }
-  Vector<Patch> &patches() { return patches_; }
-
- private:
-  std::size_t add(std::size_t curve, const PatchImage *image) {
-    CurveCopy copy{curve, image, first_[curve], {}, {}};
-    for (const Bezier &span : set_.curves[curve].spans())
-      copy.spans.push_back(image ? moved_by(span, [&](Vec3 p) { return place(*image, p); }) : span);
-    if (curve < set_.rates.size()) {  // a skirt's curves have no rates
-      copy.rate = set_.rates[curve];
-      if (image) {
-        const PatchImage turn{image->mirror, image->rotation, {0, 0, 0}, 0, 0};
-        copy.rate = moved_by(copy.rate, [&](Vec3 p) { return place(turn, p); });
-      }
-    }
-    copies_.push_back(std::move(copy));
-    return first_[curve] = copies_.size() - 1;
-  }
-
-  bool has_copy_at(const CurveCopy &copy, const PatchImage &image) const {
-    std::size_t k = 0;
-    for (const Bezier &span : set_.curves[copy.curve].spans()) {
-      for (int i = 0; i <= span.degree; ++i)
-        if (!(place(image, view(span.control)[i]) == view(copy.spans[k].control)[i])) return false;
-      ++k;
-    }
-    return true;
-  }
-
-  std::size_t copy_of(std::size_t curve, const PatchImage &image) {
-    if (keeps_numbers_) return first_[curve];
-    for (std::size_t i = first_[curve]; i != no_copy; i = copies_[i].next)
-      if (copies_[i].image == &image || has_copy_at(copies_[i], image)) return i;
-    return add(curve, &image);
-  }
-
-  Vec3 &end_of(const Side &side, bool last) {
-    Vector<Bezier> &spans = copies_[side.curve].spans;
-    if (last == side.reversed) return spans.front().control[0];
-    Bezier &span = spans.back();
-    return view(span.control)[span.degree];
-  }
-
-  Patch unfolded(std::size_t number, std::size_t which) {
-    const Patch &patch = set_.patches[number];
-    const PatchImage &image = patch.images[which];
-    const auto side = [&](const Side &given) { return Side{copy_of(given.curve, image), given.reversed}; };
-    // Along a seam, the curve is the twin's curve.
-    const PatchImage *of_v1 = &image;
-    for (const Seam &seam : set_.seams)
-      if (seam.patch == number && seam.image == which && seam.place == SeamPlace::side_v1)
-        of_v1 = &patch.images[seam.twin];
-    const bool is_mirrored = image.mirror != Mirror::none;
-    Patch made{side(patch.v0),
-               {copy_of(patch.v1.curve, *of_v1), patch.v1.reversed},
-               side(patch.u0),
-               side(patch.u1),
-               {},
-               is_mirrored ? -patch.bulge : patch.bulge,
-               patch.attached};
-    made.images.push_back(
-        {Mirror::none, no_rotation, {0, 0, 0}, image.leaflet_id, image.patch_id, is_mirrored != image.is_turned_over});
-    return made;
-  }
-
-  // Gives a patch the points of its twin at the seam. The patch's own points differ from these by rounding only.
-  void sew(const Patch &patch, const Patch &twin, SeamPlace place) {
-    const Vec3 corner = end_of(twin.v1, true);
-    end_of(patch.v1, true) = corner;
-    end_of(patch.u1, true) = corner;
-    if (place != SeamPlace::side_u1) return;
-    end_of(patch.v0, true) = corner;
-    for (Bezier &span : copies_[patch.u1.curve].spans) span.control.fill(corner);
-  }
-
-  const PatchSet &set_;
-  bool keeps_numbers_ = false;
-  Vector<std::size_t> first_;
-  Vector<CurveCopy> copies_;
-  Vector<Patch> patches_;
-};
 
 struct EndTangent {
   Vec3 warped;    // the direction, as long as the warp makes it
@@ -200,7 +73,7 @@ using MappedSpan = std::array<Vec3, n_curve_steps + 1>;
 Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, const BlendedWarp &warp,
                    MappedSpan &mapped) {
   mapped.fill(first.value);
-  if (is_point(given)) return Bezier::point(first.value);
+  if (given.is_point()) return Bezier::point(first.value);
   mapped.back() = last.value;
   const Bezier cubic = raised_to_cubic(given);
   const EndTangent a = end_tangent(cubic.control, first), b = end_tangent(cubic.reversed().control, last);
@@ -227,7 +100,7 @@ Bezier warped_span(const Bezier &given, const MapAt &first, const MapAt &last, c
 // the ends, where it is known. Rates only decide where a curve needs further vertices.
 Bezier warped_rate(const Bezier &curve, const Bezier &rate, const MapAt &first, const MapAt &last,
                    const BlendedWarp &warp) {
-  if (is_point(rate) && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
+  if (rate.is_point() && rate.control[0] == Vec3{0, 0, 0} && !warp.changes_with_opening()) return rate;
   std::array<Vec3, 4> q{};
   for (int i = 0; i < 4; ++i) {
     const double t = i / 3.0;
@@ -270,15 +143,26 @@ class MapAtEnds {
 struct MaterialOfCurve {
   explicit MaterialOfCurve(const Curve &curve) {
     const CurvePoints points(curve, false, material_shares());
-    for (std::size_t k = 0; k < n_material; ++k) {
-      view(on_curve)[k] = {points.span(k), points.parameter(k)};
-      for (int i = 0; i <= n_curve_steps; ++i) {
-        double product = 1;
-        for (int j = 0; j <= n_curve_steps; ++j)
-          if (j != i) product *= (points.parameter(k) * n_curve_steps - j) / (i - j);
-        view(weights[k])[i] = product;
+    for (std::size_t k = 0; k < n_material; ++k) view(on_curve)[k] = {points.span(k), points.parameter(k)};
+    weigh();
+  }
+
+  // Returns the same points of the curve after it was cut at these places, which ascend.
+  MaterialOfCurve after_cuts(const Vector<PointOnSpan> &cuts) const {
+    MaterialOfCurve made = *this;
+    for (PointOnSpan &at : made.on_curve) {
+      double from = 0, to = 1;  // the part of the span on which the point lies
+      std::size_t n_before = 0;
+      for (const PointOnSpan &cut : cuts) {
+        if (cut.span < at.span || (cut.span == at.span && cut.t <= at.t)) ++n_before;
+        if (cut.span != at.span) continue;
+        if (cut.t <= at.t) from = cut.t;
+        if (cut.t > at.t) to = std::min(to, cut.t);
       }
+      at = {at.span + n_before, (at.t - from) / (to - from)};
     }
+    made.weigh();
+    return made;
   }
 
   MaterialPoints points_of(const Vector<MappedSpan> &spans) const {
@@ -295,6 +179,17 @@ struct MaterialOfCurve {
 
   std::array<PointOnSpan, n_material> on_curve;
   std::array<double, n_curve_steps + 1> weights[n_material];
+
+ private:
+  void weigh() {
+    for (std::size_t k = 0; k < n_material; ++k)
+      for (int i = 0; i <= n_curve_steps; ++i) {
+        double product = 1;
+        for (int j = 0; j <= n_curve_steps; ++j)
+          if (j != i) product *= (view(on_curve)[k].t * n_curve_steps - j) / (i - j);
+        view(weights[k])[i] = product;
+      }
+  }
 };
 
 // Estimates the length of a span between two near parameters by Gauss's rule of 3 points. Both states take the same rule, so a
@@ -477,7 +372,7 @@ PatchSet made_of(Unfolding &unfolding, const PatchSet &set) {
   made.deviation = set.deviation;
   for (CurveCopy &copy : unfolding.copies()) {
     made.curves.emplace_back(std::move(copy.spans));
-    if (!set.rates.empty()) made.rates.push_back(copy.rate);
+    if (!set.rates.empty()) made.rates.push_back(std::move(copy.rates));
   }
   return made;
 }
@@ -504,25 +399,30 @@ PatchSet without_images(const PatchSet &set) {
   return made_of(unfolding, set);
 }
 
-PatchSet warped(const PatchSet &set, const BlendedWarp &warp, FoldCheck check) {
+PatchSet warped(const PatchSet &set, const BlendedWarp &warp, const LandmarkCuts &cuts, FoldCheck check) {
   Unfolding unfolding(set);
+  const Vector<Vector<PointOnSpan>> cuts_of_copies = cuts_by_copy(unfolding, cuts);
   MapAtEnds at_ends(warp);
   Vector<std::optional<MaterialPoints>> material;
   Vector<std::optional<MaterialOfCurve>> of_curves(set.curves.size());
   Vector<MappedSpan> mapped;
-  for (CurveCopy &copy : unfolding.copies()) {
+  for (std::size_t i = 0; i < unfolding.copies().size(); ++i) {
+    CurveCopy &copy = unfolding.copies()[i];
+    const Vector<PointOnSpan> &cuts_here = cuts_of_copies[i];
+    if (!cuts_here.empty()) copy.spans = cut_at(copy.spans, cuts_here), copy.rates = cut_at(copy.rates, cuts_here);
     MapAt first = at_ends(copy.spans.front().first());
     mapped.clear();
-    for (Bezier &span : copy.spans) {
+    for (std::size_t k = 0; k < copy.spans.size(); ++k) {
+      Bezier &span = copy.spans[k];
       const MapAt last = at_ends(span.last());
-      if (!set.rates.empty()) copy.rate = warped_rate(span, copy.rate, first, last, warp);
+      if (!copy.rates.empty()) copy.rates[k] = warped_rate(span, copy.rates[k], first, last, warp);
       mapped.emplace_back();
       span = warped_span(span, first, last, warp, mapped.back());
       first = last;
     }
     std::optional<MaterialOfCurve> &of_curve = of_curves[copy.curve];
     if (!of_curve) of_curve.emplace(set.curves[copy.curve]);
-    material.push_back(of_curve->points_of(mapped));
+    material.push_back((cuts_here.empty() ? *of_curve : of_curve->after_cuts(cuts_here)).points_of(mapped));
   }
   PatchSet made = made_of(unfolding, set);
   bend_arcs(made);

@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measures/leaflet_outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "common/array_view.hpp"
+#include "landmarks/fit.hpp"
+#include "scene/edges.hpp"
+#include "scene/pseudonormals.hpp"
+
+namespace riis {
+
+AlongAxis::AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways) : axis_(axis), origin_(origin) {
+  Vec3 across = cross(axis, sideways);
+  if (!(length(across) > 0.1 * length(sideways))) {
+    const double x = std::abs(axis.x), y = std::abs(axis.y), z = std::abs(axis.z);
+    across = cross(axis, x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1});
+  }
+  y_axis_ = (1 / length(across)) * across;
+  x_axis_ = cross(y_axis_, axis);
+}
+
+namespace {
+
+// ---- Boundary ----
+
+// Returns, for each triangle, the lowest triangle of its piece: a part of a leaflet that is connected by common vertices.
+std::vector<std::int64_t> pieces_of(const TriangleSet &set) {
+  std::int64_t n_positions = 0;
+  const auto position = distinct_positions(set, n_positions);
+  std::vector<std::int64_t> above(static_cast<std::size_t>(set.n_triangles()));
+  std::iota(above.begin(), above.end(), 0);
+  const auto root = [&](std::int64_t i) {
+    while (view(above)[i] != i) i = view(above)[i] = view(above)[view(above)[i]];
+    return i;
+  };
+  std::unordered_map<std::int64_t, std::int64_t> first_at;  // by the leaflet and the position of a corner
+  first_at.reserve(static_cast<std::size_t>(n_positions));
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i)
+    for (std::int64_t k = 0; k < 3; ++k) {
+      const std::int64_t corner = view(position)[view(set.vertex_id)[3 * i + k]];
+      const auto other = first_at.try_emplace(view(set.leaflet_id)[i] * n_positions + corner, i).first;
+      const std::int64_t a = root(other->second), b = root(i);
+      view(above)[std::max(a, b)] = std::min(a, b);
+    }
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) view(above)[i] = root(i);
+  return above;
+}
+
+// Adds the centroids of the pieces and the normal. `piece` has the piece of each triangle, or -1 for a triangle that does not
+// count.
+void measure_pieces(const TriangleSet &set, const std::vector<std::int64_t> &piece, std::int64_t n_pieces,
+                    LeafletBoundary &boundary) {
+  std::vector<double> area(static_cast<std::size_t>(n_pieces), 0);
+  boundary.centroids.assign(area.size(), {0, 0, 0});
+  boundary.normal = {0, 0, 0};
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
+    const std::int64_t at = view(piece)[i];
+    if (at < 0) continue;
+    const auto [a, b, c] = set.corners(i);
+    const Vec3 normal = 0.5 * cross(b - a, c - a);
+    const double size = length(normal);
+    boundary.normal = boundary.normal + normal;
+    view(area)[at] += size;
+    // A running mean keeps the rounding small if the surface is far from the origin.
+    if (size > 0)
+      view(boundary.centroids)[at] = mix(view(boundary.centroids)[at], (1.0 / 3) * (a + b + c), size / view(area)[at]);
+  }
+}
+
+// Returns the place of each value among the distinct values, in order, and their number.
+template <class Value>
+std::pair<std::vector<std::int64_t>, std::int64_t> numbered(const std::vector<Value> &values) {
+  std::map<Value, std::int64_t> number;
+  for (const Value value : values) number.emplace(value, 0);
+  std::int64_t n = 0;
+  for (auto &[value, place] : number) place = n++;
+  std::vector<std::int64_t> made;
+  made.reserve(values.size());
+  for (const Value value : values) made.push_back(number.at(value));
+  return {std::move(made), n};
+}
+
+}  // namespace
+
+LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt) {
+  LeafletBoundary boundary;
+  auto [piece, n_pieces] = set.is_of_patches() ? numbered(set.leaflet_id) : numbered(pieces_of(set));
+  std::map<std::int32_t, std::int64_t> piece_of_leaflet;
+  for (std::int64_t i = 0; i < set.n_triangles(); ++i) {
+    if (view(set.leaflet_id)[i] == skirt && skirt >= 0) view(piece)[i] = -1;
+    piece_of_leaflet[view(set.leaflet_id)[i]] = view(piece)[i];
+  }
+  measure_pieces(set, piece, n_pieces, boundary);
+  if (set.is_of_patches()) {
+    for (const SideLine &side : boundary_sides(set, skirt)) {
+      const auto found = piece_of_leaflet.find(side.leaflet_id);
+      if (found == piece_of_leaflet.end()) continue;  // the leaflet has no area
+      for (std::size_t k = 1; k < side.vertex_id.size(); ++k)
+        boundary.edges.push_back({set.vertex(side.vertex_id[k - 1]), set.vertex(side.vertex_id[k]), found->second});
+    }
+    return boundary;
+  }
+  for (const OpenEdge &edge : open_edges(set, false))
+    boundary.edges.push_back({set.vertex(edge.from), set.vertex(edge.to), view(piece)[edge.triangle]});
+  return boundary;
+}
+
+namespace {
+
+// ---- Farthest edges ----
+
+// A part of an edge that is farther from the centre than all other edges in its directions. The ends are the shares `from` and
+// `to` of the edge. The part runs counter-clockwise.
+struct FarPart {
+  std::size_t edge;
+  double from, to;
+};
+
+double cross_of(const PlanePoint &a, const PlanePoint &b) { return a[0] * b[1] - a[1] * b[0]; }
+double dot_of(const PlanePoint &a, const PlanePoint &b) { return a[0] * b[0] + a[1] * b[1]; }
+PlanePoint difference(const PlanePoint &a, const PlanePoint &b) { return {a[0] - b[0], a[1] - b[1]}; }
+PlanePoint between(const PlanePoint &a, const PlanePoint &b, double share) {
+  return {(1 - share) * a[0] + share * b[0], (1 - share) * a[1] + share * b[1]};
+}
+
+// Finds the farthest edges in all directions from (0, 0), counter-clockwise.
+class FarthestEdges {
+ public:
+  explicit FarthestEdges(const std::vector<PlaneSegment> &edges) : edges_(edges) {
+    std::vector<Turn> turns;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const auto &[a, b] = edges[i];
+      const double turning = cross_of(a, b);
+      if (!(std::abs(turning) > 1e-14 * std::sqrt(dot_of(a, a) * dot_of(b, b)))) continue;  // seen from its end
+      const double at_a = std::atan2(a[1], a[0]), at_b = std::atan2(b[1], b[0]);
+      turns.push_back(turning > 0 ? Turn{i, at_a, at_b} : Turn{i, at_b, at_a});
+      for (const double angle : {at_a, at_b}) angles_.push_back(angle);
+    }
+    std::sort(angles_.begin(), angles_.end());
+    angles_.erase(std::unique(angles_.begin(), angles_.end()), angles_.end());
+    best_.assign(angles_.size(), {none, 0});
+    for (std::size_t at = 0; at < angles_.size(); ++at) middles_.push_back(ray_at(angles_[at] + 0.5 * width(at)));
+    for (const Turn &turn : turns) add(turn);
+  }
+
+  // Returns the parts, or nothing if no edge lies in directions over half a turn.
+  std::vector<FarPart> parts() const {
+    std::vector<FarPart> made;
+    double gap = 0, widest = 0;
+    for (std::size_t k = 0; k < 2 * best_.size(); ++k) {  // twice round, for a gap that goes on at the first direction
+      const std::size_t at = k % best_.size(), edge = best_[at].edge;
+      gap = edge == none ? gap + width(at) : 0;
+      widest = std::max(widest, gap);
+      if (k >= best_.size() || edge == none) continue;
+      const double from = share_at(edge, angles_[at]), to = share_at(edge, angles_[(at + 1) % angles_.size()]);
+      if (!made.empty() && made.back().edge == edge && best_[at - 1].edge == edge)
+        made.back().to = to;
+      else
+        made.push_back({edge, from, to});
+    }
+    if (!(widest < pi)) made.clear();
+    return made;
+  }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  struct Turn {
+    std::size_t edge;
+    double from, to;
+  };
+  struct Best {
+    std::size_t edge;
+    double distance;
+  };
+
+  static PlanePoint ray_at(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+  // Returns the angle between a direction and the next one.
+  double width(std::size_t at) const {
+    return at + 1 < angles_.size() ? angles_[at + 1] - angles_[at] : angles_[0] + 2 * pi - angles_[at];
+  }
+
+  // Returns the share of the edge at which the ray in a direction meets it.
+  double share_at(std::size_t edge, double angle) const {
+    const auto &[a, b] = edges_[edge];
+    if (std::atan2(a[1], a[0]) == angle) return 0;
+    if (std::atan2(b[1], b[0]) == angle) return 1;
+    return share_on(edge, ray_at(angle));
+  }
+  double share_on(std::size_t edge, const PlanePoint &ray) const {
+    const auto &[a, b] = edges_[edge];
+    const double of_a = cross_of(ray, a), of_b = cross_of(ray, b);
+    return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
+  }
+
+  // An edge turns by less than half a turn. So its distance from the centre is unique in each direction.
+  void add(const Turn &turn) {
+    const auto place = [&](double angle) {
+      return static_cast<std::size_t>(std::lower_bound(angles_.begin(), angles_.end(), angle) - angles_.begin());
+    };
+    const auto &[a, b] = edges_[turn.edge];
+    for (std::size_t at = place(turn.from), end = place(turn.to); at != end; at = (at + 1) % angles_.size()) {
+      const PlanePoint p = between(a, b, share_on(turn.edge, middles_[at]));
+      const double distance = dot_of(p, p);
+      if (best_[at].edge == none || distance > best_[at].distance) best_[at] = {turn.edge, distance};
+    }
+  }
+
+  const std::vector<PlaneSegment> &edges_;
+  std::vector<double> angles_;       // the directions of the ends of edges, ascending
+  std::vector<PlanePoint> middles_;  // rays between a direction and the next one
+  std::vector<Best> best_;           // the farthest edges on these rays
+};
+
+// The farthest edges of a boundary, seen along an axis.
+struct SeenParts {
+  AlongAxis seen;
+  std::vector<PlaneSegment> edges;
+  std::vector<FarPart> parts;
+};
+
+SeenParts parts_of(const LeafletBoundary &boundary, const AlongAxis &seen) {
+  SeenParts made{seen, {}, {}};
+  made.edges.reserve(boundary.edges.size());
+  for (const BoundaryEdge &edge : boundary.edges) made.edges.push_back({seen(edge.from), seen(edge.to)});
+  made.parts = FarthestEdges(made.edges).parts();
+  return made;
+}
+
+// Returns the two ends of a part in the plane.
+PlaneSegment ends_of(const SeenParts &from, const FarPart &part) {
+  const auto &[a, b] = from.edges[part.edge];
+  return {between(a, b, part.from), between(a, b, part.to)};
+}
+
+// Returns the centroid of a polygon around (0, 0).
+PlanePoint centroid_of(const std::vector<PlanePoint> &corners) {
+  double whole = 0;
+  PlanePoint sum{0, 0};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const PlanePoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    const double area = 0.5 * cross_of(a, b);
+    whole += area;
+    for (std::size_t k = 0; k < 2; ++k) sum[k] += area * (a[k] + b[k]) / 3;
+  }
+  return {sum[0] / whole, sum[1] / whole};
+}
+
+std::vector<PlanePoint> corners_of(const SeenParts &from) {
+  std::vector<PlanePoint> corners;
+  for (const FarPart &part : from.parts)
+    for (const PlanePoint &end : ends_of(from, part))
+      if (corners.empty() || corners.back() != end) corners.push_back(end);
+  return corners;
+}
+
+// Returns the vector area of the farthest edges in space, with the lines between them.
+Vec3 vector_area(const LeafletBoundary &boundary, const SeenParts &from) {
+  std::vector<Vec3> points;
+  for (const FarPart &part : from.parts) {
+    const BoundaryEdge &edge = view(boundary.edges)[static_cast<std::int64_t>(part.edge)];
+    for (const double share : {part.from, part.to}) points.push_back(mix(edge.from, edge.to, share));
+  }
+  Vec3 area{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    area = area + 0.5 * cross(points[i] - points[0], points[i + 1] - points[0]);
+  return area;
+}
+
+// Returns the area of a polygon around (0, 0), divided by the area of a circle with the same length.
+double roundness_of(const std::vector<PlanePoint> &corners) {
+  double area = 0, whole = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const PlanePoint &a = corners[i], &b = corners[(i + 1) % corners.size()], along = difference(b, a);
+    area += 0.5 * cross_of(a, b);
+    whole += std::sqrt(dot_of(along, along));
+  }
+  return whole > 0 ? 4 * pi * area / (whole * whole) : 0;
+}
+
+// A view along the vector area of the farthest edges, and how round their outline is: 1 for a circle.
+struct FoundView {
+  SeenParts parts;
+  double roundness;
+};
+
+// From a good first axis few turns suffice. More would do harm where a free edge reaches as far out as the attachment, because
+// the farthest edge may then change with each turn. Other first axes need many turns.
+constexpr int few_turns = 4, many_turns = 40;
+
+// Turns the axis to the vector area of the farthest edges, and moves the centre to the middle of their outline, at most n_turns
+// times. `about` is a first axis of length 1.
+std::optional<FoundView> view_from(const LeafletBoundary &boundary, Vec3 about, Vec3 sideways, Vec3 centre,
+                                   int n_turns) {
+  constexpr double least_roundness = 0.01, still = 1e-10;
+  for (int i = 0;; ++i) {
+    SeenParts seen = parts_of(boundary, AlongAxis(about, centre, sideways));
+    const std::vector<PlanePoint> corners = corners_of(seen);
+    const double roundness = roundness_of(corners);
+    const Vec3 area = vector_area(boundary, seen);
+    const double size = length(area);
+    if (!(roundness > least_roundness && size > 0)) return std::nullopt;
+    const Vec3 axis = (1 / size) * area;
+    const PlanePoint shift = centroid_of(corners);
+    const bool is_still = distance(axis, about) < still && dot_of(shift, shift) < still * still * size;
+    if (is_still || i == n_turns) return FoundView{std::move(seen), roundness};
+    about = axis, centre = seen.seen.in_space(shift);
+  }
+}
+
+// The centroid of the edges, and the directions in which they spread, the least spread first. Each has the length 1.
+struct BoundarySpread {
+  Vec3 centre;
+  std::vector<Vec3> directions;
+};
+
+BoundarySpread spread_of(const LeafletBoundary &boundary) {
+  double whole = 0;
+  Vec3 centre{0, 0, 0};
+  for (const auto &[a, b, piece] : boundary.edges) {
+    const double size = distance(a, b);
+    if (!(size > 0)) continue;
+    whole += size;
+    centre = mix(centre, mix(a, b, 0.5), size / whole);
+  }
+  std::vector<double> moments(9, 0);
+  for (const auto &[a, b, piece] : boundary.edges) {
+    const Vec3 from_centre = mix(a, b, 0.5) - centre;
+    const std::array<double, 3> x{from_centre.x / whole, from_centre.y / whole, from_centre.z / whole};
+    for (std::size_t i = 0; i < 9; ++i) moments[i] += distance(a, b) / whole * x[i / 3] * x[i % 3];
+  }
+  BoundarySpread made{centre, {}};
+  const Eigen found = symmetric_eigen(moments, 3);
+  for (std::size_t i = 0; i < 3; ++i)
+    made.directions.push_back({found.vectors[3 * i], found.vectors[3 * i + 1], found.vectors[3 * i + 2]});
+  return made;
+}
+
+// Returns the view of triangles from arrays. The direction in which the boundary spreads least is the first axis. Another
+// direction counts only if it leads to a rounder outline. Triangles may be turned over, so their normals give only the side.
+std::optional<FoundView> view_of_arrays(const LeafletBoundary &boundary, const BoundarySpread &spread) {
+  constexpr double favour = 1.15;
+  std::optional<FoundView> best;
+  for (const Vec3 direction : spread.directions) {
+    const Vec3 about = dot(direction, boundary.normal) < 0 ? -direction : direction;
+    const bool is_first = direction == spread.directions[0];
+    std::optional<FoundView> other =
+        view_from(boundary, about, {0, 0, 0}, spread.centre, is_first ? few_turns : many_turns);
+    if (other && is_first) other->roundness *= favour;
+    if (other && (!best || other->roundness > best->roundness)) best = std::move(other);
+  }
+  return best;
+}
+
+// Returns the factor by which the pieces grow about their centroids until the first two neighbours meet. Beyond 1.05 the pieces
+// stand apart on purpose, so the factor falls back to 1, which it reaches at 1.1. A part of the outline that is nearer to a ray
+// from the centre than to a right angle with it is the end of a piece, and not held.
+double growth_of(const LeafletBoundary &boundary, const SeenParts &from) {
+  struct Held {
+    std::int64_t piece;
+    PlaneSegment ends;
+  };
+  std::vector<Held> held;
+  for (const FarPart &part : from.parts) {
+    const PlaneSegment ends = ends_of(from, part);
+    const PlanePoint along = difference(ends[1], ends[0]), middle = between(ends[0], ends[1], 0.5);
+    if (cross_of(middle, along) > std::abs(dot_of(middle, along)))
+      held.push_back({view(boundary.edges)[static_cast<std::int64_t>(part.edge)].piece, ends});
+  }
+  constexpr double most = 0.05;
+  double least = 2 * most;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Held &one = held[i], &other = held[(i + 1) % held.size()];
+    if (one.piece == other.piece) continue;
+    const PlanePoint p = one.ends[1], q = other.ends[0], middle = between(p, q, 0.5);
+    const auto along = [&](const PlanePoint &a, const PlanePoint &b) { return cross_of(middle, difference(a, b)); };
+    const double gap = along(q, p);
+    const double reach = along(p, from.seen(view(boundary.centroids)[one.piece])) -
+                         along(q, from.seen(view(boundary.centroids)[other.piece]));
+    if (!(gap > 0)) return 1;
+    if (reach > 0) least = std::min(least, gap / reach);
+  }
+  return 1 + (least > most ? 2 * most - least : least);
+}
+
+}  // namespace
+
+std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
+                                               const std::optional<ValveDirections> &valve) {
+  if (boundary.edges.empty()) return std::nullopt;
+  const BoundarySpread spread = spread_of(boundary);
+  const std::optional<FoundView> found =
+      valve ? view_from(boundary, valve->axis, valve->sideways, spread.centre, few_turns)
+            : view_of_arrays(boundary, spread);
+  if (!found) return std::nullopt;
+  const SeenParts &parts = found->parts;
+  const double growth = growth_of(boundary, parts);
+  std::vector<PlanePoint> corners;
+  for (const FarPart &part : parts.parts) {
+    const BoundaryEdge &edge = view(boundary.edges)[static_cast<std::int64_t>(part.edge)];
+    const PlanePoint centroid = parts.seen(view(boundary.centroids)[edge.piece]);
+    for (const PlanePoint &end : ends_of(parts, part)) corners.push_back(between(centroid, end, growth));
+  }
+  corners.push_back(corners.front());
+  std::optional<Outline> outline = closed_outline({corners}, parts.seen.rounding());
+  if (!outline) return std::nullopt;
+  return SeenOutline{parts.seen, std::move(*outline)};
+}
+
+}  // namespace riis

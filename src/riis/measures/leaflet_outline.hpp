@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The outline of the leaflets, which bounds the orifice: the farthest edges round a centre, seen along an axis that follows from
+// them (docs/theory/measures.md, "Outline").
+// In: triangles, of a valve or from arrays. Out: a polygon in a plane, and the axis along which it is seen.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geometry/vec3.hpp"
+#include "measures/plane_cover.hpp"
+#include "triangulate/triangle_set.hpp"
+
+namespace riis {
+
+// Projects points along an axis of length 1.
+class AlongAxis {
+ public:
+  // The origin is projected to (0, 0). The first direction of the plane is the one nearest to `sideways`. If `sideways` is 0 or
+  // nearly along the axis, a coordinate axis takes its place.
+  AlongAxis(Vec3 axis, Vec3 origin, Vec3 sideways);
+
+  Vec3 axis() const { return axis_; }
+  // The rounding grows with the distance of the axis from the origin of coordinates.
+  double rounding() const { return 0x1p-48 * length(origin_); }
+
+  PlanePoint operator()(Vec3 p) const {
+    const Vec3 from_origin = p - origin_;
+    return {dot(x_axis_, from_origin), dot(y_axis_, from_origin)};
+  }
+  // Returns the point of the plane through the origin that is projected to p.
+  Vec3 in_space(const PlanePoint &p) const { return origin_ + p[0] * x_axis_ + p[1] * y_axis_; }
+
+ private:
+  Vec3 x_axis_{}, y_axis_{}, axis_, origin_;
+};
+
+// A straight part of the leaflets' boundary.
+struct BoundaryEdge {
+  Vec3 from, to;
+  std::int64_t piece;  // the connected part of a leaflet that it belongs to, from 0
+};
+
+// The boundary of the leaflets.
+struct LeafletBoundary {
+  std::vector<BoundaryEdge> edges;
+  std::vector<Vec3> centroids;  // of the pieces
+  Vec3 normal;                  // the sum of the triangles' areas times their normals
+};
+
+// Returns the sides of the patches that bound leaflets, without the leaflet `skirt`, or the open edges of triangles from arrays.
+LeafletBoundary boundary_of_leaflets(const TriangleSet &set, std::int32_t skirt);
+
+// An outline with the axis along which it is seen.
+struct SeenOutline {
+  AlongAxis seen;
+  Outline outline;
+};
+
+// The direction in which a valve looks before its outline is known.
+struct ValveDirections {
+  Vec3 axis, sideways;  // its z axis, warped and placed, and its x axis, placed
+};
+
+// Returns the outline, with the axis on the side of the valve's axis. Triangles from arrays have no valve. Their axis is on the
+// side of the boundary's normal. Returns nothing if the edges do not surround a centre, or enclose no area.
+std::optional<SeenOutline> outline_of_leaflets(const LeafletBoundary &boundary,
+                                               const std::optional<ValveDirections> &valve);
+
+}  // namespace riis

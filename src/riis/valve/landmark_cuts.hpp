@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cuts of a valve's curves at landmarks (docs/theory/warp.md, "Warped valves").
+// In: patches before a warp, the landmarks of a map. Out: where the curves are cut before they are warped.
+#pragma once
+
+#include <cstddef>
+
+#include "base/recycled.hpp"
+#include "geometry/curve.hpp"
+#include "valve/patches.hpp"
+#include "valve/unfolding.hpp"
+#include "valve/warp.hpp"
+
+namespace riis {
+
+// The places at which landmarks lie on the curves of a valve. A warped curve is cut there, so that it meets the map's landmarks.
+// The places are found at rest, so they move neither with the warp's targets nor with the opening.
+class LandmarkCuts {
+ public:
+  // Adds the landmarks of a map that lie on the curves of this state. All states must have the same build.
+  void add(const PatchSet &state, const WarpMap &map);
+
+  // Returns the places on a side of a patch, ascending along the side's curve. Patches are numbered as they are after a warp. The
+  // sides are v0, v1, u0 and u1.
+  const Vector<PointOnSpan> &on_side(std::size_t patch, std::size_t side) const { return on_sides_[4 * patch + side]; }
+
+ private:
+  Vector<Vector<PointOnSpan>> on_sides_;
+};
+
+// Returns the cuts of each copy. Two patches may share a curve in one state only, so each side has cuts of its own, and a copy
+// takes those of all its sides.
+Vector<Vector<PointOnSpan>> cuts_by_copy(Unfolding &unfolding, const LandmarkCuts &cuts);
+
+// Returns the spans, or their rates, with each cut span replaced by its parts.
+Vector<Bezier> cut_at(const Vector<Bezier> &spans, const Vector<PointOnSpan> &cuts);
+
+}  // namespace riis
