@@ -138,7 +138,7 @@ RIIS_API void riis_warp_destroy(riis_warp **warp);
 /* Takes the landmarks to these places. The same targets give the same bits, even after other targets.
  *   targets  as many points as the sources, in their order
  * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
- * landmark to the nearest other one, its determinant is not above 0. */
+ * landmark to the nearest other one, its determinant is not above 0. A warp with more noise folds less. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Takes the landmarks to their places at a time, from a table of keys in time.
  *   frames  n_vertices is the number of landmarks. The keys are read during the call only

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
- * Places mitral valves at annuli that are not the valve's own curves: from an ellipse to a D, a saddle, with an indent, by 8 to 24
- * points with noise, and with any of the other landmarks. The depth of the placed valve must be the annulus', or the landmarks
- * must be refused. Makes 20 annuli, and 200 with RIIS_TEST_LONG=1. */
+ * Places mitral valves at annuli that are not the valve's own curves: from an ellipse to a D, a saddle, with an indent. They have
+ * 8 to 24 points with noise, and any of the other landmarks. The depth of the placed valve must be the depth of the annulus, or
+ * the landmarks must be refused. Makes 20 annuli, and 200 with RIIS_TEST_LONG=1. */
 #include <riis/riis.h>
 
 #include <stdbool.h>
