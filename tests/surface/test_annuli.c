@@ -194,9 +194,8 @@ TEST(contradictions_are_refused) {
   REFUSED("AP_diameter of the fitted valve is |but the horns are |apart, seen along the annulus' normal|worst residual",
           (mark(&m, &s, RIIS_LANDMARK_POSTERIOR_HORN, 270, 0), m.xyz[17][1] += 9));
   /* One landmark is far from the annulus. */
-  REFUSED(
-      "the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20|at landmark 16 (ante",
-      m.xyz[16][2] += 25);
+  REFUSED("the axis of the fitted valve is at |degrees to the annulus' normal; it must be at most 20|worst residual",
+          m.xyz[16][2] += 25);
 #undef REFUSED
 }
 
