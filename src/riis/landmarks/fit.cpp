@@ -205,12 +205,12 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
   // Exact landmarks show less noise than was stated. Then the expected values count for less.
-  for (int i = 0; i < 4 && minimum.converged && model.n_equations() > n; ++i) {
+  for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));
     const double noise_before = problem.prior_noise;
     problem.prior_noise = std::min(landmarks.noise, seen);
-    if (!(problem.prior_noise < 0.5 * noise_before)) {
+    if (!(problem.prior_noise < 0.8 * noise_before)) {
       problem.prior_noise = noise_before;
       break;
     }
