@@ -642,7 +642,9 @@ module riis_c
     real(c_double) :: position_error        !< standard error of the position of the valve's origin, mesh units
     integer(c_int64_t) :: worst_landmark_id !< the landmark with the largest residual
     integer(c_int32_t) :: n_undetermined    !< the number of parameters with RIIS_SIZE_UNDETERMINED
-    integer(c_int32_t) :: reserved          !< 0
+    integer(c_int32_t) :: n_as_annulus      !< the number of trigones behind the anterior horn, where the valve has
+                                            !! none. They count as points of the annulus, and do not say how long
+                                            !! IT_distance is
   end type riis_placement
 
   !> c_null_ptr for arrays that are not wanted

@@ -25,7 +25,8 @@ enum {
                                        bileaflet: a point of the housing's circle at mid-height; 3 or more */
   RIIS_LANDMARK_ANTERIOR_HORN = 4,  /* mitral: the annulus at the middle of the anterior leaflet; exactly 1 */
   RIIS_LANDMARK_POSTERIOR_HORN = 5, /* mitral: the annulus at the middle of the posterior leaflet; at most 1 */
-  RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2 */
+  RIIS_LANDMARK_TRIGONE = 6,        /* mitral: the annulus at an end of IT_distance; at most 2. Trigones behind the
+                                       anterior horn count as points of the annulus (riis_placement.n_as_annulus) */
   RIIS_LANDMARK_POSTEROMEDIAL = 7,  /* mitral: the annulus at the posteromedial commissure; at most 1 */
   RIIS_LANDMARK_ANTEROLATERAL = 8,  /* mitral: the annulus at the anterolateral commissure; at most 1 */
   RIIS_LANDMARK_HINGE = 9,          /* bileaflet: an end of a leaflet's hinge line; 2 of one leaflet, or 4 */
@@ -76,7 +77,8 @@ typedef struct riis_placement {
   double position_error;     /* standard error of the position of the valve's origin, mesh units */
   int64_t worst_landmark_id; /* the landmark with the largest residual */
   int32_t n_undetermined;    /* the number of parameters with RIIS_SIZE_UNDETERMINED */
-  int32_t reserved;          /* 0 */
+  int32_t n_as_annulus;      /* the number of trigones behind the anterior horn, where the valve has none. They count as
+                                points of the annulus, and do not say how long IT_distance is */
 } riis_placement;
 /* The caller's arrays for the results of riis_place. NULL arrays, the default, are not written. */
 typedef struct riis_placement_arrays {
@@ -99,7 +101,10 @@ RIIS_API riis_status riis_placement_arrays_init(riis_placement_arrays *arrays, i
  * (docs/theory/landmarks.md). Rotations and leaflet angles of an aortic valve follow from the landmarks. If a
  * leaflet_power would make its cusps overlap, it is lowered.
  * Errors: RIIS_INVALID_ARGUMENT for landmarks that are missing, too many, in one place, collinear, mirrored, or too
- * large or small for a heart valve at this scale, or that do not show the flow; the message names them.
+ * large or small for a heart valve at this scale, and if they do not show the flow; the message names them. For a mitral
+ * valve also if a posterior horn or a trigone is on the wrong side of the annulus, if the axis of the fitted valve is at
+ * more than 20 degrees to the annulus' normal, or if its AP_diameter differs from the depth that the horns or the
+ * annulus show by more than a twelfth and by more than five times the noise.
  * RIIS_INVALID_PARAMETER for a valve from patches, an unknown name in held, and sizes that do not fit together. */
 RIIS_API riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const char *held,
                                 const riis_placement_arrays *arrays, riis_placement *placement,
@@ -134,8 +139,8 @@ RIIS_API riis_status riis_warp_create(const riis_points *sources, const riis_war
 RIIS_API void riis_warp_destroy(riis_warp **warp);
 /* Makes the warp take the landmarks to these places. The same targets give the same bits, whatever the earlier targets were.
  *   targets  as many points as the sources, in their order
- * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: its determinant is
- * not positive half way from some landmark to the nearest other landmark. */
+ * Errors: RIIS_INVALID_ARGUMENT naming the point; RIIS_INVALID_PARAMETER for a warp that folds: half way from some
+ * landmark to the nearest other one, its determinant is not above 0. A warp with more noise folds less. */
 RIIS_API riis_status riis_warp_set_targets(riis_warp *warp, const riis_points *targets);
 /* Makes the warp take the landmarks to their places at a time, from a table of keys in time.
  *   frames  n_vertices is the number of landmarks. The keys are read during the call only

@@ -457,7 +457,7 @@ TEST(test_structs) {
   FIELD(riis_placement, position_error, 96, 8);
   FIELD(riis_placement, worst_landmark_id, 104, 8);
   FIELD(riis_placement, n_undetermined, 112, 4);
-  FIELD(riis_placement, reserved, 116, 4);
+  FIELD(riis_placement, n_as_annulus, 116, 4);
 
   SIZE(riis_placement_arrays, 40);
   FIELD(riis_placement_arrays, struct_size, 0, 8);

@@ -537,6 +537,7 @@ TEST(folds_are_refused) {
   RUN_REFUSED(1, "points.json: the warp folds near \"", "place", json_of_points(8, labels, points), "--valve",
               "coapting", "--warp", "exact", "--quiet");
   assert_non_null(strstr(program_err, "its determinant is -"));
+  assert_non_null(strstr(program_err, "; --warp smoothed folds too: look for a landmark that is not at its place"));
   for (int i = 0; i < 2; ++i) {
     const double angle = (i ? 24 : 20) * acos(-1.0) / 180, radius = 10 * R - (i ? 6 : 0);
     points[6 + i][0] = 3 + 2, points[6 + i][1] = radius * sin(angle) + 1, points[6 + i][2] = -radius * cos(angle) - 3;

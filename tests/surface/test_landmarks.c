@@ -126,7 +126,6 @@ static riis_status try_to_place(riis_valve *valve, const patient *p, const char 
 static answer place(riis_valve *valve, const patient *p) {
   answer made;
   CHECK_OK(try_to_place(valve, p, "", &made));
-  assert_int_equal(made.placement.reserved, 0);
   return made;
 }
 

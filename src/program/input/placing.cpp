@@ -98,6 +98,39 @@ std::vector<double> distances_from(riis_valve *valve, riis_surface_options where
   return made;
 }
 
+// Warps the valve to the landmarks. Refuses a warp that folds at one of five openings.
+Warp unfolded_warp(const Placed &placed, riis_valve *valve, double noise, Reader reader) {
+  const LandmarkFile &landmarks = placed.landmarks;
+  const riis_points from = points_of(placed.places), to = points_of(landmarks.xyz);
+  auto how = defaults<riis_warp_options>();
+  how.placement = &placed.where;
+  how.noise = noise;
+  Warp warp;
+  check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
+  check_landmarks(riis_warp_set_targets(warp, &to), landmarks, reader);
+  check(riis_valve_set_warp(valve, warp, nullptr), option_name(reader, "warp"));
+  const auto trial = create<Valve>(riis_valve_copy, valve);
+  for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    check(riis_valve_set_scalar(trial, "opening", opening));
+    Surface surface;
+    check_landmarks(riis_surface_create(trial, &placed.where, surface.out()), landmarks, reader);
+  }
+  return warp;
+}
+
+// Returns what helps if a warp that meets the landmarks folds. A warp that is smoothed by the landmarks' noise is tried.
+std::string cure_of_folds(const Placed &placed, const riis_valve *valve, Reader reader) {
+  const std::string smoothed = option_text(reader, "warp", "smoothed"),
+                    look = "look for a landmark that is not at its place";
+  if (!(placed.noise > 0)) return "; the landmarks' noise is 0: with their noise stated, " + smoothed + " bends less";
+  try {
+    unfolded_warp(placed, create<Valve>(riis_valve_copy, valve), placed.noise, reader);
+  } catch (const Refusal &) {
+    return "; " + smoothed + " folds too: " + look;
+  }
+  return "; " + smoothed + " does not fold, and passes the landmarks within about their noise; otherwise " + look;
+}
+
 }  // namespace
 
 void adapt(LandmarkFile &landmarks, const PlaceRequest &request) {
@@ -167,24 +200,17 @@ Placed place_by_landmarks(const LandmarkFile &landmarks, riis_valve *valve, cons
 }
 
 Warp warp_to_landmarks(Placed &placed, riis_valve *valve, double noise, Reader reader) {
-  const LandmarkFile &landmarks = placed.landmarks;
-  const std::vector<double> &targets = landmarks.xyz;
-  const riis_points from = points_of(placed.places), to = points_of(targets);
-  auto how = defaults<riis_warp_options>();
-  how.placement = &placed.where;
-  how.noise = placed.warp_noise = noise;
-  Warp warp;
-  check_landmarks(riis_warp_create(&from, &how, warp.out()), landmarks, reader);
-  check_landmarks(riis_warp_set_targets(warp, &to), landmarks, reader);
-  check(riis_valve_set_warp(valve, warp, nullptr), option_name(reader, "warp"));
+  Warp warp = [&] {
+    try {
+      return unfolded_warp(placed, valve, noise, reader);
+    } catch (const Refusal &refusal) {
+      if (noise > 0 || refusal.status != RIIS_INVALID_PARAMETER) throw;
+      throw Refusal{refusal.exit_code, refusal.text + cure_of_folds(placed, valve, reader), refusal.status};
+    }
+  }();
   placed.is_warped = true;
-  const auto trial = create<Valve>(riis_valve_copy, valve);
-  for (const double opening : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    check(riis_valve_set_scalar(trial, "opening", opening));
-    Surface surface;
-    check_landmarks(riis_surface_create(trial, &placed.where, surface.out()), landmarks, reader);
-  }
-  placed.still_off = distances_from(trial, placed.where, targets);
+  placed.warp_noise = noise;
+  placed.still_off = distances_from(create<Valve>(riis_valve_copy, valve), placed.where, placed.landmarks.xyz);
   return warp;
 }
 
@@ -393,6 +419,11 @@ std::string place_report(const Placed &placed, Reader reader) {
   else if (placed.kind != "bileaflet" && at.worst > 3 * std::max(placed.noise, 1e-6 * at.scale))
     text += "The valve misses the landmarks. " + option_text(reader, "warp", "exact") + " takes it to them, " +
             option_text(reader, "warp", "smoothed") + " as near as their noise.\n";
+  if (at.n_as_annulus > 0)
+    text += std::string(at.n_as_annulus == 1 ? "The trigone lies" : "The trigones lie") +
+            " behind the anterior horn, where the valve has none: " +
+            (at.n_as_annulus == 1 ? "it counts as a point" : "they count as points") +
+            " of the annulus, and IT_distance is not theirs.\n";
   text += undetermined.empty() ? "\nThe landmarks determine every size that they bear on.\n"
                                : "\nThe landmarks do not determine " + joined_by(undetermined, ", ") + ".\n";
   return text;

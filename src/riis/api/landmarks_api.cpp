@@ -106,7 +106,7 @@ riis_status riis_place(riis_valve *valve, const riis_landmarks *landmarks, const
                                       static_cast<std::int64_t>(worst),
                                       static_cast<std::int32_t>(std::count(
                                           placed.size_state.begin(), placed.size_state.end(), RIIS_SIZE_UNDETERMINED)),
-                                      0});
+                                      placed.n_as_annulus});
     if (to.residual) std::copy(placed.residuals.begin(), placed.residuals.end(), to.residual);
     if (to.standard_error) std::copy(placed.standard_error.begin(), placed.standard_error.end(), to.standard_error);
     if (to.size_state) std::copy(placed.size_state.begin(), placed.size_state.end(), to.size_state);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <string>
 
 #include "base/errors.hpp"
 #include "geometry/curve.hpp"
@@ -66,8 +68,12 @@ Vec3 nearest_on(const std::array<Bezier, 3> &curve, Vec3 p) {
 class MitralModel : public LandmarkModel {
  public:
   enum Size { ap, alpm, position, it, indent, anterior, posterior, share };
-  MitralModel(const Landmarks &landmarks, Vec3 shift) : shift_(shift) {
-    for (const Landmark &landmark : landmarks.list) roles_.push_back(landmark.role);
+  // Trigones behind the anterior horn are only points of the annulus, because the valve has its trigones before the horn.
+  MitralModel(const Landmarks &landmarks, Vec3 shift, bool has_trigones_behind) : shift_(shift) {
+    for (const Landmark &landmark : landmarks.list) {
+      const bool is_only_of_annulus = has_trigones_behind && landmark.role == RIIS_LANDMARK_TRIGONE;
+      roles_.push_back(is_only_of_annulus ? RIIS_LANDMARK_ANNULUS : landmark.role);
+    }
   }
 
   std::size_t n_equations() const override {
@@ -169,6 +175,69 @@ Vec3 atrial_side(const Landmarks &landmarks, Vec3 normal, Vec3 forward) {
   return by_commissures;
 }
 
+// Refuses a fit whose horns do not show the side of the atrium.
+void check_side(const LandmarkModel &fitted, const Landmarks &landmarks) {
+  const FittedSize &anterior = fitted.sizes[MitralModel::anterior], &posterior = fitted.sizes[MitralModel::posterior];
+  const double height = 0.5 * (anterior.value + posterior.value),
+               error = 0.5 * (anterior.standard_error + posterior.standard_error);
+  constexpr double sure = 3;
+  if (height > sure * error) return;
+  fail(RIIS_INVALID_ARGUMENT,
+       "landmarks.flow is needed: without it only the horns of the annulus show the atrium's side, and they are ",
+       rounded(landmarks.scale * height, 3), " nearer to the atrium than the sides, with a standard error of ",
+       rounded(landmarks.scale * error, 3), "; this must be ", sure, " errors or more");
+}
+
+// The horns' distance that the landmarks show, seen along the annulus' normal.
+struct ShownDepth {
+  double depth;
+  bool has_posterior_horn;  // or the depth goes to the annulus point that is farthest from the anterior horn
+};
+
+// Returns words for a landmark that contradicts the others.
+std::string advice_for(const LandmarkFit &fit, const Landmarks &landmarks) {
+  const auto worst = std::max_element(fit.residuals.begin(), fit.residuals.end());
+  return std::string("the worst residual is ") + Message(rounded(landmarks.scale * *worst, 3)).text() + " at " +
+         words_for(landmarks, static_cast<std::size_t>(worst - fit.residuals.begin())) +
+         ": look for a landmark that is not at its place, or that has another's name";
+}
+
+// Refuses a fitted valve that stands obliquely in the annulus, or whose depth is not the annulus'.
+void check_against_annulus(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks, Vec3 normal,
+                           const ShownDepth &shown) {
+  const double degrees = std::acos(std::min(1.0, std::abs((transposed(fit.pose.rotation) * normal).z))) * 180 / pi;
+  constexpr double most_degrees = 20;
+  if (degrees > most_degrees)
+    fail(RIIS_INVALID_ARGUMENT, "the axis of the fitted valve is at ", rounded(degrees, 3),
+         " degrees to the annulus' normal; it must be at most ", most_degrees, "; ", advice_for(fit, landmarks));
+  const FittedSize &ap = fitted.sizes[MitralModel::ap];
+  // Noise alone moves the horns, and so their distance.
+  const double most_apart = std::max(shown.depth / 12, 5 * landmarks.noise);
+  if (ap.held || std::abs(ap.value - shown.depth) <= most_apart) return;
+  fail(RIIS_INVALID_ARGUMENT, "AP_diameter of the fitted valve is ", rounded(landmarks.scale * ap.value, 3),
+       shown.has_posterior_horn ? ", but the horns are " : ", but the annulus reaches ",
+       rounded(landmarks.scale * shown.depth, 3),
+       shown.has_posterior_horn ? " apart, seen along the annulus' normal"
+                                : " behind the anterior horn, seen along its normal",
+       "; the difference must be at most ", rounded(landmarks.scale * most_apart, 3), "; ", advice_for(fit, landmarks));
+}
+
+// Refuses a posterior horn or a trigone on the wrong side of the annulus. `y_of` returns a landmark's place from the posterior
+// point, at 0, to the anterior horn, at `depth`.
+template <class Place>
+void check_sides(const Landmarks &landmarks, std::size_t horn, double depth, const Place &y_of) {
+  const auto check = [&](std::int32_t role, bool is_anterior) {
+    for (const std::size_t i : landmarks.with_role(role))
+      if ((y_of(i) > 0.5 * depth) != is_anterior)
+        fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, i), " is ", rounded(landmarks.scale * (depth - y_of(i)), 3),
+             " behind ", words_for(landmarks, horn), ", and the annulus reaches ", rounded(landmarks.scale * depth, 3),
+             " behind it: it must be on the ", is_anterior ? "anterior" : "posterior",
+             " side, or the anterior horn is not at its place");
+  };
+  check(RIIS_LANDMARK_POSTERIOR_HORN, false);
+  check(RIIS_LANDMARK_TRIGONE, true);
+}
+
 }  // namespace
 
 KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks) {
@@ -194,7 +263,8 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
     fail(RIIS_INVALID_ARGUMENT, words_for(landmarks, horn), " is ", rounded(landmarks.scale * length(forward), 3),
          " from the annulus' middle, seen along its normal; it must be on the annulus");
   const Vec3 known = atrial_side(landmarks, normal, forward);
-  const Vec3 up = known == Vec3{0, 0, 0} ? normal : known;
+  const bool is_side_known = !(known == Vec3{0, 0, 0});
+  const Vec3 up = is_side_known ? known : normal;
   const Rotation rotation = rotation_to(cross(forward, up), up), back = transposed(rotation);
   Vec3 lower{0, 0, 0}, upper{0, 0, 0};
   double widest_y = 0, widest = 0;
@@ -213,9 +283,17 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   posterior_z = std::min_element(flat.begin(), flat.end(), [](const Vec3 &a, const Vec3 &b) { return a.y < b.y; })->z;
   const Vec3 horn_there = back * to_horn;
   const double depth = horn_there.y - lower.y, width = upper.x - lower.x;
+  const auto y_of = [&](std::size_t i) { return (back * (landmarks.at(i) - middle)).y - lower.y; };
+  check_sides(landmarks, horn, depth, y_of);
+  const auto posterior_horns = landmarks.with_role(RIIS_LANDMARK_POSTERIOR_HORN),
+             trigones = landmarks.with_role(RIIS_LANDMARK_TRIGONE);
+  const bool has_posterior_horn = !posterior_horns.empty();
+  const ShownDepth shown{has_posterior_horn ? depth - y_of(posterior_horns[0]) : depth, has_posterior_horn};
+  const auto to_trigones = [&](double sum, std::size_t i) { return sum + y_of(i) - depth; };
+  const bool are_behind = std::accumulate(trigones.begin(), trigones.end(), 0.0, to_trigones) < 0;
 
   const Vec3 by = vector_of(valve, "translation");
-  auto model = std::make_unique<MitralModel>(landmarks, by);
+  auto model = std::make_unique<MitralModel>(landmarks, by, are_behind);
   const double grown = depth / value_of(valve, "AP_diameter"), largest = 5 * depth;
   const auto add = [&](const char *name, double start, double least, double most, double spread_share) {
     const double expected = grown * value_of(valve, name);
@@ -236,13 +314,16 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
   model->sizes.push_back({"anterior_ratio", share, 1.5 * depth, 0.05, 0.95, share, 0.1});
   model->sizes.back().held = !has_commissures;
   model->radius = 0.5 * depth;
+  // The horns' heights above the sides and a turn of the valve about x move the annulus alike.
+  model->differences = {{MitralModel::anterior, MitralModel::posterior, 0.05 * depth}};
 
   const Vec3 origin_there{0.5 * (lower.x + upper.x), lower.y + 0.5 * depth, low_z};
   KindOfLandmarks made{std::move(model), {}, "AP_diameter", nullptr};
+  made.n_as_annulus = are_behind ? static_cast<std::int32_t>(trigones.size()) : 0;
   made.starts.push_back({rotation, middle + rotation * (origin_there - by)});
-  if (known == Vec3{0, 0, 0}) {
-    // The points of the annulus alone do not tell the atrium's side from the ventricle's side. But in a healthy annulus,
-    // the horns are nearer to the atrium than the sides are.
+  if (!is_side_known) {
+    // The points of the annulus alone do not tell the atrium's side from the ventricle's. But the horns of a healthy annulus are
+    // nearer to the atrium than its sides.
     const bool is_turned = horn_there.z + posterior_z < 2 * low_z;
     if (is_turned) {
       const Rotation other = rotation * rotation_about({0, 1, 0}, 180);
@@ -251,19 +332,11 @@ KindOfLandmarks mitral_landmarks(const Valve &valve, const Landmarks &landmarks)
       for (const std::size_t horn_size : {MitralModel::anterior, MitralModel::posterior})
         made.model->sizes[horn_size].value *= -1;
     }
-    made.check = [](const LandmarkModel &fitted, const Landmarks &given) {
-      const FittedSize &anterior = fitted.sizes[MitralModel::anterior],
-                       &posterior = fitted.sizes[MitralModel::posterior];
-      const double height = 0.5 * (anterior.value + posterior.value),
-                   error = 0.5 * (anterior.standard_error + posterior.standard_error);
-      constexpr double sure = 3;
-      if (height > sure * error) return;
-      fail(RIIS_INVALID_ARGUMENT,
-           "landmarks.flow is needed: without it only the horns of the annulus show the atrium's side, and they are ",
-           rounded(given.scale * height, 3), " nearer to the atrium than the sides, with a standard error of ",
-           rounded(given.scale * error, 3), "; this must be ", sure, " errors or more");
-    };
   }
+  made.check = [=](const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &given) {
+    if (!is_side_known) check_side(fitted, given);
+    check_against_annulus(fitted, fit, given, normal, shown);
+  };
   return made;
 }
 

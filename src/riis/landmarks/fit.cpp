@@ -36,12 +36,14 @@ class Problem {
     for (const auto &offset : offsets_) weights_.push_back(std::sqrt(1 / shares[offset.landmark]));
   }
 
-  std::vector<bool> with_prior;  // for each free size, whether the fit draws it to its expected value
-  double prior_noise;            // the noise of the landmarks, which is compared with the spread of expected values
+  std::vector<bool> with_prior;  // for each free size: whether it is drawn to its expected value
+  bool has_differences = false;  // whether the model's differences are drawn to their expected values
+  double prior_noise;            // the noise of the landmarks, with which the spread of expected values is compared
   const std::vector<std::size_t> &free_sizes() const { return free_; }
   std::size_t n_unknowns() const { return free_.size() + 6; }
   std::size_t n_residuals() const {
-    return 3 * offsets_.size() + static_cast<std::size_t>(std::count(with_prior.begin(), with_prior.end(), true));
+    return 3 * offsets_.size() + static_cast<std::size_t>(std::count(with_prior.begin(), with_prior.end(), true)) +
+           (has_differences ? model_.differences.size() : 0);
   }
 
   std::vector<double> start() const {
@@ -70,6 +72,11 @@ class Problem {
     std::size_t row = 3 * offsets_.size();
     for (std::size_t k = 0; k < free_.size(); ++k)
       if (with_prior[k]) r[row++] = prior_noise * (value_of(k, x) - size(k).expected) / size(k).spread;
+    if (!has_differences) return;
+    for (const auto &[first, second, spread] : model_.differences) {
+      const double expected = model_.sizes[first].expected - model_.sizes[second].expected;
+      r[row++] = prior_noise * (values_[first] - values_[second] - expected) / spread;
+    }
   }
 
   Minimum minimize(std::vector<double> &x) {
@@ -157,6 +164,7 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   for (const Pose &start : starts) {
     Problem problem(model, landmarks, start);
     problem.with_prior.assign(problem.with_prior.size(), true);
+    problem.has_differences = true;
     std::vector<double> x = problem.start();
     const double cost = problem.minimize(x).cost;
     if (!(cost < least)) continue;
@@ -171,13 +179,14 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
   // In the second fit, only sizes that the landmarks do not determine are drawn to their expected values.
   Problem problem(model, landmarks, best);
   const std::size_t n = problem.n_unknowns();
-  std::vector<double> x = problem.start(), r(problem.n_residuals());
+  std::vector<double> x = problem.start();
   const std::vector<double> alone = covariance(problem.normals(x), n);
   for (std::size_t k = 0; k < problem.free_sizes().size(); ++k) {
     FittedSize &size = model.sizes[problem.free_sizes()[k]];
     size.determined = landmarks.noise * std::sqrt(alone[k * n + k]) <= determined_share * model.radius;
     problem.with_prior[k] = !size.determined;
   }
+  problem.has_differences = true;
   const std::vector<double> start = x;
   Minimum minimum = problem.minimize(x);
   // The fit does not converge if the sum of squares hardly depends on some size. The landmarks do not determine such a
@@ -194,15 +203,15 @@ LandmarkFit fit(LandmarkModel &model, const Landmarks &landmarks, const std::vec
     x = start;
     minimum = problem.minimize(x);
   }
-  r.resize(problem.n_residuals());
+  std::vector<double> r(problem.n_residuals());
   problem.residuals(x, r);
   // Exact landmarks show less noise than was stated. Then the expected values count for less.
-  for (int i = 0; i < 4 && minimum.converged && model.n_equations() > n; ++i) {
+  for (int i = 0; i < 12 && minimum.converged && model.n_equations() > n; ++i) {
     std::vector<double> unused(n_landmarks), before = x;
     const double seen = std::sqrt(sum_of_squares(problem, unused) / static_cast<double>(model.n_equations() - n));
     const double noise_before = problem.prior_noise;
     problem.prior_noise = std::min(landmarks.noise, seen);
-    if (!(problem.prior_noise < 0.5 * noise_before)) {
+    if (!(problem.prior_noise < 0.8 * noise_before)) {
       problem.prior_noise = noise_before;
       break;
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -67,6 +68,12 @@ class LandmarkModel {
  public:
   virtual ~LandmarkModel() = default;
   std::vector<FittedSize> sizes;
+  // Two sizes whose difference is always drawn to its expected value, because landmarks hardly show it.
+  struct Difference {
+    std::size_t first, second;
+    double spread;
+  };
+  std::vector<Difference> differences;
   double radius = 0;  // radius of the valve, for steps and thresholds
 
   // An offset of a landmark from its place on the valve. Several offsets of one landmark share its weight.
@@ -118,8 +125,9 @@ struct KindOfLandmarks {
   // Sets parameters that are not lengths, and lengths that do not grow with the valve's size. The lengths and the model's sizes
   // have been set. `own` is the template valve. NULL: there is nothing to set.
   void (*finish)(const Valve &own, Valve &valve);
-  // Refuses a fit that leaves something undetermined. NULL: no fit is refused.
-  void (*check)(const LandmarkModel &fitted, const Landmarks &landmarks) = nullptr;
+  // Refuses a fit that leaves something undetermined or that contradicts the landmarks. Empty: no fit is refused.
+  std::function<void(const LandmarkModel &fitted, const LandmarkFit &fit, const Landmarks &landmarks)> check{};
+  std::int32_t n_as_annulus = 0;  // trigones that count as points of the annulus
 };
 
 // Checks the landmarks and prepares the fit, for the kinds with cusps: trileaflet and aortic.

@@ -77,6 +77,7 @@ struct PlacedValve {
   // One entry for each parameter of the kind.
   std::vector<std::int32_t> size_state;  // RIIS_SIZE_*
   std::vector<double> standard_error;    // infinite for RIIS_SIZE_TIED, 0 for RIIS_SIZE_KEPT
+  std::int32_t n_as_annulus = 0;         // trigones that count as points of the annulus
 };
 
 // `held` names sizes that keep the valve's values, with blanks or commas between the names.

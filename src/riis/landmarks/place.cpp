@@ -342,9 +342,10 @@ PlacedValve place_valve(const Valve &valve, const Landmarks &landmarks, std::str
       size.value = value_of(valve, size.name);
     }
   LandmarkFit fitted = fit(model, landmarks, of_kind.starts);
-  if (of_kind.check) of_kind.check(model, landmarks);
+  if (of_kind.check) of_kind.check(model, fitted, landmarks);
 
   PlacedValve placed{valve, landmarks.scale, {0, 0, 1}, 0, {0, 0, 0}, {}, {}, 0, fitted.rotation_error, 0, {}, {}};
+  placed.n_as_annulus = of_kind.n_as_annulus;
   // First all lengths grow with the valve. Then the fitted sizes take their values. Last come the parameters that depend on
   // several sizes.
   double size_now = value_of(valve, of_kind.size_name);

@@ -67,8 +67,8 @@ SurfaceSeconds make_surface(const Valve &valve, const EarlierValve *moved, const
     distance = make_distance(patches, {accuracy.measure, accuracy.distance_error}, placement, request.flip_normals);
   // Turns triangles into the scene that answers queries for closest points.
   surface.make(std::move(triangles), request.half_thickness, request.n_threads);
-  surface.is_of_valve({placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(),
-                       valve.is_warped()});
+  surface.is_of_valve(
+      {placement, valve.disc(), valve.kind().housing, valve.skirt_leaflet(), &valve.kind(), valve.is_warped()});
   surface.is_of_patches(std::move(patches));
   if (distance) {
     const double difference = largest_difference(accuracy.triangle_error, *distance);
