@@ -20,9 +20,12 @@ if(RIIS_SANITIZE)
   if(RIIS_SANITIZE MATCHES "address")
     target_compile_options(riis_compile INTERFACE -fno-sanitize=object-size)
   endif()
-  # Only tests are in C. Their own arithmetic is not checked, because oracles take most of the time of many tests. The address
-  # sanitizer checks them, so it also notices arrays of the library that are shorter than told.
   if(RIIS_SANITIZE MATCHES "undefined")
+    # An access through a null pointer ends the process without these checks too, and the tests' processors need no alignment.
+    # Without the checks the core compiles a sixth faster.
+    target_compile_options(riis_compile INTERFACE -fno-sanitize=null,alignment)
+    # Only tests are in C. Their own arithmetic is not checked, because oracles take most of the time of many tests. The address
+    # sanitizer checks them, so it also notices arrays of the library that are shorter than told.
     target_compile_options(riis_compile INTERFACE $<$<COMPILE_LANGUAGE:C>:-fno-sanitize=undefined>)
   endif()
   # gfortran takes the address of an absent optional array before it checks whether the array is present. When such an array is

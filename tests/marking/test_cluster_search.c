@@ -368,7 +368,7 @@ static void any_point(const riis_surface *surface, int i) {
 TEST(every_distance_of_random_valves) {
   static const char *const kinds[] = {"aortic", "trileaflet", "coapting", "mitral", "bileaflet"};
   enum { n_kinds = 5 };
-  const int64_t n_wanted = is_long_test() ? 10000000 : trials_of(80000);
+  const int64_t n_wanted = is_long_test() ? 10000000 : trials_of(fewer_if_sanitized(80000));
   int64_t n_compared = 0;
   for (int trial = 0; n_compared < n_wanted; ++trial) {
     const int owned_before = n_owned();

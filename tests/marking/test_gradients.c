@@ -6,6 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 #include "shapes.h"
 
 static random_source rng;
@@ -325,6 +326,7 @@ TEST(derivatives_are_central_differences) {
   const int n_trials = is_long_test() ? 20 : 1;
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
+      if (is_sanitized() && fixed != kind % 2) continue;
       tally t = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
       for (int trial = 0; trial < n_trials; ++trial) {
         const int owned_before = n_owned();

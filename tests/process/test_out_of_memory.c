@@ -181,9 +181,9 @@ static reference reference_of(const scenario *s) {
 /* Each of the first allocations of a call fails, and then some random ones. After allocation n, at most n / share are skipped. A
  * call that samples a surface makes more than a thousand allocations, and each trial is slow with a sanitizer. */
 #if defined(IS_SANITIZED)
-enum { n_first = 8, share = 1 };
+enum { n_first = 4, share = 1, n_of_workers = 1 };
 #else
-enum { n_first = 64, share = 16 };
+enum { n_first = 64, share = 16, n_of_workers = 3 };
 #endif
 
 /* Makes allocations 1, 2, ... fail until the call makes no more. Returns the last one that failed. */
@@ -225,7 +225,7 @@ TEST(memory_of_other_threads_runs_out) {
     if (!(s->flags & ON_WORKERS)) continue;
     const reference expected = reference_of(s);
     int64_t n_failed = 0, n_tries = 0;
-    for (; n_failed < 3 && n_tries < 2000; ++n_tries)
+    for (; n_failed < n_of_workers && n_tries < 2000; ++n_tries)
       n_failed += try_one(s, &expected, MEMORY_OF_WORKERS, 1 + n_tries % 3, 0, 1);
     printf("%s: %lld failures in %lld tries\n", s->name, (long long)n_failed, (long long)n_tries);
     /* The calling thread may end a short loop before the others come. A walk of the paper's search is also short. */

@@ -6,6 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 
 #include "cusp_checks.h"
 
@@ -330,7 +331,7 @@ static double largest_crease(const half *of) {
 /* Every vertex is at the oracle's place for its label, within the bound of the surface's error. */
 TEST(vertices_are_where_the_formulas_say) {
   random_source random = random_start("test_coapting");
-  for (int trial = 0; trial < 12; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(12); ++trial) {
     const int owned_before = n_owned();
     riis_surface_options options = surface_options();
     options.tolerance = 0.01;
@@ -662,7 +663,7 @@ TEST(path_is_smooth) {
   random_source random = random_start("test_coapting");
   riis_surface_options options = surface_options();
   options.triangulation = RIIS_TRIANGULATION_FIXED;
-  for (int trial = 0; trial < 3; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(3); ++trial) {
     const int owned_before = n_owned();
     riis_valve *valve = trial ? random_valve(&random) : new_valve("coapting");
     riis_surface *at[5];

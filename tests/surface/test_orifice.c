@@ -8,6 +8,7 @@
 
 #include "farthest_outline.h"
 #include "handles.h"
+#include "sanitized.h"
 
 #include "shapes.h"
 
@@ -215,7 +216,7 @@ TEST(orifices_are_those_of_turned_lines) {
       CHECK_OK(riis_valve_set_scalar(valve, "opening", openings[i]));
       const riis_orifice found = orifice_of(new_surface(valve, &fine), NULL);
       if (by_polygons[kind][i] >= 0) CHECK_NEAR(found.area, by_polygons[kind][i], 1e-3 * found.area + 5e-4);
-      if (i % 2 == 0 || kind == 0 || kind == 4) continue;
+      if (i % 2 == 0 || kind == 0 || kind == 4 || (is_sanitized() && i != 1 + 2 * (kind % 2))) continue;
       const riis_surface *surface = new_surface(valve, NULL);
       const riis_orifice coarse = orifice_of(surface, NULL);
       CHECK_NEAR(coarse.area, area_by_turned_lines(surface, coarse.radius, coarse.axis), 1e-3 * coarse.area);
@@ -225,7 +226,7 @@ TEST(orifices_are_those_of_turned_lines) {
 
 /* If the edge moves inwards, the area decreases by the distance times the perimeter. */
 TEST(perimeters_are_derivatives_of_areas) {
-  for (int trial = 0; trial < n_trials(); ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(n_trials()); ++trial) {
     const riis_surface *surface = new_surface(valve_at(trial % n_kinds, between(0.5, 1)), NULL);
     const riis_resistance how = resistance(0.1, RIIS_RIM_ROUND);
     const riis_orifice found = orifice_of(surface, &how);

@@ -8,6 +8,7 @@
 
 #include "handles.h"
 #include "moving_surfaces.h"
+#include "sanitized.h"
 #include "searches.h"
 
 #include "random_meshes.h"
@@ -772,7 +773,7 @@ TEST(wrong_skirts_are_refused) {
 TEST(skirts_to_cutting_walls_cross_nothing) {
   static const char *const kinds[] = {"coapting", "trileaflet", "aortic", "mitral"};
   static const int as_kind[] = {0, 0, 2, 1}; /* the position in `skirted` of a kind with the same axis */
-  const int n_trials = is_long_test() ? 400 : 8;
+  const int n_trials = is_long_test() ? 400 : fewer_if_sanitized(8);
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));
   own(crossings);
@@ -810,7 +811,7 @@ TEST(skirts_to_cutting_walls_cross_nothing) {
  * lets the cusps themselves go through each other, the skirt is not judged. A patch that such a warp folds onto its own skirt
  * is not judged either. */
 TEST(skirts_of_warped_cusps_cross_nothing) {
-  const int n_trials = is_long_test() ? 100 : 6;
+  const int n_trials = is_long_test() ? 100 : fewer_if_sanitized(6);
   int n_states = 0, n_judged = 0, n_own = 0;
   riis_crossings *crossings = NULL;
   CHECK_OK(riis_crossings_create(&crossings));

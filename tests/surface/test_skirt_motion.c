@@ -305,7 +305,7 @@ static double across(const riis_triangles *t, const double *was, double seconds,
 /* With a fixed triangulation, the skirt's vertices move with their velocities, except that the lines of a mitral skirt slide
  * along the annulus with the lines of the leaflet. The velocity does not contain this slide. */
 TEST(vertices_of_fixed_skirts_move_with_their_velocities) {
-  for (int kind = 0; kind < n_kinds; ++kind) {
+  for (int kind = 0; kind < n_kinds; kind += is_sanitized() ? 2 : 1) {
     const int owned_before = n_owned();
     const double seconds = 0.01;
     state_of_skirt then, now;
@@ -440,7 +440,7 @@ static double nearest_share(const strip *at, const double *p) {
 TEST(skirts_move_with_warped_attachments) {
   for (int kind = 0; kind < n_kinds; ++kind)
     for (int fixed = 0; fixed < 2; ++fixed) {
-      if (is_sanitized() && fixed != kind % 2) continue;
+      if (is_sanitized() && (fixed != kind % 2 || kind % 3)) continue;
       const int owned_before = n_owned();
       const double seconds = 0.01, time = between(0, 1);
       const double of[4] = {between(0.03, 0.08), between(0.03, 0.06), between(0.03, 0.08), between(0.1, 0.2)};

@@ -6,6 +6,7 @@
 #include "test_support.h"
 
 #include "handles.h"
+#include "sanitized.h"
 
 #include "shapes.h"
 
@@ -28,7 +29,7 @@ static void set(riis_valve *valve, const char *name, double value) {
 
 enum { n_kinds = 5 };
 static const char *const kinds[n_kinds] = {"aortic", "mitral", "trileaflet", "bileaflet", "coapting"};
-static int n_trials(void) { return is_long_test() ? 2 * n_kinds : n_kinds; }
+static int n_trials(void) { return is_long_test() ? 2 * n_kinds : fewer_if_sanitized(n_kinds); }
 
 /* A valve of a kind with some of its own parameters. */
 static riis_valve *random_valve(int kind) {
@@ -115,7 +116,7 @@ static double value_of(const riis_valve *valve, const char *name) {
 
 /* A leaflet that turns about its hinge sweeps the angle times the moment of its area about the hinge. */
 TEST(rigid_leaflets_sweep_their_moments) {
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int trial = 0; trial < fewer_if_sanitized(20); ++trial) {
     riis_valve *valve = new_valve("bileaflet");
     set(valve, "closed_angle", between(15, 45));
     set(valve, "open_angle", between(70, 90));

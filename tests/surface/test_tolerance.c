@@ -276,7 +276,7 @@ TEST(so_it_does_for_other_aortic_valves) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
   int n_tried = 0;
-  for (int trial = 0; trial < trials_of(60); ++trial) {
+  for (int trial = 0; trial < trials_of(fewer_if_sanitized(60)); ++trial) {
     const int owned_before = n_owned();
     riis_parameter parameter;
     int64_t n_parameters;
@@ -301,7 +301,7 @@ TEST(so_it_does_for_other_aortic_valves) {
     free_owned_after(owned_before);
   }
   printf("%d aortic valves: at most %.2f of the bound\n", n_tried, worst);
-  assert_true(n_tried > trials_of(20));
+  assert_true(n_tried > trials_of(fewer_if_sanitized(20)));
 }
 
 /* Makes a valve between two states. In each state, all parameters change at once by up to a quarter. */
@@ -327,7 +327,7 @@ TEST(so_it_does_for_other_mitral_valves) {
   random_source rng = random_start("test_tolerance");
   double worst = 0;
   int n_tried = 0;
-  for (int trial = 0; trial < trials_of(60); ++trial) {
+  for (int trial = 0; trial < trials_of(fewer_if_sanitized(60)); ++trial) {
     const int owned_before = n_owned();
     mitral_parameters parameters[2];
     riis_valve *valve = random_mitral(parameters, &rng);
@@ -352,7 +352,7 @@ TEST(so_it_does_for_other_mitral_valves) {
     free_owned_after(owned_before);
   }
   printf("%d mitral valves: at most %.2f of the bound\n", n_tried, worst);
-  assert_true(n_tried > trials_of(40));
+  assert_true(n_tried > trials_of(fewer_if_sanitized(30)));
 }
 
 /* A fixed triangulation is tested at openings that were not used to choose it. */
