@@ -226,6 +226,15 @@ std::string block_name(const ExportOptions &options) {
   return name;
 }
 
+// Returns the line about the units of the block. Two dashes would end the comment in the XML.
+std::string text_of_units(const ExportOptions &options) {
+  if (!options.unit) return "units are taken as g, cm and s, because none was given";
+  const std::string units = "units are g, cm and s: R is in g/(cm s)";
+  if (options.to_solver == 1) return units;
+  return units + "\n     lengths were converted from " + name_of(*options.unit) + ": in its Add_mesh, the mesh in " +
+         name_of(*options.unit) + " needs Mesh_scale_factor " + shortest(options.to_solver);
+}
+
 std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, const UrisLeaflets &leaflets,
                        const UrisForecast &forecast) {
   const std::string folder = in_xml(options.folder) + (options.folder.back() == '/' ? "" : "/");
@@ -243,10 +252,12 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
       "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
       shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
       shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
-      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor must stay 1";
+      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this block must stay 1" +
+      "\n     " + text_of_units(options);
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
-            shown(fine_edges * leaflets.half_thickness());
+            shown(fine_edges * leaflets.half_thickness() / options.to_solver) +
+            (options.to_solver == 1 ? "" : std::string(" in ") + name_of(*options.unit));
   }
   for (const std::string &line : forecast.lines) text += "\n     " + line;
   text += " -->\n";

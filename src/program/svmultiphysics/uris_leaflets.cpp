@@ -46,6 +46,9 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
   check(riis_valve_set_scalar(valve_, "opening", motion.opening[0]), subject_);
   riis_surface_options how = options.surface_options;
   how.triangulation = RIIS_TRIANGULATION_FIXED;
+  how.scale *= options.to_solver;
+  if (how.half_thickness > 0) how.half_thickness *= options.to_solver;
+  for (double &x : how.translation) x *= options.to_solver;
   surface_ = create_for<Surface>(subject_, riis_surface_create, valve_, &how);
   const riis_surface_info info = info_of(surface_);
   half_thickness_ = info.half_thickness;
@@ -55,7 +58,7 @@ UrisLeaflets::UrisLeaflets(const ExportOptions &options, const UrisMotion &motio
   if (options.valve == "bileaflet") housing_ = RIIS_LEAFLET_HOUSING;
   std::vector<FinerTriangles::Triangle> lasting = lasting_triangles(motion);
   net_ = FinerTriangles(info.n_vertices, std::move(lasting));
-  refine(motion, options.largest_edge);
+  refine(motion, options.largest_edge, options.to_solver);
   find_forward(motion.opening[0]);
   part(options);
   add_boxes(motion);
@@ -108,7 +111,7 @@ std::vector<FinerTriangles::Triangle> UrisLeaflets::lasting_triangles(const Uris
   return lasting;
 }
 
-void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
+void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge, double to_solver) {
   do {
     if (n_triangles() > most_triangles) {
       refuse_usage("--largest-edge: " + shortest(largest_edge) + " makes more than " + std::to_string(most_triangles) +
@@ -116,7 +119,7 @@ void UrisLeaflets::refine(const UrisMotion &motion, double largest_edge) {
     }
     for_all_frames(motion, [&](double opening) { net_.measure(vertices_at(opening)); });
     longest_edge_ = net_.longest_edge();
-  } while (largest_edge > 0 && net_.halve_longer(largest_edge));
+  } while (largest_edge > 0 && net_.halve_longer(largest_edge * to_solver));
 }
 
 void UrisLeaflets::find_forward(double opening) {

@@ -108,6 +108,7 @@ struct UrisLeaflet {
   bool is_scaffold;                 // true for a housing, which does not move and has no flow through it
 };
 
+// Lengths are in the solver's unit, cm, unless the unit of the mesh is not known.
 class UrisLeaflets {
  public:
   // Evaluates all frames, and cuts the triangles as the options require.
@@ -131,7 +132,7 @@ class UrisLeaflets {
  private:
   void open_to(double opening);
   std::vector<FinerTriangles::Triangle> lasting_triangles(const UrisMotion &motion);
-  void refine(const UrisMotion &motion, double largest_edge);
+  void refine(const UrisMotion &motion, double largest_edge, double to_solver);
   void find_forward(double opening);
   void part(const ExportOptions &options);
   void add_boxes(const UrisMotion &motion);
