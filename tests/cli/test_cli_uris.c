@@ -16,20 +16,27 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* A placement of the surface, twice: as options of riis_surface_create and as arguments of riis. */
+/* A placement of the surface, twice: as arguments of riis, and as options of riis_surface_create that place it in cm. The export is
+ * in g and cm, and R of the command line, 12500, is in kg/(m s) if the mesh's unit is known. */
 typedef struct {
   const char *words[6];
-  double scale, half_thickness, turn[4], shift[3];
+  double scale, half_thickness, turn[4], shift[3], R;
 } place;
 
 static const place places[] = {
-    {{NULL}, 1, 0.1, {0, 0, 1, 0}, {0, 0, 0}},
+    {{NULL}, 1, 0.1, {0, 0, 1, 0}, {0, 0, 0}, 12500},
     {{"--unit", "m", "--rotate", "1,2,-1,70", "--translate", "0.02,-0.03,0.01"},
-     0.01,
-     0.001,
+     1,
+     0.1,
      {1, 2, -1, 70},
-     {0.02, -0.03, 0.01}},
-    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"}, 10, 1.2, {0, 1, 0, 180}, {0, 0, 0}}};
+     {2, -3, 1},
+     125000},
+    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"},
+     1,
+     0.12,
+     {0, 1, 0, 180},
+     {0, 0, 0},
+     125000}};
 enum { n_places = sizeof places / sizeof places[0] };
 
 static riis_surface *surface_at(const place *where, riis_valve *valve) {
@@ -107,9 +114,9 @@ static void check_positions(const char *kind, const place *where, riis_valve *va
   }
   riis_surface_destroy(&surface);
   assert_string_equal(exported.name, kind);
-  CHECK_SAME(exported.thickness, where->half_thickness);
-  CHECK_SAME(exported.closed_thickness, where->half_thickness);
-  CHECK_SAME(exported.resistance, 12500);
+  CHECK_NEAR(exported.thickness, where->half_thickness, 1e-15);
+  CHECK_NEAR(exported.closed_thickness, where->half_thickness, 1e-15);
+  CHECK_SAME(exported.resistance, where->R);
 }
 
 /* Rodrigues' formula. */

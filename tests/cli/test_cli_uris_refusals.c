@@ -48,6 +48,18 @@ TEST(test_missing_options) {
   REFUSED(2, "--period requires --cycle", EXPORT, "--time-step", "0.001", RAMPS, "--period", "1");
 }
 
+/* svMultiPhysics needs grams and centimetres. */
+TEST(test_units) {
+  REFUSED(2,
+          "--scale: 10 makes lengths in millimetres, and svMultiPhysics needs grams and centimetres: write --unit mm in "
+          "place of --scale, and riis export converts",
+          EXPORT, "--time-step", "0.001", RAMPS, "--scale", "10");
+  REFUSED(2, "--scale: 0.01 makes lengths in metres", EXPORT, "--time-step", "0.001", RAMPS, "--scale", "0.01");
+  REFUSED(2, "--resistance: -1 is below 0", "export", FOLDER, "--resistance", "-1", "--time-step", "0.001", RAMPS);
+  REFUSED(2, "--resistance: 'kg/m3' is not a unit of a resistance, such as kg/(m s)", "export", FOLDER, "--resistance",
+          "1 kg/m3", "--time-step", "0.001", RAMPS);
+}
+
 TEST(test_useless_options) {
   scratch_write_text("c.csv", "0,0\n1,1\n2,0\n");
   const char *cycle = scratch_path("c.csv");

@@ -182,10 +182,10 @@ class Forecaster {
     bool are_found = true;
     const auto is_enough = [&](double factor) {
       const Expected expected = expected_at(factor * half_thickness_, wide, wide, near);
-      are_found = are_found && expected.is_solved && is_sensible(expected.drop);
-      return expected.drop >= enough;
+      const bool is_found = expected.is_solved && is_sensible(expected.drop);
+      are_found = are_found && is_found;
+      return is_found && expected.drop >= enough;
     };
-    const char *const not_found = "the half thickness that the mesh needs was not found";
     double below = 1, above = 1;
     do {
       below = above;
@@ -193,13 +193,12 @@ class Forecaster {
       if (above > most_thickness)
         return are_found ? "even a half thickness of " + in_mesh(most_thickness * half_thickness_) + " does not drop " +
                                shown(enough) + "; the mesh needs shorter edges, or the export finer triangles"
-                         : not_found;
+                         : "the half thickness that drops " + shown(enough) + " was not found";
     } while (!is_enough(above));
     for (int i = 0; i < 2; ++i) {
       const double middle = (below + above) / 2;
       (is_enough(middle) ? above : below) = middle;
     }
-    if (!are_found) return not_found;
     return "a drop of " + shown(enough) + " needs a half thickness of " + in_mesh(above * half_thickness_) + ", " +
            shown(above * half_thickness_ / median_edge_) + " edges";
   }
