@@ -128,6 +128,10 @@ struct TimeSpan {
   double start, stop;
 };
 
+// How riis export gives the ring of a bileaflet valve to the solver: as a face at rest, whose band joins those of the leaflets, as
+// the solver's scaffold, whose K is added to that of the leaflets, or not at all.
+enum UrisRing : std::int32_t { ring_face, ring_scaffold, no_ring };
+
 // The options of riis export.
 struct ExportOptions : ValveOptions {
   std::string folder;
@@ -142,6 +146,9 @@ struct ExportOptions : ValveOptions {
   std::int32_t interpolation = RIIS_INTERPOLATION_LINEAR;
   std::optional<TimeSpan> opening_span, closing_span;  // spans of the cycle's time
   double largest_edge = 0;                             // 0: the library's own triangles
+  std::string name;                                    // of the valve in the solver; "": from the folder
+  std::string starts;                                  // "closed" or "open"; "": as the cycle is at time 0
+  std::int32_t ring = ring_face;                       // a UrisRing
 };
 
 // Whether riis place writes a warp to the landmarks, which may be smoothed by their noise.

@@ -213,6 +213,11 @@ StatesOptions finish_states(const Command &command, StatesOptions options) {
 
 ExportOptions finish_export(const Command &command, ExportOptions options) {
   check_folder_name(options.folder);
+  // Two dashes would end a comment in the XML.
+  if (command.has("--name") && (!is_prefix(options.name) || options.name.find("--") != std::string::npos))
+    refuse_usage("--name: '" + options.name.substr(0, 64) + "' must be 1 to 64 letters, digits, _, . and single -");
+  if (command.has("--ring") && options.valve != "bileaflet")
+    refuse_usage("--ring has no effect: only a bileaflet valve has a ring");
   check_set_opening(options, "has no effect: the valve opens and closes in an export");
   finish_valve(command, options);
   if (options.cycle.empty() && (!options.opening_duration || !options.closing_duration))

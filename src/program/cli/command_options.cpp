@@ -18,6 +18,9 @@ constexpr std::int32_t most_states = 100001;
 // The position of each name is the value of LandmarkWarp that it stands for.
 const std::vector<std::string> warp_names = {"none", "exact", "smoothed"};
 
+// The position of each name is the value of UrisRing that it stands for.
+const std::vector<std::string> ring_names = {"face", "scaffold", "none"};
+
 // Refuses numbers that are not above 0. RIIS_AUTO is a negative number, and a user's number must not be mistaken for it.
 double parse_positive(const std::string &text, const std::string &subject) {
   const double number = parse_number(text, subject);
@@ -492,6 +495,13 @@ void declare_export(Command command, ExportOptions &options) {
     command.option(name)->excludes(command.option("--cycle"));
   command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer in any frame", options.largest_edge,
                  parse_positive_finite);
+  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default from FOLDER)", options.name);
+  command
+      .text("--starts", "closed|open", "State at the solver's first step (default closed, or that of --cycle at time 0)",
+            options.starts)
+      ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
+  command.choice("--ring", "Ring of a bileaflet valve: face (default), scaffold, whose K is added, or none", ring_names,
+                 options.ring);
   command.parsed("--density", "RHO", "Density of the fluid in kg/m3, for MESH (default that of blood, 1060)",
                  options.given_density, parse_density);
   command.parsed("--viscosity", "MU", "Viscosity of the fluid in Pa s, for MESH (default that of blood, 0.004)",
