@@ -248,8 +248,8 @@ nb::tuple resistance_of(const std::string &text) {
 // Returns R in the units of the mesh for 1 kg/(m s), and the names of the units of R and K.
 nb::tuple resistance_units(const std::string &unit) {
   const program::Unit of = *program::unit_of(unit);
-  return nb::make_tuple(program::factor_from_si(program::a_resistance, of), program::unit_text(program::a_resistance, of),
-                        program::unit_text(program::a_K, of));
+  return nb::make_tuple(program::factor_from_si(program::a_resistance, of),
+                        program::unit_text(program::a_resistance, of), program::unit_text(program::a_K, of));
 }
 
 nb::dict units() {
@@ -287,7 +287,8 @@ nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handl
 void add_patient(nb::module_ &module) {
   module.def("units", &units, nb::sig("def units() -> dict[str, tuple[float, str]]"),
              "Returns the units by name, with their lengths in a centimetre and the word for several.");
-  module.def("resistance_of", &resistance_of, nb::arg("text"), nb::sig("def resistance_of(text: str) -> tuple[float, bool]"),
+  module.def("resistance_of", &resistance_of, nb::arg("text"),
+             nb::sig("def resistance_of(text: str) -> tuple[float, bool]"),
              "Reads R, such as 1e5 g/(cm s). Returns it in kg/(m s) if it has a unit, and whether it has one.");
   module.def("resistance_units", &resistance_units, nb::arg("unit"),
              nb::sig("def resistance_units(unit: str) -> tuple[float, str, str]"),

@@ -791,7 +791,7 @@ def test_r_of_a_mesh_without_a_unit(small):
     model = view.Model(*small)
     i = model.add("coapting")
     assert "--resistance=10000.0" in model.command() and "add_resistance(K, R=10000.0)" in model.python()
-    with pytest.raises(riis.InvalidArgumentError, match="resistance: is '1 Pa s', which has a unit; the unit of the mesh is None"):
+    with pytest.raises(riis.InvalidArgumentError, match="resistance: is '1 Pa s', which has a unit; the unit of the mesh"):
         model.set(i, "resistance", "1 Pa s")
     with pytest.raises(riis.InvalidArgumentError, match="resistance: 'Pa' is not a unit of a resistance"):
         model.set(i, "resistance", "1 Pa")

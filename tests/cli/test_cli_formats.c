@@ -255,7 +255,8 @@ TEST(test_foam) {
                      "# vtk DataFile Version 2.0\nskin\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 3 double\n"
                      "0 0 0 1 0 0 0 1 0\nCELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n5\n");
   const char *box = scratch_path("box"), *time = scratch_path("box/7");
-  RUN_REFUSED(2, "box/7: OpenFOAM's K is divided by the density: write --density RHO, and R in kg/(m s) as --resistance",
+  RUN_REFUSED(2,
+              "box/7: OpenFOAM's K is divided by the density: write --density RHO, and R in kg/(m s) as --resistance",
               "mark", box, "--cells", "--resistance", "2", "--output", time);
   RUN_REFUSED(2, "--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s", "mark", box, "--cells",
               "--resistance", "2", "--density", "1060", "--k-unit", "1/s", "--output", time);

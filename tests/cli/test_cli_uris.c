@@ -16,8 +16,8 @@
 
 /* ---- The surface by the library's C interface ---- */
 
-/* A placement of the surface, twice: as arguments of riis, and as options of riis_surface_create that place it in cm. The export is
- * in g and cm, and R of the command line, 12500, is in kg/(m s) if the mesh's unit is known. */
+/* A placement of the surface, twice: as arguments of riis, and as options of riis_surface_create that place it in cm. The export
+ * is in g and cm, and R of the command line, 12500, is in kg/(m s) if the mesh's unit is known. */
 typedef struct {
   const char *words[6];
   double scale, half_thickness, turn[4], shift[3], R;
@@ -31,12 +31,7 @@ static const place places[] = {
      {1, 2, -1, 70},
      {2, -3, 1},
      125000},
-    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"},
-     1,
-     0.12,
-     {0, 1, 0, 180},
-     {0, 0, 0},
-     125000}};
+    {{"--unit", "mm", "--rotate", "0,1,0,180", "--half-thickness", "1.2"}, 1, 0.12, {0, 1, 0, 180}, {0, 0, 0}, 125000}};
 enum { n_places = sizeof places / sizeof places[0] };
 
 static riis_surface *surface_at(const place *where, riis_valve *valve) {

@@ -50,10 +50,11 @@ TEST(test_missing_options) {
 
 /* svMultiPhysics needs grams and centimetres. */
 TEST(test_units) {
-  REFUSED(2,
-          "--scale: 10 makes lengths in millimetres, and svMultiPhysics needs grams and centimetres: write --unit mm in "
-          "place of --scale, and riis export converts",
-          EXPORT, "--time-step", "0.001", RAMPS, "--scale", "10");
+  REFUSED(
+      2,
+      "--scale: 10 makes lengths in millimetres, and svMultiPhysics needs grams and centimetres: write --unit mm in "
+      "place of --scale, and riis export converts",
+      EXPORT, "--time-step", "0.001", RAMPS, "--scale", "10");
   REFUSED(2, "--scale: 0.01 makes lengths in metres", EXPORT, "--time-step", "0.001", RAMPS, "--scale", "0.01");
   REFUSED(2, "--resistance: -1 is below 0", "export", FOLDER, "--resistance", "-1", "--time-step", "0.001", RAMPS);
   REFUSED(2, "--resistance: 'kg/m3' is not a unit of a resistance, such as kg/(m s)", "export", FOLDER, "--resistance",
@@ -180,7 +181,8 @@ TEST(test_names) {
   char name[2][64];
   const char *const folders[] = {"left-heart", "right-heart"};
   for (int i = 0; i < 2; ++i) {
-    RUN_FINE("export", scratch_path(folders[i]), "--resistance", "1", "--time-step", "0.01", RAMPS, "--valve", "mitral");
+    RUN_FINE("export", scratch_path(folders[i]), "--resistance", "1", "--time-step", "0.01", RAMPS, "--valve",
+             "mitral");
     uris_valve valve = uris_read(program_out);
     snprintf(name[i], sizeof name[i], "%s", valve.name);
     assert_true(strspn(name[i], "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.") == strlen(name[i]));

@@ -84,13 +84,12 @@ struct MarkOptions : ValveOptions {
   bool at_cells = false;   // whether the centres of cells are marked
   riis_mark_options mark_options = defaults<riis_mark_options>();
   double far_distance = RIIS_FAR_DISTANCE;
-  // R for an array of K, and for OpenFOAM the density by which it is divided. The drop is for the ideal leak. Plain numbers are in
-  // SI units, or in those of a mesh whose unit is not known.
+  // R for an array of K, and for OpenFOAM the density by which it is divided. The drop is for the ideal leak.
   std::optional<Amount> given_resistance, given_drop, density;
   std::optional<std::string> chosen_K_unit;
-  std::optional<double> resistance;  // R in the units of the mesh
-  double K_factor = 1;               // K in the file over K in the units of the mesh
-  std::string K_unit, K_u_surface_unit;  // in the file; "" if the unit of the mesh is not known
+  std::optional<double> resistance;           // R in the units of the mesh
+  double K_factor = 1;                        // K in the file over K in the units of the mesh
+  std::string K_unit, K_u_surface_unit;       // in the file; "" if the unit of the mesh is not known
   std::string output, surface_output, stats;  // "" if not wanted
   std::string surface_output_option = "--surface-output";
   std::vector<Picture> pictures;
@@ -128,8 +127,8 @@ struct TimeSpan {
   double start, stop;
 };
 
-// How riis export gives the ring of a bileaflet valve to the solver: as a face at rest, whose band joins those of the leaflets, as
-// the solver's scaffold, whose K is added to that of the leaflets, or not at all.
+// How riis export gives the ring of a bileaflet valve to the solver: as a face beside the leaflets, as the solver's scaffold,
+// whose K is added to that of the leaflets, or not at all.
 enum UrisRing : std::int32_t { ring_face, ring_scaffold, no_ring };
 
 // The options of riis export.

@@ -81,7 +81,8 @@ class UnitReader {
     all.multiply(factor(), 1);
     while (at_ < text_.size() && text_[at_] != ')') {
       bool divides = false;
-      while (at_ < text_.size() && std::string(" .*/").find(text_[at_]) != std::string::npos) divides |= text_[at_++] == '/';
+      while (at_ < text_.size() && std::string(" .*/").find(text_[at_]) != std::string::npos)
+        divides |= text_[at_++] == '/';
       all.multiply(factor(), divides ? -1 : 1);
     }
     return all;
@@ -103,7 +104,8 @@ class UnitReader {
   Product symbol() {
     std::string name;
     if (takes('1')) name = "1";
-    while (name != "1" && at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_]))) name += text_[at_++];
+    while (name != "1" && at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])))
+      name += text_[at_++];
     for (const Symbol &symbol : symbols)
       if (name == symbol.name) return symbol.value;
     refuse();
@@ -145,12 +147,15 @@ Amount parse_amount(const std::string &text, const std::string &subject, const Q
   amount.subject = subject;
   // A number has no letter but e, before the digits of its exponent. Words such as inf have no unit.
   std::size_t end = 0;
-  const auto is_digit = [&](std::size_t at) { return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at])); };
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]));
+  };
   const auto is_exponent = [&](std::size_t at) {
     const bool has_sign = at + 1 < text.size() && (text[at + 1] == '-' || text[at + 1] == '+');
     return at < text.size() && (text[at] == 'e' || text[at] == 'E') && is_digit(at + (has_sign ? 2 : 1));
   };
-  while (end < text.size() && (is_digit(end) || std::string("+-.").find(text[end]) != std::string::npos || is_exponent(end)))
+  while (end < text.size() &&
+         (is_digit(end) || std::string("+-.").find(text[end]) != std::string::npos || is_exponent(end)))
     ++end;
   const std::string unit = trimmed(text.substr(end));
   if (end == 0 || unit.empty()) {
@@ -174,9 +179,8 @@ double factor_from_si(const Quantity &quantity, Unit unit) {
 double in_mesh_units(const Amount &amount, const Quantity &quantity, std::optional<Unit> unit) {
   if (unit) return amount.number * factor_from_si(quantity, *unit);
   if (!amount.has_unit) return amount.number;
-  throw Refusal{amount.exit_code,
-                amount.subject + ": '" + amount.text +
-                    "' has a unit, but the unit of the mesh is not known: write --unit m, cm or mm"};
+  throw Refusal{amount.exit_code, amount.subject + ": '" + amount.text +
+                                      "' has a unit, but the unit of the mesh is not known: write --unit m, cm or mm"};
 }
 
 std::string unit_text(const Quantity &quantity, Unit unit) {

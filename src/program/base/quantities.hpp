@@ -2,8 +2,8 @@
 // Quantities of the flow, such as R, and their units (docs/program.md, "Units of R").
 // In: a number as the user wrote it, perhaps with a unit. Out: the number in the units of a mesh, and the names of units.
 //
-// Beside metres a mesh has kilograms, and beside centimetres and millimetres it has grams. If the mesh's unit of length is known, a
-// number without a unit is in SI units. Otherwise it is in the units of the mesh, and a number with a unit is refused.
+// Beside metres a mesh has kilograms, and beside centimetres and millimetres it has grams. If the mesh's unit of length is known,
+// a number without a unit is in SI units. Otherwise it is in the units of the mesh, and a number with a unit is refused.
 #pragma once
 
 #include <optional>
@@ -30,10 +30,10 @@ inline constexpr Quantity a_K_u_surface = {"a K u_surface", "kg/(m2 s2)", 1, -2,
 
 // A number as the user gave it.
 struct Amount {
-  double number = 0;      // in SI units if the text has a unit
-  bool has_unit = false;  // whether the text has a unit
-  std::string text;       // as the user wrote it
-  std::string subject;    // such as "--resistance", for refusals
+  double number = 0;                      // in SI units if the text has a unit
+  bool has_unit = false;                  // whether the text has a unit
+  std::string text;                       // as the user wrote it
+  std::string subject;                    // such as "--resistance", for refusals
   ExitCode exit_code = exit_wrong_usage;  // the status of a refusal
 };
 

@@ -268,9 +268,11 @@ void apply_amounts(MarkOptions &options) {
   }
   if (has_fields) {
     if (!options.density)
-      refuse_usage("--output " + options.output + ": OpenFOAM's K is divided by the density: write --density RHO, and R in " +
-                   a_resistance.si + " as --resistance");
-    if (options.chosen_K_unit) refuse_usage("--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s");
+      refuse_usage("--output " + options.output +
+                   ": OpenFOAM's K is divided by the density: write --density RHO, and R in " + a_resistance.si +
+                   " as --resistance");
+    if (options.chosen_K_unit)
+      refuse_usage("--k-unit has no effect on the fields of OpenFOAM, whose K has the unit 1/s");
     options.K_factor = 1 / in_mesh_units(*options.density, a_density, options.unit);
     options.K_unit = "1/s";
     options.K_u_surface_unit = options.unit ? std::string(name_of(*options.unit)) + "/s2" : "";

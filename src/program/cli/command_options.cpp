@@ -495,10 +495,11 @@ void declare_export(Command command, ExportOptions &options) {
     command.option(name)->excludes(command.option("--cycle"));
   command.parsed("--largest-edge", "L", "Cut triangles until no edge is longer in any frame", options.largest_edge,
                  parse_positive_finite);
-  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default from FOLDER)", options.name);
+  command.text("--name", "NAME", "Name of the valve in the solver and in its files (default from FOLDER)",
+               options.name);
   command
-      .text("--starts", "closed|open", "State at the solver's first step (default closed, or that of --cycle at time 0)",
-            options.starts)
+      .text("--starts", "closed|open",
+            "State at the solver's first step (default closed, or that of --cycle at time 0)", options.starts)
       ->check(CLI::IsMember(std::vector<std::string>{"closed", "open"}));
   command.choice("--ring", "Ring of a bileaflet valve: face (default), scaffold, whose K is added, or none", ring_names,
                  options.ring);

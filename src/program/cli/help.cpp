@@ -46,7 +46,8 @@ riis help leaks explains what counts.)"},
   riis check crossings --valve prosthesis.json
   riis check leaks mesh.vtu --between 0,0,2 0,0,-2)"},
     {"export", R"(Examples:
-  riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 --resistance 1e4 --unit cm
+  riis export mitral_valve --valve mitral --time-step 0.001 --opening-seconds 0.05 --closing-seconds 0.04 \
+    --unit cm --resistance 1e4
   riis export valve mesh.vtu --unit mm --valve trileaflet --time-step 0.002 --opening-seconds 0.04 --closing-seconds 0.04 \
     --resistance 1e4
 riis help export explains the files.)"},
@@ -211,7 +212,8 @@ A valve has "valve", a kind or a file of patches, or it has "surface", a file or
 surface is at rest unless the file is a .pvd or .dat. Such a file may have a "period", and a .dat a "time_step". A valve may
 have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate",
 "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt" and
-"wall", as the options of these names. A resistance is a number or a text such as "1e5 g/(cm s)" (riis help units). "opening" is a number or one of
+"wall", as the options of these names. A resistance is a number or a text such as "1e5 g/(cm s)" (riis help units). "opening" is a
+number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
   {"opening_start": 0.4, "opening_duration": 0.05, "closing_start": 0.7, "closing_duration": 0.05, "closed": 0, "open": 1,

@@ -167,7 +167,8 @@ void add_resistance(const ValveReport &valve, std::ostringstream &out) {
   const ResistanceReport &of = *valve.resistance;
   out << line("R", valve.name) << of.R << after_blank(of.R_unit);
   if (of.R_unit.empty()) {
-    out << (of.K_name.empty() ? "" : " and " + of.K_name) << " in the units of the mesh, whose unit of length is not known";
+    out << (of.K_name.empty() ? "" : " and " + of.K_name)
+        << " in the units of the mesh, whose unit of length is not known";
   } else if (!of.K_name.empty()) {
     out << "; " << of.K_name << " is in " << of.K_unit;
   }

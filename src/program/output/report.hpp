@@ -98,8 +98,8 @@ struct ValveReport {
   LeakReport leaks;
   FlowReport flow;
   std::optional<ResistanceReport> resistance;  // set if the user gave a resistance
-  std::optional<CrossingReport> crossings;  // set if crossings were looked for
-  std::vector<TimeReport> times;            // the steps of a series that are complete
+  std::optional<CrossingReport> crossings;     // set if crossings were looked for
+  std::vector<TimeReport> times;               // the steps of a series that are complete
 };
 
 struct Report {

@@ -261,13 +261,14 @@ std::string mesh_block(const ExportOptions &options, const UrisMotion &motion, c
   };
   const std::string half_thickness = shortest(leaflets.half_thickness());
   const double edges = leaflets.longest_edge() / leaflets.half_thickness();
-  std::string text =
-      "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
-      "\n     closing: " + frames(motion.closing) + "\n     a frame is a time step: Time_step_size must be " +
-      shortest(options.time_step) + "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
-      shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
-      "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this block must stay 1" +
-      "\n     " + text_of_units(options);
+  std::string text = "<!-- riis, " + title_of(options) + " valve\n     opening: " + frames(motion.opening) +
+                     "\n     closing: " + frames(motion.closing) +
+                     "\n     a frame is a time step: Time_step_size must be " + shortest(options.time_step) +
+                     "\n     " + counted(leaflets.n_triangles(), "triangle") + ", the longest edge " +
+                     shown(leaflets.longest_edge()) + ", " + shown(edges) + " half thicknesses" +
+                     "\n     face box widens the box of nodes in which svMultiPhysics looks; Mesh_scale_factor of this "
+                     "block must stay 1" +
+                     "\n     " + text_of_units(options);
   if (edges > fine_edges) {
     text += "\n     svMultiPhysics measures to middles of triangles; to be within 1 %, export with largest-edge " +
             shown(fine_edges * leaflets.half_thickness() / options.to_solver) +

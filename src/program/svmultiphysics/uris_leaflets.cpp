@@ -143,8 +143,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   std::map<std::int32_t, std::vector<Corners>> by_leaflet;
   for (const auto &[corners, leaflet] : net_.triangles()) by_leaflet[leaflet].push_back(corners);
   for (auto &[id, triangles] : by_leaflet) {
-    UrisLeaflet leaflet{name_of_leaflet(options.valve, id), {}, std::move(triangles),
-                        id == housing_ && ring_ == ring_scaffold};
+    UrisLeaflet leaflet{
+        name_of_leaflet(options.valve, id), {}, std::move(triangles), id == housing_ && ring_ == ring_scaffold};
     for (const Corners &corners : leaflet.triangles)
       leaflet.nodes.insert(leaflet.nodes.end(), corners.begin(), corners.end());
     std::sort(leaflet.nodes.begin(), leaflet.nodes.end());
@@ -156,8 +156,8 @@ void UrisLeaflets::part(const ExportOptions &options) {
   }
 }
 
-// Turns the triangles of the ring so that their normals point away from the flow. The solver then counts the nodes inside the ring
-// as before the valve, as far as they are upstream.
+// Turns the triangles of the ring so that their normals point away from the flow. The solver then counts the nodes inside the
+// ring as before the valve, as far as they are upstream.
 void UrisLeaflets::turn_ring(double opening) {
   const std::vector<double> xyz = vertices_at(opening);
   const auto middle_of = [&](const Corners &corners) {

@@ -12,9 +12,9 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkInformation.h>
 #include <vtkInformationStringKey.h>
-#include <vtkCellType.h>
 #include <vtkPointData.h>
 #include <vtkTypeInt64Array.h>
 
