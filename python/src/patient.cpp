@@ -239,7 +239,7 @@ nb::list warps_of(PlacedFile &self) {
 // ---- Units and sizes ----
 
 // Returns R as the program reads it: from a text in SI units if it has a unit, and whether it has one.
-nb::tuple resistance_of(const std::string &text) {
+nb::tuple read_resistance(const std::string &text) {
   program::Amount amount;
   call_program("resistance", [&] { amount = program::parse_amount(text, "resistance", program::a_resistance); });
   return nb::make_tuple(amount.number, amount.has_unit);
@@ -287,8 +287,8 @@ nb::tuple judge_sizes(const nb::tuple &mesh, const nb::tuple &surface, nb::handl
 void add_patient(nb::module_ &module) {
   module.def("units", &units, nb::sig("def units() -> dict[str, tuple[float, str]]"),
              "Returns the units by name, with their lengths in a centimetre and the word for several.");
-  module.def("resistance_of", &resistance_of, nb::arg("text"),
-             nb::sig("def resistance_of(text: str) -> tuple[float, bool]"),
+  module.def("read_resistance", &read_resistance, nb::arg("text"),
+             nb::sig("def read_resistance(text: str) -> tuple[float, bool]"),
              "Reads R, such as 1e5 g/(cm s). Returns it in kg/(m s) if it has a unit, and whether it has one.");
   module.def("resistance_units", &resistance_units, nb::arg("unit"),
              nb::sig("def resistance_units(unit: str) -> tuple[float, str, str]"),

@@ -29,7 +29,7 @@ import numpy
 from numpy.typing import NDArray
 
 from riis._place import UNITS, PlaceResult, place
-from riis._riis import Marks, Surface, mark, resistance_of
+from riis._riis import Marks, Surface, mark, read_resistance
 from riis.view import _outputs
 from riis.view._annulus import annulus_of, placed_by
 from riis.view._cells import Region, WholeMesh
@@ -253,7 +253,7 @@ class Model(Valves):
         """Returns R as the program reads it from a text. Other values stay."""
         if not isinstance(value, str):
             return value
-        made, has_unit = resistance_of(value)
+        made, has_unit = read_resistance(value)
         if has_unit and self._unit is None:
             raise refuse(f"resistance: is {value!r}, which has a unit; the unit of the mesh is None")
         return made
