@@ -104,7 +104,7 @@ kinds of valves are in centimetres. If a file holds the surface or the patches, 
 file. With --unit the default half thickness is the paper's, 0.1 cm. Without --unit the program knows no units, and --scale
 is the factor from the surface's unit to the mesh's.
 If --unit, a placed valve or a case names the unit of the mesh, --resistance is in kg/(m s), --density in kg/m3, --viscosity in
-Pa s and --drop in Pa. A number may also have a unit: --resistance "1e5 g/(cm s)". riis_K is then in kg/(m3 s) for m, g/(cm3 s)
+Pa s and --drop in Pa. A number may also have a unit: --resistance '1e5 g/(cm s)'. riis_K is then in kg/(m3 s) for m, g/(cm3 s)
 for cm and g/(mm3 s) for mm, or in the unit of --k-unit. The file and the report name its unit. If the unit of the mesh is not
 known, plain numbers and K are in the units of the mesh. OpenFOAM's fields of K are divided by --density.
 )"},
@@ -212,7 +212,7 @@ A valve has "valve", a kind or a file of patches, or it has "surface", a file or
 surface is at rest unless the file is a .pvd or .dat. Such a file may have a "period", and a .dat a "time_step". A valve may
 have "parameters" and "open_parameters", each an object or a file, and "scale", "surface_unit", "rotate", "translate",
 "half_thickness", "resistance", "tolerance", "triangulation", "flip_normals", "leaflets", "skip_zero_area", "skirt" and
-"wall", as the options of these names. A resistance is a number or a text such as "1e5 g/(cm s)" (riis help units). "opening" is a
+"wall", as the options of these names. A resistance is a number or a text such as '1e5 g/(cm s)' (riis help units). "opening" is a
 number or one of
   {"file": "beat.csv", "period": 0.8, "interpolation": "cubic"}
   {"times": [0, 0.1, 0.4], "openings": [0, 1, 0], "period": 0.8, "interpolation": "linear"}
