@@ -546,7 +546,8 @@ static char *exported_with(const char *python, const char *folder) {
 /* Copies the lines of the block that neither tell the drop nor name the folder. */
 static void other_lines(char *to) {
   for (char *line = strtok(program_out, "\n"); line; line = strtok(NULL, "\n"))
-    if (!strstr(line, "drop") && !strstr(line, "u is the flow") && !strstr(line, "_file_path"))
+    if (!strstr(line, "drop") && !strstr(line, "u is the flow") && !strstr(line, "_file_path") &&
+        !strstr(line, "<Add_URIS_mesh name"))
       to += sprintf(to, "%s\n", line);
 }
 
