@@ -228,7 +228,8 @@ class Model(Valves):
         Lengths of parameters are in centimetres, the half thickness is in mesh units. The resistance is in kg/(m s) if the mesh
         has a unit, and a text such as "1e5 g/(cm s)" then has its own. Otherwise it is in mesh units. A surgeon's name, such as
         "annulus", sets the parameter that it stands for. Refuses a value that is out of range, and sizes that do not fit
-        together. """
+        together.
+        """
         state = self._at(i).state
         key = ("set", i, name)
         if name == "opening" and state.surface is None:
